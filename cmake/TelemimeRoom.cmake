@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+# One room of the house: a static library from every *.cpp below the room's folder, and one test program from
+# every *_test.cpp. The DEPENDS list is the whole set of rooms that it may include (checked by tests/layering).
+
+add_library(telemime_flags INTERFACE)
+target_compile_features(telemime_flags INTERFACE cxx_std_20)
+target_compile_options(telemime_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(TELEMIME_WERROR)
+  target_compile_options(telemime_flags INTERFACE -Werror)
+endif()
+# -ffp-contract=off keeps results the same with and without fused multiply-add.
+target_compile_options(telemime_flags INTERFACE -ffp-contract=off)
+if(TELEMIME_SANITIZE)
+  target_compile_options(telemime_flags INTERFACE -fsanitize=${TELEMIME_SANITIZE} -fno-omit-frame-pointer
+                                                  -fno-sanitize-recover=all)
+  target_link_options(telemime_flags INTERFACE -fsanitize=${TELEMIME_SANITIZE})
+endif()
+
+function(telemime_room name)
+  cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+
+  add_library(telemime_${name} STATIC ${sources})
+  add_library(telemime::${name} ALIAS telemime_${name})
+  set_target_properties(telemime_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(telemime_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+                                                     $<INSTALL_INTERFACE:include>)
+  target_include_directories(telemime_${name} SYSTEM PUBLIC $<BUILD_INTERFACE:${OpenCV_INCLUDE_DIRS}>)
+  foreach(room IN LISTS ROOM_DEPENDS)
+    target_link_libraries(telemime_${name} PUBLIC telemime_${room})
+  endforeach()
+  target_link_libraries(telemime_${name} PUBLIC ${ROOM_LIBRARIES} PRIVATE $<BUILD_INTERFACE:telemime_flags>)
+  set_property(GLOBAL APPEND PROPERTY TELEMIME_ROOMS telemime_${name})
+
+  if(TELEMIME_TESTS AND tests)
+    add_executable(${name}_test ${tests})
+    target_link_libraries(${name}_test PRIVATE telemime_${name} telemime_flags GTest::gtest GTest::gtest_main)
+    target_compile_definitions(${name}_test PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+  endif()
+endfunction()

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "telemime/body/pose.h"
+#include "telemime/body/shape.h"
+#include "telemime/body/skeleton.h"
+
+namespace telemime {
+
+/// The articulated model of one person: rest offsets between the joints (m, body frame), from the shape.
+/// A constant value: build it once per shape.
+struct Body {
+  Shape shape;
+  Eigen::Vector3d neck_from_root;
+  Eigen::Vector3d head_from_neck;
+  Eigen::Vector3d head_top_from_head;
+  std::array<Eigen::Vector3d, 2> shoulder_from_neck;  ///< by Side
+  std::array<double, 2> upper_arm_length{};           ///< m
+  std::array<double, 2> forearm_length{};
+  std::array<double, 2> hand_length{};  ///< wrist to middle knuckle
+};
+
+/// Joint offsets from anthropometric proportions (de Leva, J. Biomechanics 29, 1996, Tables 2 and 4: mean of
+/// women and men, as fractions of stature) and the shape's scales.
+Body make_body(const Shape& shape);
+
+/// Where every segment is: camera_from_segment, the segment's frame being the body frame at rest with its
+/// origin in the segment's joint (chest: root; head: neck; upper arm: shoulder; forearm: elbow; hand: wrist).
+struct Kinematics {
+  std::array<Eigen::Isometry3d, kSegmentCount> camera_from_segment;
+  JointPositions joints;  ///< m, camera frame
+  const Eigen::Isometry3d& operator[](Segment s) const {
+    return camera_from_segment[static_cast<std::size_t>(s)];
+  }
+};
+
+/// Forward kinematics (thesis 2.4.2, equations 2.1 and 2.2).
+Kinematics forward_kinematics(const Body& body, const Pose& pose);
+
+/// A person facing the camera: x of the body is x of the camera, y and z are opposite.
+Eigen::Matrix3d camera_from_body_at_rest();
+
+}  // namespace telemime

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "telemime/body/skeleton.h"
+
+namespace telemime {
+
+/// Scales of one segment against the default body of the same stature (thesis 3.3, equation 3.4).
+struct SegmentScale {
+  double length = 1.0;  ///< along the bone (body y at rest)
+  double height = 1.0;  ///< front to back (body z at rest)
+  double width = 1.0;   ///< side to side (body x at rest)
+};
+
+/// The person's build: 8 segments x 3 scales (the 24 shape parameters of the reference), the stature that
+/// they scale, and where the sleeves end.
+struct Shape {
+  double stature = 1.70;  ///< metres
+  std::array<SegmentScale, kSegmentCount> segments{};
+  /// End of the sleeve along the arm: 0 shoulder, 1 elbow, 2 wrist; between, a fraction of the segment.
+  double sleeve = 0.5;
+
+  SegmentScale& operator[](Segment s) { return segments[static_cast<std::size_t>(s)]; }
+  const SegmentScale& operator[](Segment s) const { return segments[static_cast<std::size_t>(s)]; }
+};
+
+}  // namespace telemime

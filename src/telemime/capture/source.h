@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "telemime/core/frame.h"
+
+namespace telemime {
+
+/// What is known of an input before its frames are read.
+struct SourceInfo {
+  std::string name;  ///< as the user gave it
+  int width = 0;     ///< of the first frame
+  int height = 0;
+  double fps = 25.0;        ///< stated by the input, or measured, or 25 when it says nothing usable
+  std::int64_t frames = 0;  ///< 0: not known (camera, stream)
+  bool live = false;        ///< frames come in real time and may be dropped
+};
+
+/// A sequence of frames. File inputs never drop a frame; live inputs keep the newest.
+class Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+  virtual const SourceInfo& info() const = 0;
+  /// The next frame, or nothing at the end. A frame of another size than the first is resized to it.
+  virtual std::optional<Frame> next() = 0;
+  /// Words about what went wrong on the way (truncated file, stream interrupted); empty when nothing did.
+  virtual std::string complaint() const = 0;
+};
+
+/// Opens a video file, an image folder, an image pattern (frame_%04d.png, *.jpg), a stream URL, a camera
+/// index ("0") or device ("/dev/video0"). Throws Error(input) whose message says which kind it was taken for,
+/// the cause (no such file, empty file, not a video, no frame in it) and what to do.
+std::unique_ptr<Source> open_source(const std::string& input);
+
+}  // namespace telemime

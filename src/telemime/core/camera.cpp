@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/core/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+Error broken(const std::filesystem::path& file, const std::string& why) {
+  return {ErrorKind::config, "camera file " + file.string() + ": " + why,
+          "Give an OpenCV calibration (camera_matrix, image_width, image_height) or use --fov DEGREES."};
+}
+
+void check(const Camera& camera, const std::filesystem::path& file) {
+  const bool finite = std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) &&
+                      std::isfinite(camera.cy) &&
+                      std::all_of(camera.distortion.begin(), camera.distortion.end(),
+                                  [](double k) { return std::isfinite(k); });
+  if (!finite) {
+    throw broken(file, "a number is not finite");
+  }
+  if (camera.width <= 0 || camera.height <= 0 || camera.width > 32768 || camera.height > 32768) {
+    throw broken(file, "the image size must be between 1 and 32768 pixels");
+  }
+  if (camera.fx <= 0.0 || camera.fy <= 0.0) {
+    throw broken(file, "the focal length must be positive");
+  }
+}
+
+std::optional<Camera> from_plain_json(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  if (!json.is_object() || !json.contains("fx")) {
+    return std::nullopt;
+  }
+  Camera camera;
+  try {
+    camera.width = json.at("width").get<int>();
+    camera.height = json.at("height").get<int>();
+    camera.fx = json.at("fx").get<double>();
+    camera.fy = json.value("fy", camera.fx);
+    camera.cx = json.value("cx", (camera.width - 1) / 2.0);
+    camera.cy = json.value("cy", (camera.height - 1) / 2.0);
+    if (json.contains("distortion")) {
+      const auto values = json.at("distortion").get<std::vector<double>>();
+      std::copy_n(values.begin(), std::min<std::size_t>(5, values.size()), camera.distortion.begin());
+    }
+  } catch (const nlohmann::json::exception& e) {
+    throw broken(file, e.what());
+  }
+  return camera;
+}
+
+}  // namespace
+
+bool Camera::has_distortion() const {
+  return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
+}
+
+Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
+  return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
+}
+
+Eigen::Vector3d Camera::ray(const Eigen::Vector2d& pixel) const {
+  return {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy, 1.0};
+}
+
+Camera Camera::scaled_to(int new_width, int new_height) const {
+  const double sx = static_cast<double>(new_width) / width;
+  const double sy = static_cast<double>(new_height) / height;
+  Camera scaled = *this;
+  scaled.width = new_width;
+  scaled.height = new_height;
+  scaled.fx = fx * sx;
+  scaled.fy = fy * sy;
+  scaled.cx = (cx + 0.5) * sx - 0.5;
+  scaled.cy = (cy + 0.5) * sy - 0.5;
+  return scaled;
+}
+
+Eigen::Vector2d Camera::pixel_in(const Camera& other, const Eigen::Vector2d& pixel) const {
+  return {(pixel.x() + 0.5) * other.width / width - 0.5, (pixel.y() + 0.5) * other.height / height - 0.5};
+}
+
+Camera camera_from_field_of_view(int width, int height, double degrees) {
+  if (!(degrees > 1.0 && degrees < 179.0)) {
+    throw Error(ErrorKind::usage, "a field of view of " + std::to_string(degrees) + " degrees is impossible",
+                "Give the horizontal field of view between 1 and 179 degrees; most webcams have 55 to 80.");
+  }
+  Camera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = 0.5 * width / std::tan(0.5 * degrees * std::numbers::pi / 180.0);
+  camera.fy = camera.fx;
+  camera.cx = 0.5 * (width - 1);
+  camera.cy = 0.5 * (height - 1);
+  return camera;
+}
+
+Camera load_camera(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw broken(file, "no such file");
+  }
+  if (const auto plain = from_plain_json(file)) {
+    check(*plain, file);
+    return *plain;
+  }
+  Camera camera;
+  try {
+    const cv::FileStorage storage(file.string(), cv::FileStorage::READ);
+    if (!storage.isOpened() || storage["camera_matrix"].empty()) {
+      throw broken(file, "it has no camera_matrix");
+    }
+    cv::Mat matrix;
+    cv::Mat distortion;
+    storage["camera_matrix"] >> matrix;
+    storage["distortion_coefficients"] >> distortion;
+    if (matrix.rows != 3 || matrix.cols != 3) {
+      throw broken(file, "camera_matrix is not 3 x 3");
+    }
+    matrix.convertTo(matrix, CV_64F);
+    camera.fx = matrix.at<double>(0, 0);
+    camera.fy = matrix.at<double>(1, 1);
+    camera.cx = matrix.at<double>(0, 2);
+    camera.cy = matrix.at<double>(1, 2);
+    camera.width = static_cast<int>(storage["image_width"]);
+    camera.height = static_cast<int>(storage["image_height"]);
+    if (!distortion.empty()) {
+      distortion.convertTo(distortion, CV_64F);
+      std::copy_n(distortion.begin<double>(), std::min<std::size_t>(5, distortion.total()),
+                  camera.distortion.begin());
+    }
+  } catch (const cv::Exception&) {
+    throw broken(file, "it is not YAML, XML or JSON that OpenCV can read");
+  }
+  check(camera, file);
+  return camera;
+}
+
+}  // namespace telemime
