@@ -18,6 +18,8 @@ struct Body {
   Eigen::Vector3d head_from_neck;
   Eigen::Vector3d head_top_from_head;
   std::array<Eigen::Vector3d, 2> shoulder_from_neck;  ///< by Side
+  double clavicle_lift = 0.0;                         ///< m that a raised upper arm lifts its shoulder
+  double clavicle_reach = 0.0;                        ///< m that an arm stretched forward draws it forward
   std::array<double, 2> upper_arm_length{};           ///< m
   std::array<double, 2> forearm_length{};
   std::array<double, 2> hand_length{};  ///< wrist to middle knuckle
@@ -36,6 +38,11 @@ struct Kinematics {
     return camera_from_segment[static_cast<std::size_t>(s)];
   }
 };
+
+/// The gleno-humeral centre (m, chest frame) for an upper arm that points along this unit vector (chest
+/// frame). It rides on the clavicle: scapulo-humeral rhythm (Inman, Saunders & Abbott, J. Bone Joint Surg.
+/// 26, 1944), linear in the arm's direction.
+Eigen::Vector3d shoulder_in_chest(const Body& body, Side side, const Eigen::Vector3d& upper_arm);
 
 /// Forward kinematics (thesis 2.4.2, equations 2.1 and 2.2).
 Kinematics forward_kinematics(const Body& body, const Pose& pose);

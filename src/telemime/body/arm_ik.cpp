@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/body/arm_ik.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "telemime/body/rotations.h"
+
+namespace telemime {
+namespace {
+
+struct ArmIndices {
+  Angle flexion, twisting, abduct, elbow;
+};
+
+ArmIndices indices(Side side) {
+  return side == Side::left ? ArmIndices{Angle::l_shoulder_flexion, Angle::l_shoulder_twisting,
+                                         Angle::l_shoulder_abduct, Angle::l_elbow_flexion}
+                            : ArmIndices{Angle::r_shoulder_flexion, Angle::r_shoulder_twisting,
+                                         Angle::r_shoulder_abduct, Angle::r_elbow_flexion};
+}
+
+Eigen::Isometry3d camera_from_chest(const Pose& pose) {
+  Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
+  t.linear() = camera_from_body_at_rest() *
+               compose_zxy({pose[Angle::root_roll], pose[Angle::root_tilt], pose[Angle::root_torsion]});
+  t.translation() = pose.root;
+  return t;
+}
+
+// Two unit vectors across the line shoulder-wrist: the lowest direction and the one a quarter turn on.
+struct SwivelFrame {
+  Eigen::Vector3d low, side;
+};
+
+SwivelFrame swivel_frame(const Eigen::Vector3d& axis) {
+  Eigen::Vector3d low = -Eigen::Vector3d::UnitY() + axis * axis.y();
+  if (low.norm() < 1e-6) {  // the wrist is straight above or below the shoulder
+    low = -Eigen::Vector3d::UnitZ() + axis * axis.z();
+  }
+  low.normalize();
+  return {low, axis.cross(low)};
+}
+
+double excess(double value, double low, double high) {
+  return std::max({0.0, low - value, value - high});
+}
+
+// The shoulder rotation whose upper arm points along `upper` and whose elbow bends toward `fore`.
+ArmAngles angles_from_directions(const Eigen::Vector3d& upper, const Eigen::Vector3d& fore, const Pose& pose,
+                                 Side side, const JointLimits& limits) {
+  const ArmAngles before = arm_angles(pose, side);
+  const double cosine = std::clamp(upper.dot(fore), -1.0, 1.0);
+  const double elbow = -std::acos(cosine);
+  Eigen::Vector3d bend = fore - upper * cosine;
+  if (bend.norm() < 1e-9) {  // a straight arm says nothing about its twist: keep the one it had
+    const Eigen::Matrix3d old = compose_zxy({before.abduct, before.flexion, before.twisting});
+    bend = old.col(2) - upper * upper.dot(old.col(2));
+    if (bend.norm() < 1e-9) {
+      bend = upper.unitOrthogonal();
+    }
+  }
+  Eigen::Matrix3d rotation;
+  rotation.col(1) = -upper;
+  rotation.col(2) = bend.normalized();
+  rotation.col(0) = rotation.col(1).cross(rotation.col(2));
+
+  const ArmIndices at = indices(side);
+  const auto low = [&](Angle a) { return limits.min[static_cast<std::size_t>(a)]; };
+  const auto high = [&](Angle a) { return limits.max[static_cast<std::size_t>(a)]; };
+  ArmAngles best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (const AnglesZxy& candidate : decompose_zxy(rotation)) {
+    const double outside = excess(candidate.x, low(at.flexion), high(at.flexion)) +
+                           excess(candidate.y, low(at.twisting), high(at.twisting)) +
+                           excess(candidate.z, low(at.abduct), high(at.abduct));
+    const double away = std::abs(wrap_angle(candidate.x - before.flexion)) +
+                        std::abs(wrap_angle(candidate.y - before.twisting)) +
+                        std::abs(wrap_angle(candidate.z - before.abduct));
+    const double cost = 1000.0 * outside + away;
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = {candidate.x, candidate.y, candidate.z, elbow};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+ArmAngles arm_angles(const Pose& pose, Side side) {
+  const ArmIndices at = indices(side);
+  return {pose[at.flexion], pose[at.twisting], pose[at.abduct], pose[at.elbow]};
+}
+
+void set_arm_angles(Pose& pose, Side side, const ArmAngles& angles) {
+  const ArmIndices at = indices(side);
+  pose[at.flexion] = angles.flexion;
+  pose[at.twisting] = angles.twisting;
+  pose[at.abduct] = angles.abduct;
+  pose[at.elbow] = angles.elbow;
+}
+
+ArmTarget arm_target(const Body& body, const Pose& pose, Side side) {
+  const Kinematics k = forward_kinematics(body, pose);
+  const bool left = side == Side::left;
+  const Eigen::Isometry3d chest_from_camera = camera_from_chest(pose).inverse();
+  const Eigen::Vector3d wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const Eigen::Vector3d s = chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Vector3d e = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Vector3d w = chest_from_camera * wrist;
+  const SwivelFrame frame = swivel_frame((w - s).normalized());
+  return {wrist, std::atan2((e - s).dot(frame.side), (e - s).dot(frame.low))};
+}
+
+std::optional<ArmAngles> solve_arm(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
+                                   const JointLimits& limits) {
+  const auto i = static_cast<std::size_t>(side);
+  const double upper = body.upper_arm_length[i];
+  const double fore = body.forearm_length[i];
+  const Eigen::Vector3d wrist = camera_from_chest(pose).inverse() * target.wrist;
+
+  const ArmAngles before = arm_angles(pose, side);
+  Eigen::Vector3d direction = -compose_zxy({before.abduct, before.flexion, before.twisting}).col(1);
+  Eigen::Vector3d forearm = direction;
+  // The clavicle moves the shoulder by a few centimetres at most: the map contracts by that over the arm's
+  // length.
+  constexpr int kMostSteps = 60;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Eigen::Vector3d shoulder = shoulder_in_chest(body, side, direction);
+    const Eigen::Vector3d line = wrist - shoulder;
+    const double distance = line.norm();
+    if (distance > upper + fore || distance < std::abs(upper - fore) || distance < 1e-6) {
+      return std::nullopt;
+    }
+    const Eigen::Vector3d axis = line / distance;
+    const double along = (upper * upper - fore * fore + distance * distance) / (2.0 * distance);
+    const double across = std::sqrt(std::max(0.0, upper * upper - along * along));
+    const SwivelFrame frame = swivel_frame(axis);
+    const Eigen::Vector3d elbow =
+        along * axis + across * (std::cos(target.swivel) * frame.low + std::sin(target.swivel) * frame.side);
+    const Eigen::Vector3d next = elbow.normalized();
+    const double change = (next - direction).norm();
+    direction = next;
+    forearm = (line - elbow).normalized();
+    if (change < 1e-8) {
+      break;
+    }
+  }
+  return angles_from_directions(direction, forearm, pose, side, limits);
+}
+
+ArmAngles arm_through(const Body& body, const Pose& pose, Side side, const Eigen::Vector3d& elbow,
+                      const Eigen::Vector3d& wrist, const JointLimits& limits) {
+  const Eigen::Isometry3d chest_from_camera = camera_from_chest(pose).inverse();
+  const Eigen::Vector3d e = chest_from_camera * elbow;
+  const Eigen::Vector3d w = chest_from_camera * wrist;
+  Eigen::Vector3d direction = -Eigen::Vector3d::UnitY();
+  for (int step = 0; step < 8; ++step) {
+    direction = (e - shoulder_in_chest(body, side, direction)).normalized();
+  }
+  return angles_from_directions(direction, (w - e).normalized(), pose, side, limits);
+}
+
+}  // namespace telemime
