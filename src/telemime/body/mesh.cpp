@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/body/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <span>
+#include <utility>
+
+namespace telemime {
+namespace {
+
+// An ellipse across the bone: position along the bone, centre in z, half axes in x and z. Metres at 1.70 m,
+// or for limbs: y as a fraction of the bone (0 at the joint, -1 at the next).
+struct Ring {
+  double y, centre_z, radius_x, radius_z;
+};
+
+constexpr double kDesignStature = 1.70;
+
+constexpr std::array<Ring, 11> kChest = {{{-0.170, 0.060, 0.120, 0.080},
+                                          {-0.120, 0.060, 0.160, 0.110},
+                                          {-0.020, 0.060, 0.152, 0.105},
+                                          {0.080, 0.055, 0.140, 0.098},
+                                          {0.200, 0.050, 0.146, 0.105},
+                                          {0.320, 0.040, 0.160, 0.112},
+                                          {0.410, 0.030, 0.168, 0.100},
+                                          {0.470, 0.020, 0.172, 0.080},
+                                          {0.515, 0.012, 0.140, 0.066},
+                                          {0.550, 0.008, 0.090, 0.058},
+                                          {0.580, 0.010, 0.055, 0.050}}};
+
+constexpr std::array<Ring, 9> kHead = {{{-0.030, 0.010, 0.056, 0.054},
+                                        {0.010, 0.022, 0.054, 0.054},
+                                        {0.032, 0.045, 0.056, 0.078},
+                                        {0.065, 0.055, 0.066, 0.094},
+                                        {0.120, 0.056, 0.075, 0.102},
+                                        {0.170, 0.050, 0.076, 0.102},
+                                        {0.210, 0.046, 0.064, 0.088},
+                                        {0.235, 0.044, 0.042, 0.060},
+                                        {0.249, 0.042, 0.014, 0.022}}};
+
+// Limbs: y is in fractions of the bone.
+constexpr std::array<Ring, 8> kUpperArm = {{{0.17, 0.0, 0.030, 0.030},
+                                            {0.09, 0.0, 0.046, 0.048},
+                                            {-0.05, 0.0, 0.054, 0.056},
+                                            {-0.25, 0.0, 0.050, 0.054},
+                                            {-0.55, 0.0, 0.045, 0.048},
+                                            {-0.85, 0.0, 0.040, 0.042},
+                                            {-1.00, 0.0, 0.038, 0.040},
+                                            {-1.08, 0.0, 0.026, 0.028}}};
+constexpr std::array<Ring, 8> kForearm = {{{0.11, 0.0, 0.022, 0.022},
+                                           {0.04, 0.0, 0.037, 0.037},
+                                           {-0.15, 0.0, 0.043, 0.043},
+                                           {-0.35, 0.0, 0.041, 0.041},
+                                           {-0.60, 0.0, 0.034, 0.034},
+                                           {-0.85, 0.0, 0.026, 0.029},
+                                           {-1.00, 0.0, 0.023, 0.028},
+                                           {-1.04, 0.0, 0.016, 0.020}}};
+// The hand: y in fractions of wrist to middle knuckle; the fingers reach 1.9 of it. At rest the palm faces
+// inward, so the hand is thin in x and broad in z.
+constexpr std::array<Ring, 7> kHand = {{{0.10, 0.0, 0.014, 0.018},
+                                        {0.00, 0.0, 0.020, 0.028},
+                                        {-0.40, 0.006, 0.022, 0.040},
+                                        {-0.95, 0.006, 0.019, 0.044},
+                                        {-1.35, 0.002, 0.016, 0.040},
+                                        {-1.70, 0.0, 0.012, 0.030},
+                                        {-1.90, 0.0, 0.006, 0.014}}};
+
+struct Stack {
+  std::vector<Ring> rings;            // from top (largest y) to bottom, metres
+  std::vector<SurfaceClass> between;  // class of the strip below ring i
+  int sides = 8;
+};
+
+Ring interpolate(const Ring& a, const Ring& b, double y) {
+  const double t = (y - a.y) / (b.y - a.y);
+  return {y, std::lerp(a.centre_z, b.centre_z, t), std::lerp(a.radius_x, b.radius_x, t),
+          std::lerp(a.radius_z, b.radius_z, t)};
+}
+
+// Splits a limb's stack at the sleeve's end: clothes above, skin below.
+void dress(Stack& stack, double sleeve_y) {
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < stack.rings.size(); ++i) {
+    if (i > 0 && stack.rings[i - 1].y > sleeve_y && stack.rings[i].y < sleeve_y) {
+      rings.push_back(interpolate(stack.rings[i - 1], stack.rings[i], sleeve_y));
+    }
+    rings.push_back(stack.rings[i]);
+  }
+  stack.rings = std::move(rings);
+  stack.between.clear();
+  for (std::size_t i = 0; i + 1 < stack.rings.size(); ++i) {
+    const double middle = 0.5 * (stack.rings[i].y + stack.rings[i + 1].y);
+    stack.between.push_back(middle > sleeve_y ? SurfaceClass::clothes : SurfaceClass::arms);
+  }
+}
+
+Stack make_stack(std::span<const Ring> rings, double y_scale, double across, const SegmentScale& scale,
+                 int sides, SurfaceClass surface) {
+  Stack stack;
+  stack.sides = sides;
+  for (const Ring& ring : rings) {
+    stack.rings.push_back({ring.y * y_scale, ring.centre_z * across * scale.height,
+                           ring.radius_x * across * scale.width, ring.radius_z * across * scale.height});
+  }
+  if (stack.rings.front().y < stack.rings.back().y) {
+    std::reverse(stack.rings.begin(), stack.rings.end());
+  }
+  stack.between.assign(stack.rings.size() - 1, surface);
+  return stack;
+}
+
+class MeshBuilder {
+ public:
+  void add(Segment segment, const Stack& stack) {
+    const auto s = static_cast<std::size_t>(segment);
+    mesh_.vertex_range[s].begin = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.triangle_range[s].begin = static_cast<std::uint32_t>(mesh_.triangles.size());
+    mesh_.edge_range[s].begin = static_cast<std::uint32_t>(mesh_.edges.size());
+
+    const auto n = static_cast<std::uint32_t>(stack.sides);
+    const auto first = mesh_.vertex_range[s].begin;
+    for (const Ring& ring : stack.rings) {
+      for (std::uint32_t j = 0; j < n; ++j) {
+        const double a = 2.0 * std::numbers::pi * j / n;
+        mesh_.vertices.emplace_back(static_cast<float>(ring.radius_x * std::cos(a)),
+                                    static_cast<float>(ring.y),
+                                    static_cast<float>(ring.centre_z + ring.radius_z * std::sin(a)));
+      }
+    }
+    const std::uint32_t top = cap(stack.rings.front());
+    const std::uint32_t bottom = cap(stack.rings.back());
+    const auto rings = static_cast<std::uint32_t>(stack.rings.size());
+    const auto vertex = [&](std::uint32_t ring, std::uint32_t j) { return first + ring * n + j % n; };
+    for (std::uint32_t j = 0; j < n; ++j) {
+      triangle(top, vertex(0, j + 1), vertex(0, j), stack.between.front());
+      for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+        triangle(vertex(r, j), vertex(r, j + 1), vertex(r + 1, j), stack.between[r]);
+        triangle(vertex(r, j + 1), vertex(r + 1, j + 1), vertex(r + 1, j), stack.between[r]);
+      }
+      triangle(bottom, vertex(rings - 1, j), vertex(rings - 1, j + 1), stack.between.back());
+    }
+    connect(mesh_.triangle_range[s].begin);
+    mesh_.vertex_range[s].end = static_cast<std::uint32_t>(mesh_.vertices.size());
+    mesh_.triangle_range[s].end = static_cast<std::uint32_t>(mesh_.triangles.size());
+    mesh_.edge_range[s].end = static_cast<std::uint32_t>(mesh_.edges.size());
+  }
+
+  BodyMesh take() { return std::move(mesh_); }
+
+ private:
+  std::uint32_t cap(const Ring& ring) {
+    mesh_.vertices.emplace_back(0.0F, static_cast<float>(ring.y), static_cast<float>(ring.centre_z));
+    return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
+  }
+
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, SurfaceClass surface) {
+    mesh_.triangles.push_back({{a, b, c}, surface});
+  }
+
+  void connect(std::uint32_t from) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;
+    for (auto t = from; t < mesh_.triangles.size(); ++t) {
+      const auto& v = mesh_.triangles[t].vertex;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = v[k];
+        const std::uint32_t b = v[(k + 1) % 3];
+        const auto twin = open.find({b, a});
+        if (twin != open.end()) {
+          mesh_.edges.push_back({{a, b}, {t, twin->second}});
+          open.erase(twin);
+        } else {
+          open.emplace(std::pair{a, b}, t);
+        }
+      }
+    }
+  }
+
+  BodyMesh mesh_;
+};
+
+}  // namespace
+
+BodyMesh make_mesh(const Body& body) {
+  const Shape& shape = body.shape;
+  const double across = shape.stature / kDesignStature;
+  constexpr int kTrunkSides = 12;
+  constexpr int kLimbSides = 8;
+  MeshBuilder builder;
+  const auto trunk = [&](Segment s, std::span<const Ring> rings, SurfaceClass surface) {
+    builder.add(s, make_stack(rings, across * shape[s].length, across, shape[s], kTrunkSides, surface));
+  };
+  trunk(Segment::chest, kChest, SurfaceClass::clothes);
+  trunk(Segment::head, kHead, SurfaceClass::head);
+  for (const Side side : {Side::left, Side::right}) {
+    const auto i = static_cast<std::size_t>(side);
+    const bool left = side == Side::left;
+    const Segment upper = left ? Segment::l_upper_arm : Segment::r_upper_arm;
+    const Segment fore = left ? Segment::l_forearm : Segment::r_forearm;
+    const Segment hand = left ? Segment::l_hand : Segment::r_hand;
+    Stack upper_stack = make_stack(kUpperArm, body.upper_arm_length[i], across, shape[upper], kLimbSides,
+                                   SurfaceClass::clothes);
+    // A sleeve of a whole segment covers its rounded end, too.
+    const auto end = [](double covered, double length) { return covered >= 1.0 ? -1e9 : -covered * length; };
+    dress(upper_stack, shape.sleeve <= 0.0 ? 1e9 : end(shape.sleeve, body.upper_arm_length[i]));
+    builder.add(upper, upper_stack);
+    Stack fore_stack =
+        make_stack(kForearm, body.forearm_length[i], across, shape[fore], kLimbSides, SurfaceClass::arms);
+    dress(fore_stack, shape.sleeve <= 1.0 ? 1e9 : end(shape.sleeve - 1.0, body.forearm_length[i]));
+    builder.add(fore, fore_stack);
+    builder.add(hand,
+                make_stack(kHand, body.hand_length[i], across, shape[hand], kLimbSides, SurfaceClass::arms));
+  }
+  return builder.take();
+}
+
+}  // namespace telemime

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "telemime/body/body.h"
+
+namespace telemime {
+
+/// Colour class of a piece of surface; the values are those of the image's labels.
+enum class SurfaceClass : std::uint8_t { head = 1, arms = 2, clothes = 3 };
+inline constexpr std::size_t kSurfaceClassCount = 3;
+
+struct Range {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+struct MeshTriangle {
+  std::array<std::uint32_t, 3> vertex{};  ///< counter-clockwise seen from outside
+  SurfaceClass surface = SurfaceClass::clothes;
+};
+
+struct MeshEdge {
+  std::array<std::uint32_t, 2> vertex{};
+  std::array<std::uint32_t, 2> triangle{};  ///< the two that meet here
+};
+
+/// Closed polygon meshes of the eight segments (thesis 2.4.1), each in its segment's frame, metres. Vertices,
+/// triangles and edges of a segment are contiguous.
+struct BodyMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<MeshTriangle> triangles;
+  std::vector<MeshEdge> edges;
+  std::array<Range, kSegmentCount> vertex_range{};
+  std::array<Range, kSegmentCount> triangle_range{};
+  std::array<Range, kSegmentCount> edge_range{};
+};
+
+/// Meshes for a body: stacks of elliptic rings scaled by the shape, radii from the segment girths of
+/// NASA-STD-3000 (1995, volume I, section 3.3), with a ring where the sleeve ends.
+BodyMesh make_mesh(const Body& body);
+
+}  // namespace telemime

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "telemime/core/errors.h"
+#include "telemime/likelihood/backend.h"
+
+namespace telemime {
+
+Model make_model(const Shape& shape) {
+  const Body body = make_body(shape);
+  return {body, make_mesh(body)};
+}
+
+PreparedFrame prepare(const Observation& observation, const Camera& camera) {
+  const cv::Size size(camera.width, camera.height);
+  if (observation.labels.size() != size || observation.distance.size() != size ||
+      observation.labels.type() != CV_8UC1 || observation.distance.type() != CV_32FC1) {
+    throw Error(ErrorKind::usage, "the observation has another size or type than the camera's image");
+  }
+  PreparedFrame frame;
+  frame.camera = camera;
+  frame.labels = observation.labels.isContinuous() ? observation.labels : observation.labels.clone();
+  frame.distance = observation.distance.isContinuous() ? observation.distance : observation.distance.clone();
+  const std::uint8_t* label = frame.labels.ptr<std::uint8_t>();
+  const float* distance = frame.distance.ptr<float>();
+  for (std::size_t i = 0; i < frame.labels.total(); ++i) {
+    if (label[i] >= 1 && label[i] <= kSurfaceClassCount) {
+      ++frame.observed[label[i] - 1U];
+    }
+    frame.distance_cap = std::max(frame.distance_cap, static_cast<double>(distance[i]));
+  }
+  return frame;
+}
+
+}  // namespace telemime
