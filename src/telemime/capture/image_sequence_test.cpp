@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/image_sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "telemime/capture/quiet.h"
+#include "telemime/capture/testing.h"
+
+namespace telemime {
+namespace {
+
+class ImageSequenceTest : public ::testing::Test {
+ protected:
+  ImageSequenceTest() { quiet_opencv(); }
+
+  void write_image(const std::string& name, const cv::Mat& image) const {
+    ASSERT_TRUE(cv::imwrite(scratch_.file(name), image)) << name;
+  }
+  void write_numbered(const std::string& name, int number) const {
+    write_image(name, testing::numbered_picture(number));
+  }
+
+  /// The numbers in the frames of an input.
+  static std::vector<int> numbers(Source& source) {
+    std::vector<int> all;
+    while (std::optional<Frame> frame = source.next()) {
+      EXPECT_EQ(frame->image.type(), CV_8UC3);
+      EXPECT_EQ(frame->image.size(), cv::Size(source.info().width, source.info().height));
+      all.push_back(testing::number_of(frame->image));
+    }
+    return all;
+  }
+
+  testing::ScratchFolder scratch_;
+};
+
+TEST_F(ImageSequenceTest, AFolderIsReadInNaturalOrder) {
+  for (const int number : {10, 2, 1, 9}) {
+    write_numbered("frame" + std::to_string(number) + ".png", number);
+  }
+  testing::write_bytes(scratch_.file("readme.txt"), "not an image");
+  const std::unique_ptr<Source> source = open_source(scratch_.file(""));
+  EXPECT_EQ(source->info().frames, 4);
+  EXPECT_EQ(numbers(*source), (std::vector<int>{1, 2, 9, 10}));
+  EXPECT_EQ(source->complaint(), "");
+}
+
+TEST_F(ImageSequenceTest, PatternsChooseFiles) {
+  for (int number = 3; number < 6; ++number) {
+    write_numbered("a_000" + std::to_string(number) + ".png", number);
+    write_numbered("b" + std::to_string(number) + ".png", number + 4);
+  }
+  const std::unique_ptr<Source> by_number = open_source(scratch_.file("a_%04d.png"));
+  EXPECT_EQ(numbers(*by_number), (std::vector<int>{3, 4, 5}));
+  EXPECT_EQ(by_number->complaint(), "");
+  EXPECT_EQ(numbers(*open_source(scratch_.file("b*.png"))), (std::vector<int>{7, 8, 9}));
+  EXPECT_EQ(numbers(*open_source(scratch_.file("?[45].png"))), (std::vector<int>{8, 9}));
+  EXPECT_EQ(numbers(*open_source(scratch_.file("b4.png"))), (std::vector<int>{8}));
+}
+
+TEST_F(ImageSequenceTest, GapsInTheNumbersDrawAComplaint) {
+  for (const int number : {1, 2, 6}) {
+    write_numbered(std::to_string(number) + ".png", number);
+  }
+  const std::unique_ptr<Source> source = open_source(scratch_.file("%d.png"));
+  EXPECT_EQ(numbers(*source).size(), 3U);
+  EXPECT_NE(source->complaint().find("3 numbers are missing"), std::string::npos) << source->complaint();
+}
+
+TEST_F(ImageSequenceTest, UnreadableImagesAreLeftOutAndKeepTheirTime) {
+  write_numbered("1.png", 1);
+  testing::write_bytes(scratch_.file("2.png"), "");
+  testing::write_bytes(scratch_.file("3.png"), "not a picture");
+  write_numbered("4.png", 4);
+  testing::cut_to(scratch_.file("4.png"), 0.2);
+  write_numbered("5.png", 5);
+  const std::unique_ptr<Source> source = open_source(scratch_.file(""));
+  ASSERT_TRUE(source->next());
+  const std::optional<Frame> last = source->next();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(testing::number_of(last->image), 5);
+  EXPECT_EQ(last->index, 4);
+  EXPECT_DOUBLE_EQ(last->time, 4.0 / 25.0);
+  EXPECT_FALSE(source->next());
+  EXPECT_NE(source->complaint().find("3 of 5 images"), std::string::npos) << source->complaint();
+  EXPECT_NE(source->complaint().find("2.png"), std::string::npos) << source->complaint();
+}
+
+TEST_F(ImageSequenceTest, AllKindsOfImagesBecomeColourAndTheSizeOfTheFirst) {
+  const cv::Size size(64, 48);
+  write_numbered("1.png", 1);
+  write_image("2.png", cv::Mat(size, CV_8UC1, cv::Scalar(50)));
+  write_image("3.png", cv::Mat(size, CV_8UC4, cv::Scalar(70, 70, 70, 128)));
+  write_image("4.png", cv::Mat(size, CV_16UC1, cv::Scalar(90 * 257)));
+  write_image("5.png", cv::Mat(size, CV_16UC3, cv::Scalar::all(110 * 257)));
+  write_image("6.tiff", cv::Mat(cv::Size(33, 77), CV_8UC3, cv::Scalar::all(130)));
+  write_image("7.jpg", cv::Mat(cv::Size(201, 7), CV_8UC3, cv::Scalar::all(150)));
+  const std::unique_ptr<Source> source = open_source(scratch_.file(""));
+  EXPECT_EQ(numbers(*source), (std::vector<int>{1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_NE(source->complaint().find("resized"), std::string::npos) << source->complaint();
+}
+
+TEST_F(ImageSequenceTest, NamesTheCauseOfWhatItCannotRead) {
+  const auto refusal = [](const std::string& input) {
+    return testing::input_error([&] { open_source(input); });
+  };
+  EXPECT_NE(refusal(scratch_.file("")).find("no image in the folder"), std::string::npos);
+  EXPECT_NE(refusal(scratch_.file("*.png")).find("no file fits"), std::string::npos);
+  EXPECT_NE(refusal(scratch_.file("absent/%d.png")).find("folder cannot be read"), std::string::npos);
+  EXPECT_NE(refusal(scratch_.file("absent.png")).find("no such file"), std::string::npos);
+  testing::write_bytes(scratch_.file("bad.png"), "not a picture");
+  EXPECT_NE(refusal(scratch_.file("bad.png")).find("cannot read"), std::string::npos);
+  EXPECT_NE(refusal(scratch_.file("")).find("cannot read"), std::string::npos);
+  write_image("dot.png", cv::Mat(1, 1, CV_8UC3));
+  EXPECT_NE(refusal(scratch_.file("dot.png")).find("1x1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/input_kind.h"
+
+#include <gtest/gtest.h>
+
+#include "telemime/capture/testing.h"
+
+namespace telemime {
+namespace {
+
+TEST(InputKind, IsToldByTheName) {
+  EXPECT_EQ(input_kind("0"), InputKind::camera);
+  EXPECT_EQ(input_kind("12"), InputKind::camera);
+  EXPECT_EQ(input_kind("/dev/video2"), InputKind::device);
+  EXPECT_EQ(input_kind("/dev/v4l/by-id/some-camera"), InputKind::device);
+  for (const char* url : {"rtsp://host/path", "http://host:8080/video.mp4", "udp://@:5000", "RTMP://h/x"}) {
+    EXPECT_EQ(input_kind(url), InputKind::stream) << url;
+  }
+  for (const char* pattern : {"a/frame_%04d.png", "%d.jpg", "a/*.png", "shot?.jpg", "[ab].png"}) {
+    EXPECT_EQ(input_kind(pattern), InputKind::pattern) << pattern;
+  }
+  EXPECT_EQ(input_kind("nowhere/one.PNG"), InputKind::image);
+  for (const char* video : {"clip.mp4", "nowhere/clip", "-1", "100%", "file:///nowhere/clip.mkv"}) {
+    EXPECT_EQ(input_kind(video), InputKind::video_file) << video;
+  }
+}
+
+TEST(InputKind, IsToldByTheFileSystemWhereTheNameDoesNot) {
+  const testing::ScratchFolder scratch;
+  EXPECT_EQ(input_kind(scratch.file("")), InputKind::folder);
+  const std::string awkward = scratch.file("take[2]_100%d.mp4");
+  EXPECT_EQ(input_kind(awkward), InputKind::pattern);
+  testing::write_bytes(awkward, "x");
+  EXPECT_EQ(input_kind(awkward), InputKind::video_file);
+}
+
+TEST(InputKind, FileUrlsArePaths) {
+  EXPECT_EQ(without_file_scheme("file:///tmp/a.mp4"), "/tmp/a.mp4");
+  EXPECT_EQ(without_file_scheme("/tmp/a.mp4"), "/tmp/a.mp4");
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/live.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "telemime/capture/testing.h"
+
+namespace telemime {
+namespace {
+
+/// A camera driven by the test: the reader's thread waits in grab() until pictures are pushed or the end
+/// comes.
+class FakeCamera {
+ public:
+  /// Hands `count` pictures out, and returns when the reader has taken all and asks for one more.
+  void push(int count) {
+    std::unique_lock lock(mutex_);
+    pending_ += count;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return pending_ == 0 && waiting_; });
+  }
+  /// The next `count` reads fail, as if the cable was pulled.
+  void fail(int count) {
+    const std::lock_guard lock(mutex_);
+    failures_ += count;
+    changed_.notify_all();
+  }
+  bool grab(cv::Mat& picture) {
+    std::unique_lock lock(mutex_);
+    waiting_ = pending_ == 0;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return pending_ > 0 || failures_ > 0; });
+    waiting_ = false;
+    if (pending_ == 0) {
+      --failures_;
+      return false;
+    }
+    --pending_;
+    picture = testing::numbered_picture(made_++);
+    return true;
+  }
+  Grab handle() {
+    return [this](cv::Mat& picture) { return grab(picture); };
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int pending_ = 1;  // the one that tells the size
+  int failures_ = 0;
+  int made_ = 0;
+  bool waiting_ = false;
+};
+
+/// Counts up by one second at every look.
+Clock counting_clock(std::atomic<int>& looks) {
+  return {[&looks] { return static_cast<double>(looks++); }, [](double) {}};
+}
+
+TEST(Live, KeepsOnlyTheNewestFrameWithTimesThatGrow) {
+  FakeCamera camera;
+  std::atomic<int> looks = 0;
+  const std::unique_ptr<Source> source = live_source("0",
+                                                     [&] {
+                                                       return LiveDevice{camera.handle(), 30.0};
+                                                     },
+                                                     {{}, counting_clock(looks)});
+  ASSERT_TRUE(source);
+  EXPECT_TRUE(source->info().live);
+  EXPECT_EQ(source->info().width, 64);
+  EXPECT_EQ(source->info().fps, 30.0);
+  EXPECT_EQ(source->info().frames, 0);
+  camera.push(4);
+  const std::optional<Frame> newest = source->next();
+  ASSERT_TRUE(newest);
+  EXPECT_EQ(newest->index, 4);  // 0 to 3 were never asked for
+  EXPECT_EQ(testing::number_of(newest->image), 4);
+  camera.push(2);
+  const std::optional<Frame> later = source->next();
+  ASSERT_TRUE(later);
+  EXPECT_EQ(later->index, 6);
+  EXPECT_GT(later->time, newest->time);
+  EXPECT_EQ(testing::number_of(newest->image), 4);  // a frame never changes after it was handed out
+  EXPECT_EQ(source->complaint(), "");
+  camera.fail(1);  // lets the reader's thread go
+}
+
+TEST(Live, TheLastFrameIsHandedOutBeforeTheEnd) {
+  FakeCamera camera;
+  const std::unique_ptr<Source> source = live_source("0",
+                                                     [&] {
+                                                       return LiveDevice{camera.handle(), 30.0};
+                                                     },
+                                                     {{}});
+  camera.push(1);
+  camera.fail(1);
+  EXPECT_EQ(source->next()->index, 1);
+  EXPECT_FALSE(source->next());
+  EXPECT_FALSE(source->next());
+  EXPECT_NE(source->complaint().find("did not come back in 0 attempts"), std::string::npos)
+      << source->complaint();
+}
+
+TEST(Live, ADeviceThatStopsIsOpenedAgain) {
+  FakeCamera camera;
+  std::atomic<int> openings = 0;
+  const auto open = [&] {
+    const int opening = openings++;
+    // The second and third attempts find nothing, as while a cable is out.
+    return opening == 1 || opening == 2 ? LiveDevice{} : LiveDevice{camera.handle(), 0.0};
+  };
+  const std::unique_ptr<Source> source = live_source("0", open, {{0.0, 0.0, 0.0, 0.0}});
+  EXPECT_EQ(source->info().fps, 25.0);
+  EXPECT_EQ(source->next()->index, 0);
+  camera.fail(1);
+  camera.push(1);
+  EXPECT_EQ(source->next()->index, 1);
+  EXPECT_EQ(openings, 4);
+  EXPECT_NE(source->complaint().find("opened again"), std::string::npos) << source->complaint();
+  camera.fail(5);  // four attempts, each opened but without a picture: then it gives up
+  EXPECT_FALSE(source->next());
+  EXPECT_EQ(source->complaint().find("opened again"), std::string::npos) << source->complaint();
+  EXPECT_NE(source->complaint().find("did not come back in 4 attempts"), std::string::npos)
+      << source->complaint();
+}
+
+TEST(Live, TheDefaultPausesGrow) {
+  const std::vector<double> pauses = LiveOptions{}.pauses;
+  ASSERT_GE(pauses.size(), 5U);
+  for (std::size_t i = 1; i < pauses.size(); ++i) {
+    EXPECT_GT(pauses[i], pauses[i - 1]);
+  }
+}
+
+TEST(Live, ItCanBeDestroyedInTheMiddleOfALongPause) {
+  FakeCamera camera;
+  camera.fail(1);
+  std::unique_ptr<Source> source = live_source("0",
+                                               [&] {
+                                                 return LiveDevice{camera.handle(), 30.0};
+                                               },
+                                               {{1e6}, monotonic_clock()});
+  ASSERT_TRUE(source);
+  source.reset();  // would take twelve days if the pause did not end early
+}
+
+TEST(Live, NothingIsReturnedWithoutADeviceOrAPicture) {
+  EXPECT_FALSE(live_source("0", [] { return LiveDevice{}; }));
+  EXPECT_FALSE(live_source("0", [] { return LiveDevice{[](cv::Mat&) { return false; }, 30.0}; }));
+}
+
+TEST(Live, OddPicturesAreMadeUsable) {
+  std::atomic<int> reads = 0;
+  const auto grab = [&](cv::Mat& picture) {
+    const int read = reads++;
+    if (read == 0) {
+      picture = cv::Mat(48, 64, CV_8UC1, cv::Scalar(50));
+    } else if (read == 1) {
+      picture = cv::Mat(96, 128, CV_16UC3, cv::Scalar::all(70 * 257));
+    }
+    return read < 2;
+  };
+  const std::unique_ptr<Source> source = live_source("0", [&] { return LiveDevice{grab, 30.0}; }, {{}});
+  std::optional<Frame> last;
+  while (std::optional<Frame> frame = source->next()) {
+    EXPECT_EQ(frame->image.size(), cv::Size(64, 48));
+    EXPECT_EQ(frame->image.type(), CV_8UC3);
+    last = frame;
+  }
+  EXPECT_EQ(testing::number_of(last->image), 3);
+  EXPECT_NE(source->complaint().find("resized"), std::string::npos) << source->complaint();
+}
+
+}  // namespace
+}  // namespace telemime

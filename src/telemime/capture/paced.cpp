@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/paced.h"
+
+#include <utility>
+
+namespace telemime {
+namespace {
+
+class PacedSource : public Source {
+ public:
+  PacedSource(std::unique_ptr<Source> file, Clock clock)
+      : file_(std::move(file)), clock_(std::move(clock)), info_(file_->info()) {
+    info_.live = true;
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  std::string complaint() const override { return file_->complaint(); }
+
+  std::optional<Frame> next() override {
+    if (!start_) {
+      start_ = clock_.now();
+      upcoming_ = file_->next();
+    }
+    if (!upcoming_) {
+      return std::nullopt;
+    }
+    clock_.wait_until(*start_ + upcoming_->time);
+    const double elapsed = clock_.now() - *start_;
+    std::optional<Frame> newest;
+    do {
+      newest = std::exchange(upcoming_, file_->next());
+    } while (upcoming_ && upcoming_->time <= elapsed);
+    return newest;
+  }
+
+ private:
+  std::unique_ptr<Source> file_;
+  Clock clock_;
+  SourceInfo info_;
+  std::optional<double> start_;    // seconds of the clock at the first frame
+  std::optional<Frame> upcoming_;  // read already, not handed out
+};
+
+}  // namespace
+
+std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock) {
+  return std::make_unique<PacedSource>(std::move(file), std::move(clock));
+}
+
+}  // namespace telemime

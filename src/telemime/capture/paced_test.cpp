@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/paced.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace telemime {
+namespace {
+
+/// Frames without pictures, ten a second.
+class TenASecond : public Source {
+ public:
+  explicit TenASecond(std::int64_t frames) { info_.frames = frames; }
+  const SourceInfo& info() const override { return info_; }
+  std::string complaint() const override { return "as the file says"; }
+  std::optional<Frame> next() override {
+    if (index_ == info_.frames) {
+      return std::nullopt;
+    }
+    const std::int64_t index = index_++;
+    return Frame{{}, index, static_cast<double>(index) / 10.0};
+  }
+
+ private:
+  SourceInfo info_;
+  std::int64_t index_ = 0;
+};
+
+/// A clock that moves only when it is told to, or waited for.
+struct FakeTime {
+  double seconds = 1000.0;
+  Clock clock() {
+    return {[this] { return seconds; }, [this](double until) { seconds = std::max(seconds, until); }};
+  }
+};
+
+TEST(Paced, AConsumerThatKeepsUpGetsEveryFrameAtItsTime) {
+  FakeTime time;
+  const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(5), time.clock());
+  EXPECT_TRUE(source->info().live);
+  for (int i = 0; i < 5; ++i) {
+    const std::optional<Frame> frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->index, i);
+    EXPECT_NEAR(time.seconds, 1000.0 + i / 10.0, 1e-9);
+  }
+  EXPECT_FALSE(source->next());
+  EXPECT_EQ(source->complaint(), "as the file says");
+}
+
+TEST(Paced, ASlowConsumerGetsTheNewestFrame) {
+  FakeTime time;
+  const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(10), time.clock());
+  EXPECT_EQ(source->next()->index, 0);
+  time.seconds += 0.35;
+  EXPECT_EQ(source->next()->index, 3);  // it did not wait: frames 1 and 2 are gone
+  EXPECT_NEAR(time.seconds, 1000.35, 1e-9);
+  EXPECT_EQ(source->next()->index, 4);
+  EXPECT_NEAR(time.seconds, 1000.4, 1e-9);
+  time.seconds += 60.0;
+  EXPECT_EQ(source->next()->index, 9);
+  EXPECT_FALSE(source->next());
+}
+
+TEST(Paced, TimeBeforeTheFirstFrameDoesNotCount) {
+  FakeTime time;
+  const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(3), time.clock());
+  time.seconds += 60.0;
+  EXPECT_EQ(source->next()->index, 0);
+  EXPECT_EQ(source->next()->index, 1);
+}
+
+TEST(Paced, AnEmptyFileEndsAtOnce) {
+  FakeTime time;
+  EXPECT_FALSE(pace(std::make_unique<TenASecond>(0), time.clock())->next());
+}
+
+TEST(MonotonicClock, NeverGoesBackAndReachesWhatIsWaitedFor) {
+  const Clock clock = monotonic_clock();
+  const double before = clock.now();
+  clock.wait_until(before + 0.002);
+  EXPECT_GE(clock.now(), before + 0.002);
+  clock.wait_until(before);  // past already
+}
+
+}  // namespace
+}  // namespace telemime

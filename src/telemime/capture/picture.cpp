@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr int smallest_side = 16;  // pixels; a head would be 2 pixels wide
+constexpr double slowest = 0.5;    // frames a second
+constexpr double fastest = 1000.0;
+constexpr double fallback_fps = 25.0;
+
+std::string words(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+double scale_to_8_bits(int depth) {
+  switch (depth) {
+    case CV_8U:
+    case CV_8S:
+      return 1.0;
+    case CV_16U:
+    case CV_16S:
+      return 1.0 / 257.0;
+    default:
+      return 255.0;  // floats in [0, 1]
+  }
+}
+
+}  // namespace
+
+void Notes::add(const std::string& note) {
+  if (std::find(lines_.begin(), lines_.end(), note) == lines_.end()) {
+    lines_.push_back(note);
+  }
+}
+
+std::string Notes::text() const {
+  std::string all;
+  for (const std::string& line : lines_) {
+    all += all.empty() ? line : "\n" + line;
+  }
+  return all;
+}
+
+cv::Mat to_bgr8(const cv::Mat& image) {
+  if (image.empty() || image.dims != 2) {
+    return {};
+  }
+  cv::Mat bytes = image;
+  if (image.depth() != CV_8U) {
+    image.convertTo(bytes, CV_8U, scale_to_8_bits(image.depth()));
+  }
+  cv::Mat colour;
+  switch (bytes.channels()) {
+    case 1:
+      cv::cvtColor(bytes, colour, cv::COLOR_GRAY2BGR);
+      return colour;
+    case 3:
+      return bytes;
+    case 4:
+      cv::cvtColor(bytes, colour, cv::COLOR_BGRA2BGR);
+      return colour;
+    default:
+      return {};
+  }
+}
+
+cv::Mat fit_to(const cv::Mat& image, cv::Size size, Notes& notes) {
+  if (image.size() == size) {
+    return image;
+  }
+  notes.add("some frames are not " + words(size) + " like the first one (" + words(image.size()) +
+            " for instance); they were resized");
+  cv::Mat resized;
+  cv::resize(image, resized, size, 0.0, 0.0, image.cols > size.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+  return resized;
+}
+
+void require_usable_size(cv::Size size, const std::string& input) {
+  if (std::min(size.width, size.height) < smallest_side) {
+    throw Error(ErrorKind::input, "'" + input + "' has pictures of " + words(size) + " pixels",
+                "No person can be seen in so few; give pictures of at least 160x120.");
+  }
+}
+
+double usable_fps(double stated, Notes& notes) {
+  if (std::isfinite(stated) && stated >= slowest && stated <= fastest) {
+    return stated;
+  }
+  std::ostringstream note;
+  note << "it states no usable frame rate (" << stated << "); " << fallback_fps
+       << " frames a second are assumed";
+  notes.add(note.str());
+  return fallback_fps;
+}
+
+}  // namespace telemime

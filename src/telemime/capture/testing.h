@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Small files for the tests of this folder. Not installed.
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+
+#include "telemime/core/errors.h"
+
+namespace telemime::testing {
+
+/// A new empty folder that goes away with its content.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "telemime_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw Error(ErrorKind::output, "no temporary folder");
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline void write_bytes(const std::string& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+/// A picture whose grey level tells its number apart after lossy coding: 10 + 20 * number.
+inline cv::Mat numbered_picture(int number, cv::Size size = {64, 48}) {
+  return cv::Mat(size, CV_8UC3, cv::Scalar::all(10 + 20 * (number % 12)));
+}
+
+/// The number that numbered_picture (below 12) put into an image.
+inline int number_of(const cv::Mat& image) {
+  return static_cast<int>(std::lround((cv::mean(image)[0] - 10.0) / 20.0));
+}
+
+/// A Motion JPEG clip of `frames` numbered pictures.
+inline void write_clip(const std::string& file, int frames, double fps = 20.0) {
+  cv::VideoWriter writer(file, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps,
+                         {64, 48});
+  for (int i = 0; i < frames; ++i) {
+    writer.write(numbered_picture(i));
+  }
+}
+
+inline void cut_to(const std::string& file, double fraction) {
+  std::filesystem::resize_file(
+      file, static_cast<std::uintmax_t>(fraction * static_cast<double>(std::filesystem::file_size(file))));
+}
+
+/// The message of the Error(input) that `action` throws; empty when it throws none.
+template <typename Action>
+std::string input_error(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.kind() == ErrorKind::input ? error.what() : std::string();
+  }
+  return {};
+}
+
+}  // namespace telemime::testing
