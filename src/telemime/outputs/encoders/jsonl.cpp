@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/encoders/jsonl.h"
+
+#include "telemime/outputs/finite.h"
+#include "telemime/outputs/numbers.h"
+
+namespace telemime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kMillimetreDecimals = 2;
+constexpr int kDegreeDecimals = 4;
+constexpr int kPixelDecimals = 3;
+constexpr int kScoreDecimals = 6;
+
+Json millimetres(const Eigen::Vector3d& metres) {
+  Json list = Json::array();
+  for (const double value : metres) {
+    list.push_back(rounded(value * kMillimetresPerMetre, kMillimetreDecimals));
+  }
+  return list;
+}
+
+double degrees(double radians) {
+  return rounded(radians * kDegreesPerRadian, kDegreeDecimals);
+}
+
+double millimetres(double metres) {
+  return rounded(metres * kMillimetresPerMetre, kMillimetreDecimals);
+}
+
+Json camera_json(const Camera& camera) {
+  return {{"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"pixel_origin", "centre of the top-left pixel"},
+          {"distortion", camera.distortion}};
+}
+
+Json shape_json(const Shape& shape) {
+  Json segments = Json::object();
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const SegmentScale& scale = shape.segments[s];
+    segments[std::string(kSegmentNames[s])] = {
+        {"length", scale.length}, {"height", scale.height}, {"width", scale.width}};
+  }
+  return {{"stature", millimetres(shape.stature)}, {"sleeve", shape.sleeve}, {"segments", segments}};
+}
+
+Json body_json(const Body& body) {
+  return {{"neck_from_root", millimetres(body.neck_from_root)},
+          {"head_from_neck", millimetres(body.head_from_neck)},
+          {"head_top_from_head", millimetres(body.head_top_from_head)},
+          {"l_shoulder_from_neck", millimetres(body.shoulder_from_neck[0])},
+          {"r_shoulder_from_neck", millimetres(body.shoulder_from_neck[1])},
+          {"l_upper_arm", millimetres(body.upper_arm_length[0])},
+          {"r_upper_arm", millimetres(body.upper_arm_length[1])},
+          {"l_forearm", millimetres(body.forearm_length[0])},
+          {"r_forearm", millimetres(body.forearm_length[1])},
+          {"l_hand", millimetres(body.hand_length[0])},
+          {"r_hand", millimetres(body.hand_length[1])}};
+}
+
+Json limits_json(const JointLimits& limits) {
+  Json ranges = Json::object();
+  for (std::size_t a = 0; a < kAngleCount; ++a) {
+    ranges[std::string(kAngleNames[a])] = {degrees(limits.min[a]), degrees(limits.max[a])};
+  }
+  return {{"name", limits.name}, {"limits", ranges}};
+}
+
+/// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement marks.
+std::string line(const Json& object) {
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+class JsonlEncoder final : public Encoder {
+ public:
+  std::string begin(const StreamHeader& header) override {
+    return line({{"format", "telemime-pose"},
+                 {"version", 1},
+                 {"units", {{"length", "mm"}, {"angle", "degree"}, {"time", "s"}, {"pixel", "input image"}}},
+                 {"axes", "camera: x right, y down, z forward; l_ and r_ are the person's own sides"},
+                 {"fps", header.fps},
+                 {"camera", camera_json(header.camera)},
+                 {"joints", kJointNames},
+                 {"angles", kAngleNames},
+                 {"shape", shape_json(header.body.shape)},
+                 {"body", body_json(header.body)},
+                 {"limits", limits_json(header.limits)},
+                 {"config", Json(header.config)},
+                 {"extra", Json(header.extra)}});
+  }
+
+  std::string frame(const MotionFrame& raw) override {
+    const MotionFrame frame = finite_(raw);
+    Json angles = Json::object();
+    for (std::size_t a = 0; a < kAngleCount; ++a) {
+      angles[std::string(kAngleNames[a])] = degrees(frame.pose.angles[a]);
+    }
+    Json joints = Json::object();
+    Json pixels = Json::object();
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      joints[std::string(kJointNames[j])] = millimetres(frame.joints.at[j]);
+      pixels[std::string(kJointNames[j])] = {rounded(frame.pixels[j].x(), kPixelDecimals),
+                                             rounded(frame.pixels[j].y(), kPixelDecimals)};
+    }
+    Json ms = Json::object();
+    for (const auto& [stage, time] : frame.stage_ms) {
+      ms[stage] = rounded(time, 3);
+    }
+    return line({{"frame", frame.frame},
+                 {"time", rounded(frame.time, 6)},
+                 {"state", frame.state == TrackState::tracking ? "tracking" : "lost"},
+                 {"angles", angles},
+                 {"root", millimetres(frame.pose.root)},
+                 {"joints", joints},
+                 {"pixels", pixels},
+                 {"score",
+                  {{"F", rounded(frame.region_score, kScoreDecimals)},
+                   {"D_C", rounded(frame.contour_score, kScoreDecimals)}}},
+                 {"evaluations", frame.evaluations},
+                 {"ms", ms}});
+  }
+
+  std::string end() override { return {}; }
+  std::optional<Patch> patch() const override { return std::nullopt; }
+
+ private:
+  FiniteFrames finite_;
+};
+
+}  // namespace
+
+std::unique_ptr<Encoder> make_jsonl_encoder() {
+  return std::make_unique<JsonlEncoder>();
+}
+
+}  // namespace telemime

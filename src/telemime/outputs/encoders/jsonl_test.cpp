@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/encoders/jsonl.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "telemime/core/errors.h"
+#include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+using nlohmann::json;
+
+std::string encoded(const StreamHeader& header, const std::vector<MotionFrame>& frames) {
+  return testing_motion::encode_all(*make_jsonl_encoder(), header, frames);
+}
+
+std::vector<json> lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<json> result;
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(json::parse(line));
+  }
+  return result;
+}
+
+TEST(Jsonl, ReadsBackWhatItWrote) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 20);
+  frames[7].state = TrackState::lost;
+  const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
+  EXPECT_TRUE(file.complaint.empty());
+  EXPECT_DOUBLE_EQ(file.fps, header.fps);
+  EXPECT_DOUBLE_EQ(file.camera.fx, header.camera.fx);
+  EXPECT_DOUBLE_EQ(file.camera.cy, header.camera.cy);
+  EXPECT_DOUBLE_EQ(file.shape.stature, header.body.shape.stature);
+  EXPECT_EQ(file.limits.name, header.limits.name);
+  EXPECT_EQ(file.header.at("config"), header.config);
+  EXPECT_EQ(file.header.at("extra"), header.extra);
+  ASSERT_EQ(file.frames.size(), frames.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const MotionFrame& read = file.frames[f];
+    EXPECT_EQ(read.frame, frames[f].frame);
+    EXPECT_NEAR(read.time, frames[f].time, 1e-6);
+    EXPECT_EQ(read.state, frames[f].state);
+    EXPECT_LT((read.pose.vector() - frames[f].pose.vector()).cwiseAbs().maxCoeff(), 1e-5);
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      EXPECT_LT((read.joints.at[j] - frames[f].joints.at[j]).norm(), 1e-5);
+      EXPECT_LT((read.pixels[j] - frames[f].pixels[j]).norm(), 1e-3);
+    }
+    EXPECT_NEAR(read.region_score, frames[f].region_score, 1e-6);
+    EXPECT_NEAR(read.contour_score, frames[f].contour_score, 1e-6);
+    EXPECT_EQ(read.evaluations, frames[f].evaluations);
+    EXPECT_EQ(read.stage_ms, frames[f].stage_ms);
+  }
+}
+
+TEST(Jsonl, WritesMillimetresAndDegrees) {
+  const StreamHeader header = testing_motion::header();
+  Pose pose;
+  pose.root = {0.1, 0.2, 1.5};
+  pose[Angle::l_elbow_flexion] = -std::numbers::pi / 2.0;
+  const auto text = encoded(header, {testing_motion::frame_of(header.body, header.camera, pose, 0, 25.0)});
+  const json frame = lines(text).at(1);
+  EXPECT_EQ(frame.at("root"), json({100.0, 200.0, 1500.0}));
+  EXPECT_EQ(frame.at("joints").at("root"), frame.at("root"));
+  EXPECT_DOUBLE_EQ(frame.at("angles").at("l_elbow_flexion"), -90.0);
+}
+
+TEST(Jsonl, EveryFrameHasEveryKeyEvenWhenLost) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 2);
+  frames[1].state = TrackState::lost;
+  frames[1].stage_ms.clear();
+  const auto all = lines(encoded(header, frames));
+  for (const auto& [key, value] : all.at(1).items()) {
+    EXPECT_TRUE(all.at(2).contains(key)) << key;
+    if (key != "ms") {
+      EXPECT_EQ(all.at(2).at(key).size(), value.size()) << key;
+    }
+  }
+  EXPECT_EQ(all.at(2).at("state"), "lost");
+}
+
+TEST(Jsonl, NeverWritesNumbersThatAreNotFinite) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 3);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  frames[1].pose.angles[4] = nan;
+  frames[2].pixels[3].x() = std::numeric_limits<double>::infinity();
+  frames[2].region_score = nan;
+  frames[2].stage_ms[0].second = -std::numeric_limits<double>::infinity();
+  const std::string text = encoded(header, frames);
+  EXPECT_EQ(text.find("null"), std::string::npos);
+  const PoseFile file = parse_pose_jsonl(text, "test");
+  EXPECT_EQ(file.frames[1].state, TrackState::lost);
+  EXPECT_LT((file.frames[1].pose.vector() - frames[0].pose.vector()).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_EQ(file.frames[2].state, TrackState::tracking);
+  EXPECT_NEAR(file.frames[2].region_score, 0.25, 1e-9);
+}
+
+TEST(Jsonl, FirstFrameWithoutFiniteNumbersIsTheRestPose) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 1);
+  frames[0].joints.at.fill(Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
+  EXPECT_EQ(file.frames.at(0).state, TrackState::lost);
+  EXPECT_EQ(file.frames.at(0).pose.angles, Pose{}.angles);
+}
+
+TEST(Jsonl, BytesThatAreNotTextDoNotStopARun) {
+  StreamHeader header = testing_motion::header();
+  header.extra = {{"input", "clip\xff.mp4"}};
+  EXPECT_EQ(parse_pose_jsonl(make_jsonl_encoder()->begin(header), "test").frames.size(), 0U);
+}
+
+TEST(JsonlReader, ReportsALastLineThatWasCutOff) {
+  const StreamHeader header = testing_motion::header();
+  const std::string text = encoded(header, testing_motion::gesture(header, 3));
+  const PoseFile file = parse_pose_jsonl(std::string_view(text).substr(0, text.size() - 40), "cut.jsonl");
+  EXPECT_EQ(file.frames.size(), 2U);
+  EXPECT_NE(file.complaint.find("cut.jsonl, line 4"), std::string::npos) << file.complaint;
+}
+
+TEST(JsonlReader, NamesTheLineAndWhatIsWrong) {
+  const StreamHeader header = testing_motion::header();
+  const std::string text = encoded(header, testing_motion::gesture(header, 2));
+  const auto message_of = [](const std::string& broken) -> std::string {
+    try {
+      parse_pose_jsonl(broken, "broken.jsonl");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  const auto with = [&text](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    return changed;
+  };
+  EXPECT_NE(message_of("").find("empty"), std::string::npos);
+  EXPECT_NE(message_of("{\"format\":").find("not JSON"), std::string::npos);
+  EXPECT_NE(message_of(with("telemime-pose", "other")).find("format"), std::string::npos);
+  EXPECT_NE(message_of(with("\"version\":1", "\"version\":2")).find("version"), std::string::npos);
+  EXPECT_NE(message_of(with("\"l_hand\":", "\"hand\":")).find("l_hand"), std::string::npos);
+  EXPECT_NE(message_of(with("\"frame\":1", "\"frame\":0")).find("line 3"), std::string::npos);
+  EXPECT_NE(message_of(with("\"state\":\"tracking\"", "\"state\":\"maybe\"")).find("state"),
+            std::string::npos);
+  EXPECT_NE(message_of(with("\"time\":0.0", "\"time\":1e999")).find("line 2"), std::string::npos);
+  EXPECT_NE(message_of(std::string(1000, '[')).find("nested"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/finite.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telemime {
+namespace {
+
+bool pose_is_finite(const MotionFrame& frame) {
+  return frame.pose.root.allFinite() &&
+         std::all_of(frame.pose.angles.begin(), frame.pose.angles.end(),
+                     [](double a) { return std::isfinite(a); }) &&
+         std::all_of(frame.joints.at.begin(), frame.joints.at.end(),
+                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+double finite_or(double value, double otherwise) {
+  return std::isfinite(value) ? value : otherwise;
+}
+
+}  // namespace
+
+// Eigen leaves new vectors uninitialised.
+MotionFrame FiniteFrames::blank() {
+  MotionFrame frame;
+  frame.joints.at.fill(frame.pose.root);
+  frame.pixels.fill(Eigen::Vector2d::Zero());
+  return frame;
+}
+
+MotionFrame FiniteFrames::operator()(const MotionFrame& frame) {
+  MotionFrame clean = frame;
+  if (!pose_is_finite(frame)) {
+    clean.state = TrackState::lost;
+    clean.pose = last_.pose;
+    clean.joints = last_.joints;
+    clean.pixels = last_.pixels;
+  }
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    if (!clean.pixels[j].allFinite()) {
+      clean.pixels[j] = last_.pixels[j];
+    }
+  }
+  clean.time = finite_or(frame.time, last_.time);
+  clean.region_score = finite_or(frame.region_score, last_.region_score);
+  clean.contour_score = finite_or(frame.contour_score, last_.contour_score);
+  for (auto& [stage, ms] : clean.stage_ms) {
+    ms = finite_or(ms, 0.0);
+  }
+  last_ = clean;
+  return clean;
+}
+
+}  // namespace telemime

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+namespace telemime {
+
+inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+inline constexpr double kMillimetresPerMetre = 1000.0;
+
+/// `value` to the nearest multiple of 10^-decimals, never -0. Printed shortest, it has at most that many
+/// decimals.
+inline double rounded(double value, int decimals) {
+  const double scale = std::pow(10.0, decimals);
+  return std::round(value * scale) / scale + 0.0;
+}
+
+/// Appends `value` in fixed notation, whatever the locale. Finite values only.
+void append_fixed(std::string& text, double value, int decimals);
+
+/// `count` right-aligned in `width` characters, for a field that is patched later. Throws Error(output) when
+/// it does not fit.
+std::string padded_count(std::size_t count, std::size_t width);
+
+}  // namespace telemime
