@@ -49,3 +49,17 @@ function(telemime_room name)
                          PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
   endif()
 endfunction()
+
+# A test program of more than one room, below tests/: telemime_test(laws SOURCES a_test.cpp ROOMS cues likelihood
+# LABELS slow). The label "slow" keeps it out of the runs under sanitizers.
+function(telemime_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;ROOMS;LIBRARIES;LABELS" ${ARGN})
+  add_executable(${name}_test ${TEST_SOURCES})
+  list(TRANSFORM TEST_ROOMS PREPEND telemime::)
+  target_link_libraries(${name}_test PRIVATE ${TEST_ROOMS} ${TEST_LIBRARIES} telemime_flags GTest::gtest
+                                             GTest::gtest_main)
+  target_compile_definitions(${name}_test PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 300 LABELS "${TEST_LABELS}"
+                                  SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+endfunction()

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "rules.h"
+
+namespace telemime::layering {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path this_project = TELEMIME_SOURCE_DIR;
+
+std::string as_text(const Violations& violations) {
+  std::string text;
+  for (const std::string& violation : violations) {
+    text += "\n  " + violation;
+  }
+  return text;
+}
+
+TEST(ThisProject, RoomsIncludeOnlyWhatTheyList) {
+  Violations violations;
+  EXPECT_GE(read_rooms(this_project, violations).size(), 10U);
+  EXPECT_EQ(as_text(check_includes(this_project)), "");
+}
+
+TEST(ThisProject, EveryRoomIsInTheArchitectureTable) {
+  EXPECT_EQ(as_text(check_architecture_table(this_project)), "");
+}
+
+TEST(ThisProject, SourcesAreShortAndLicensed) {
+  EXPECT_EQ(as_text(check_sources(this_project)), "");
+}
+
+TEST(ThisProject, NothingIsLeftUndone) {
+  EXPECT_EQ(as_text(check_no_leftovers(this_project)), "");
+}
+
+/// A project of two rooms, well built; each test below breaks one thing and expects to hear of it.
+class SmallProject : public ::testing::Test {
+ protected:
+  SmallProject() {
+    std::string name = (fs::temp_directory_path() / "telemime_layering_XXXXXX").string();
+    root_ = ::mkdtemp(name.data());
+    write("ARCHITECTURE.md", "| `low` | one |\n| `high` | two |\n| `attic` | three |\n");
+    write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low LIBRARIES high)\n");
+    write("src/telemime/low/low.h", licence("//") + "#include <vector>\n");
+    write("src/telemime/high/CMakeLists.txt",
+          licence("#") + "telemime_room(high\n  DEPENDS low LIBRARIES z)\n");
+    write("src/telemime/high/high.cpp", licence("//") + "#include \"telemime/low/low.h\"\n");
+    write("src/telemime/attic/CMakeLists.txt", licence("#") + "telemime_room(attic DEPENDS high)\n");
+    write("src/telemime/attic/attic.cpp", licence("//") + "#include \"telemime/low/low.h\"\n");
+    write("scripts/run.sh", "#!/bin/sh\n" + licence("#"));
+  }
+  ~SmallProject() override { fs::remove_all(root_); }
+
+  static std::string licence(const std::string& comment) {
+    return comment + " SPDX-License-Identifier: Apache-2.0\n";
+  }
+  void write(const std::string& name, const std::string& content) const {
+    fs::create_directories((root_ / name).parent_path());
+    std::ofstream(root_ / name) << content;
+  }
+  /// All violations in one text.
+  std::string violations() const {
+    return as_text(check_includes(root_)) + as_text(check_architecture_table(root_)) +
+           as_text(check_sources(root_)) + as_text(check_no_leftovers(root_));
+  }
+  void expect_violation(const std::string& words) const {
+    EXPECT_NE(violations().find(words), std::string::npos) << violations();
+  }
+
+  fs::path root_;
+};
+
+TEST_F(SmallProject, IsInOrder) {
+  Violations none;
+  EXPECT_EQ(read_rooms(root_, none).at("attic"), (std::set<std::string>{"attic", "high", "low"}));
+  EXPECT_EQ(violations(), "");
+}
+
+TEST_F(SmallProject, AnIncludeAgainstTheArrowsIsFound) {
+  write("src/telemime/low/deep/wrong.h", licence("//") + "\n  #  include <telemime/high/high.h>\n");
+  expect_violation("src/telemime/low/deep/wrong.h:3: room low includes room high");
+}
+
+TEST_F(SmallProject, ATestIsBoundByTheSameArrows) {
+  write("src/telemime/low/low_test.cpp", licence("//") + "#include \"telemime/high/high.h\"\n");
+  expect_violation("low_test.cpp:2: room low includes room high");
+}
+
+TEST_F(SmallProject, ARelativeIncludeIsFound) {
+  write("src/telemime/low/wrong.h", licence("//") + "#include \"../high/high.h\"\n");
+  expect_violation("wrong.h:2: write \"telemime/<room>/");
+}
+
+TEST_F(SmallProject, RoomsInACircleAreFound) {
+  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low DEPENDS attic)\n");
+  expect_violation("depends on itself");
+}
+
+TEST_F(SmallProject, AnUnknownRoomIsFound) {
+  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low DEPENDS cellar)\n");
+  expect_violation("'cellar', which is no room");
+}
+
+TEST_F(SmallProject, ARoomWithoutARowIsFound) {
+  write("src/telemime/cellar/CMakeLists.txt", licence("#") + "telemime_room(cellar)\n");
+  expect_violation("room cellar has no row");
+}
+
+TEST_F(SmallProject, ALongFileIsFound) {
+  std::string lines = licence("//");
+  for (int i = 1; i < 400; ++i) {
+    lines += "\n";
+  }
+  write("apps/long.cpp", lines);
+  EXPECT_EQ(violations(), "");
+  write("apps/long.cpp", lines + "\n");
+  expect_violation("apps/long.cpp:401: ");
+}
+
+TEST_F(SmallProject, AMissingLicenceLineIsFound) {
+  write("scripts/bare.sh", "#!/bin/sh\necho\n");
+  expect_violation("scripts/bare.sh:2: the line SPDX");
+  write("scripts/bare.sh", "");
+  expect_violation("scripts/bare.sh:1: the line SPDX");
+}
+
+TEST_F(SmallProject, ALeftoverIsFoundInAnyTextFile) {
+  write("docs/plan.md", std::string("one\nlater: TO") + "DO\n");
+  write(".ci/run", std::string("# FIX") + "ME(all) now\n");
+  expect_violation("docs/plan.md:2: ");
+  expect_violation(".ci/run:1: ");
+}
+
+TEST_F(SmallProject, WhatIsNotOursIsLeftAlone) {
+  const std::string leftover = std::string("TO") + "DO\n";
+  write("build/release/generated.cpp", leftover);
+  write("web/node_modules/x/index.js", leftover);
+  write("data/clip.bin", std::string(3, '\0') + leftover);
+  EXPECT_EQ(violations(), "");
+}
+
+}  // namespace
+}  // namespace telemime::layering

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rules.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <regex>
+#include <sstream>
+#include <string_view>
+
+namespace telemime::layering {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_lines = 400;
+// Folders that hold no source of this project.
+constexpr std::array<std::string_view, 6> foreign = {".git",         "build", "out",
+                                                     "node_modules", "dist",  ".cache"};
+constexpr std::array<std::string_view, 12> source_endings = {".h",  ".cpp", ".cc", ".hpp", ".cmake", ".sh",
+                                                             ".py", ".ts",  ".js", ".mjs", ".cl",    ".inc"};
+
+template <typename List>
+bool contains(const List& list, std::string_view item) {
+  return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Every plain file of the project below `folder`, sorted.
+std::vector<fs::path> project_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) {
+    return files;
+  }
+  fs::recursive_directory_iterator entry(folder);
+  for (; entry != fs::recursive_directory_iterator(); ++entry) {
+    if (entry->is_directory() && contains(foreign, entry->path().filename().string())) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file() && !entry->is_symlink()) {
+      files.push_back(entry->path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_source(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return contains(source_endings, file.extension().string()) || name == "CMakeLists.txt" ||
+         name == "Makefile";
+}
+
+bool is_text(const std::string& content) {
+  return content.find('\0') == std::string::npos;
+}
+
+std::string place(const fs::path& root, const fs::path& file, std::size_t line) {
+  return fs::relative(file, root).string() + ":" + std::to_string(line) + ": ";
+}
+
+/// The words after DEPENDS, up to the next keyword.
+std::set<std::string> depends_of(const std::string& arguments) {
+  std::set<std::string> rooms;
+  bool listed = false;
+  std::istringstream words(arguments);
+  for (std::string word; words >> word;) {
+    if (word == "DEPENDS" || word == "LIBRARIES") {
+      listed = word == "DEPENDS";
+    } else if (listed) {
+      rooms.insert(word);
+    }
+  }
+  return rooms;
+}
+
+Reach close_over(const Reach& direct, Violations& violations) {
+  Reach reach;
+  std::set<std::string> open;
+  const std::function<std::set<std::string>(const std::string&)> visit = [&](const std::string& room) {
+    if (const auto known = reach.find(room); known != reach.end()) {
+      return known->second;
+    }
+    std::set<std::string> all{room};
+    if (!open.insert(room).second) {
+      violations.push_back("room " + room + " depends on itself, through others");
+      return all;
+    }
+    for (const std::string& next : direct.at(room)) {
+      if (direct.contains(next)) {
+        all.merge(visit(next));
+      } else {
+        violations.push_back("room " + room + " depends on '" + next + "', which is no room");
+      }
+    }
+    open.erase(room);
+    reach[room] = all;
+    return all;
+  };
+  for (const auto& [room, ignored] : direct) {
+    visit(room);
+  }
+  return reach;
+}
+
+}  // namespace
+
+Reach read_rooms(const fs::path& root, Violations& violations) {
+  static const std::regex call(R"(telemime_room\(\s*(\w+)([^)]*)\))");
+  Reach direct;
+  for (const fs::path& file : project_files(root / "src" / "telemime")) {
+    if (file.filename() != "CMakeLists.txt") {
+      continue;
+    }
+    const std::string text = std::regex_replace(content_of(file), std::regex("#[^\n]*"), "");
+    std::smatch found;
+    if (std::regex_search(text, found, call)) {
+      direct[found.str(1)] = depends_of(found.str(2));
+    }
+  }
+  return close_over(direct, violations);
+}
+
+Violations check_includes(const fs::path& root) {
+  static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
+  Violations violations;
+  const Reach reach = read_rooms(root, violations);
+  const fs::path house = root / "src" / "telemime";
+  for (const auto& [room, may_include] : reach) {
+    for (const fs::path& file : project_files(house / room)) {
+      const std::vector<std::string> lines = lines_of(is_source(file) ? content_of(file) : std::string());
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        std::smatch found;
+        if (!std::regex_search(lines[i], found, include)) {
+          continue;
+        }
+        const fs::path target = found.str(2);
+        const bool ours = *target.begin() == "telemime";
+        const std::string included = ours ? std::next(target.begin())->string() : std::string();
+        if (ours && !may_include.contains(included)) {
+          violations.push_back(place(root, file, i + 1) + "room " + room + " includes room " + included +
+                               ", which is not in the DEPENDS of its CMakeLists.txt");
+        } else if (!ours && found.str(1) == "\"") {
+          violations.push_back(place(root, file, i + 1) +
+                               "write \"telemime/<room>/...\" for files of this project " +
+                               "and <...> for those of others");
+        }
+      }
+    }
+  }
+  return violations;
+}
+
+Violations check_architecture_table(const fs::path& root) {
+  Violations violations;
+  const std::string table = content_of(root / "ARCHITECTURE.md");
+  for (const auto& [room, ignored] : read_rooms(root, violations)) {
+    if (table.find("| `" + room + "` |") == std::string::npos) {
+      violations.push_back("ARCHITECTURE.md: room " + room + " has no row in the table of rooms");
+    }
+  }
+  return violations;
+}
+
+Violations check_sources(const fs::path& root) {
+  Violations violations;
+  for (const fs::path& file : project_files(root)) {
+    if (!is_source(file)) {
+      continue;
+    }
+    const std::vector<std::string> lines = lines_of(content_of(file));
+    if (lines.size() > most_lines) {
+      violations.push_back(place(root, file, lines.size()) + "the file has more than " +
+                           std::to_string(most_lines) + " lines; split it");
+    }
+    const std::size_t top = !lines.empty() && lines[0].starts_with("#!") ? 1 : 0;
+    if (lines.size() <= top || lines[top].find("SPDX-License-Identifier: Apache-2.0") == std::string::npos) {
+      violations.push_back(place(root, file, top + 1) +
+                           "the line SPDX-License-Identifier: Apache-2.0 is missing");
+    }
+  }
+  return violations;
+}
+
+Violations check_no_leftovers(const fs::path& root) {
+  // Put together here, so that this file does not hold them itself.
+  static const std::regex leftover(std::string("\\b(TO") + "DO|FIX" + "ME)\\b");
+  Violations violations;
+  for (const fs::path& file : project_files(root)) {
+    const std::string content = content_of(file);
+    if (!is_text(content)) {
+      continue;
+    }
+    const std::vector<std::string> lines = lines_of(content);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      constexpr std::size_t longest_line = 2000;  // longer ones are data
+      if (lines[i].size() < longest_line && std::regex_search(lines[i], leftover)) {
+        violations.push_back(place(root, file, i + 1) + "do it, or open an issue: " + lines[i]);
+      }
+    }
+  }
+  return violations;
+}
+
+}  // namespace telemime::layering
