@@ -1,1 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
+# What `cmake --install` lays down: the program, every room as a static library, headers, data, and a package for
+# find_package(telemime). Users link telemime::telemime (all rooms) or one room, telemime::body.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(rooms GLOBAL PROPERTY TELEMIME_ROOMS)
+add_library(telemime_all INTERFACE)
+add_library(telemime::telemime ALIAS telemime_all)
+set_target_properties(telemime_all PROPERTIES EXPORT_NAME telemime)
+target_link_libraries(telemime_all INTERFACE ${rooms})
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/telemime")
+install(TARGETS ${rooms} telemime_all EXPORT telemime ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT telemime NAMESPACE telemime:: FILE telemimeTargets.cmake DESTINATION "${package_dir}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/telemime" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        FILES_MATCHING PATTERN "*.h" PATTERN "*testing.h" EXCLUDE)
+if(TARGET telemime)
+  install(TARGETS telemime RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/telemime")
+
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/telemimeConfig.cmake.in"
+                              "${PROJECT_BINARY_DIR}/telemimeConfig.cmake" INSTALL_DESTINATION "${package_dir}"
+                              PATH_VARS CMAKE_INSTALL_DATADIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/telemimeConfig.cmake" "${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake"
+        DESTINATION "${package_dir}")

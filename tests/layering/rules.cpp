@@ -88,6 +88,15 @@ std::set<std::string> depends_of(const std::string& arguments) {
   return rooms;
 }
 
+std::string unknown_room(const std::string& room, const std::string& next) {
+  return "room " + room + " depends on '" + next + "', which is no room";
+}
+
+std::string out_of_reach(const std::string& room, const std::string& included) {
+  return "room " + room + " includes room " + included +
+         ", which is not in the DEPENDS of its CMakeLists.txt";
+}
+
 Reach close_over(const Reach& direct, Violations& violations) {
   Reach reach;
   std::set<std::string> open;
@@ -104,7 +113,7 @@ Reach close_over(const Reach& direct, Violations& violations) {
       if (direct.contains(next)) {
         all.merge(visit(next));
       } else {
-        violations.push_back("room " + room + " depends on '" + next + "', which is no room");
+        violations.push_back(unknown_room(room, next));
       }
     }
     open.erase(room);
@@ -152,8 +161,7 @@ Violations check_includes(const fs::path& root) {
         const bool ours = *target.begin() == "telemime";
         const std::string included = ours ? std::next(target.begin())->string() : std::string();
         if (ours && !may_include.contains(included)) {
-          violations.push_back(place(root, file, i + 1) + "room " + room + " includes room " + included +
-                               ", which is not in the DEPENDS of its CMakeLists.txt");
+          violations.push_back(place(root, file, i + 1) + out_of_reach(room, included));
         } else if (!ours && found.str(1) == "\"") {
           violations.push_back(place(root, file, i + 1) +
                                "write \"telemime/<room>/...\" for files of this project " +

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+# Short names for what is done often; `make help` lists them. CMakePresets.json says how things are built.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 20
+CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+TARGETS := help deps configure build demo test bench experiments lint asan tsan fuzz install clean
+.PHONY: $(TARGETS)
+
+help: ## this list
+	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
+
+deps: ## install the Debian packages that are missing (scripts/packages.txt)
+	@scripts/deps.sh build
+
+configure:
+	@cmake --preset release $(CCACHE) > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+	@rm -f build-configure.log
+
+build: configure ## the program: build/release/telemime
+	@cmake --build --preset release --target telemime -j $(JOBS)
+
+demo: deps build ## track the clip in data/demo and score the result: out/demo
+	@scripts/demo.sh
+
+test: deps configure ## build and run all tests
+	@cmake --build --preset release -j $(JOBS)
+	@ctest --preset release -j $(JOBS)
+
+bench: deps configure ## run the benchmarks
+	@cmake --build --preset release -j $(JOBS)
+	@scripts/each.sh build/release/bench
+
+experiments: deps build ## run every experiments/*/run: the tables and figures
+	@scripts/experiments.sh
+
+lint: configure ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
+	@scripts/deps.sh check
+	@scripts/lint.sh $(FILES)
+
+asan: deps ## all but the slow tests under the address and undefined-behaviour sanitizers
+	@cmake --preset asan $(CCACHE)
+	@cmake --build --preset asan -j $(JOBS)
+	@ctest --preset asan -j $(JOBS)
+
+tsan: deps ## all but the slow tests under the thread sanitizer
+	@cmake --preset tsan $(CCACHE)
+	@setarch -R cmake --build --preset tsan -j $(JOBS)
+	@setarch -R ctest --preset tsan -j $(JOBS)
+
+fuzz: deps ## every fuzz target for FUZZ_SECONDS (20)
+	@scripts/deps.sh check
+	@cmake --preset fuzz
+	@cmake --build --preset fuzz -j $(JOBS)
+	@scripts/each.sh build/fuzz/fuzz -max_total_time=$(FUZZ_SECONDS)
+
+install: build ## install program, libraries, headers and data below PREFIX (/usr/local)
+	@cmake --build --preset release -j $(JOBS)
+	@cmake --install build/release --prefix $(PREFIX)
+
+clean: ## remove build/ and out/
+	@rm -rf build out
