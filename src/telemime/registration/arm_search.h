@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "telemime/core/random.h"
+#include "telemime/registration/objective.h"
+
+namespace telemime {
+
+struct ArmSearchConfig {
+  int samples = 400;  ///< random arms that are tried
+  int kept = 4;       ///< best ones that are refined
+  int refine = 60;    ///< evaluations of each refinement
+};
+
+/// A random arm inside the limits that does not enter the body: direction of the upper arm, bend of the elbow
+/// and swivel drawn so that hands before the body are likelier than behind it.
+Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random);
+
+/// Looks for one arm everywhere, not only near where it was: random arms, the best refined by a simplex.
+/// Never worse than the arm that came in. For the first frame and for recovery.
+Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,
+                const ArmSearchConfig& config, Random& random);
+
+}  // namespace telemime

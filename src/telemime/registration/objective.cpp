@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/registration/objective.h"
+
+#include <algorithm>
+#include <array>
+
+#include "telemime/body/interpenetration.h"
+
+namespace telemime {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+double outside_limits(const JointLimits& limits, const Pose& pose) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kAngleCount; ++i) {
+    sum += std::max({0.0, limits.min[i] - pose.angles[i], pose.angles[i] - limits.max[i]});
+  }
+  return sum;
+}
+
+double distance_from_expected(const Kinematics& k, const JointPositions& expected) {
+  constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
+  double sum = 0.0;
+  for (const Joint j : kArms) {
+    sum += (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
+  }
+  return sum / static_cast<double>(kArms.size());
+}
+
+}  // namespace
+
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
+  const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
+  const double arm = body.upper_arm_length[0] + body.forearm_length[0];
+  double sum = 0.0;
+  for (const bool left : {true, false}) {
+    const Eigen::Vector3d shoulder =
+        chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+    const Eigen::Vector3d elbow = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+    const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+    sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
+    sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
+    sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
+  }
+  const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
+  sum += 0.3 * (bend(Angle::root_torsion, 0.5) + bend(Angle::root_roll, 0.25) + bend(Angle::root_tilt, 0.3));
+  sum += 0.3 * (bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3));
+  sum += 0.1 * (bend(Angle::l_wrist_flexion, 0.6) + bend(Angle::r_wrist_flexion, 0.6) +
+                bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25) +
+                bend(Angle::l_wrist_twisting, 1.0) + bend(Angle::r_wrist_twisting, 1.0));
+  return sum / 4.0;
+}
+
+double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) {
+  const Kinematics k = forward_kinematics(model_.body, pose);
+  double cost = weights.invalid * (interpenetration(model_.body, k) + 0.5 * outside_limits(limits_, pose));
+  if (weights.natural > 0.0) {
+    cost += weights.natural * natural_cost(model_.body, pose, k);
+  }
+  if (weights.temporal > 0.0 && expected_) {
+    cost += weights.temporal * distance_from_expected(k, *expected_);
+  }
+  const bool region = weights.region > 0.0;
+  const bool contour = weights.contour > 0.0;
+  const Score s = score(pose, region && contour ? Reduction::all
+                              : region          ? Reduction::overlap
+                                                : Reduction::contour);
+  cost += region ? weights.region * s.region : 0.0;
+  cost += contour ? weights.contour * s.contour / (weights.contour_scale * frame_.camera.width) : 0.0;
+  return cost;
+}
+
+Score Objective::score(const Pose& pose, Reduction terms) {
+  ++evaluations_;
+  Score score;
+  backend_.evaluate(frame_, model_, {&pose, 1}, terms, {&score, 1});
+  return score;
+}
+
+}  // namespace telemime

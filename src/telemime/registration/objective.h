@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "telemime/body/limits.h"
+#include "telemime/likelihood/backend.h"
+
+namespace telemime {
+
+/// What a search minimises: the cues' costs plus what is known without looking at the image.
+struct ObjectiveWeights {
+  double region = 1.0;   ///< of F
+  double contour = 0.0;  ///< of D_C over contour_scale
+  double contour_scale =
+      0.02;              ///< D_C is divided by this share of the image's width, so that it is of F's size
+  double invalid = 4.0;  ///< per metre of interpenetration
+  double natural = 0.0;  ///< of natural_cost
+  double temporal =
+      0.0;  ///< of the squared way (m over 0.15 m) of elbows and wrists from where they are expected
+};
+
+/// A mild preference for poses that people take: hands before the chest rather than behind it, elbows low,
+/// neck, wrists and trunk near their middle. 0 at rest; about 1 for a pose at the edge of comfort. Ranges:
+/// Panero & Zelnik, Human Dimension and Interior Space, 1979 (zones of convenient reach).
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics);
+
+/// Cost of one pose against one frame. Counts its evaluations. Holds references: use it within one frame.
+class Objective {
+ public:
+  Objective(Backend& backend, const PreparedFrame& frame, const Model& model, const JointLimits& limits)
+      : backend_(backend), frame_(frame), model_(model), limits_(limits) {}
+
+  /// Cost of the pose. Angles outside the limits cost extra in proportion.
+  double operator()(const Pose& pose, const ObjectiveWeights& weights);
+  /// F and D_C of the pose; counts as one evaluation.
+  Score score(const Pose& pose, Reduction terms);
+  /// Where elbows and wrists are expected (m, camera frame), for the temporal term; none: the term is 0.
+  void expect(const std::optional<JointPositions>& joints) { expected_ = joints; }
+
+  const Model& model() const { return model_; }
+  const JointLimits& limits() const { return limits_; }
+  const PreparedFrame& frame() const { return frame_; }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  Backend& backend_;
+  const PreparedFrame& frame_;
+  const Model& model_;
+  const JointLimits& limits_;
+  std::optional<JointPositions> expected_;
+  int evaluations_ = 0;
+};
+
+}  // namespace telemime

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/registration/shape_fit.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "telemime/registration/simplex.h"
+
+namespace telemime {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+// Squared deviation of the logarithms of all scales from the average body.
+double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
+  double sum = 0.0;
+  for (const SegmentScale& s : shape.segments) {
+    sum += square(std::log(s.length) / config.length_spread) +
+           square(std::log(s.height) / config.girth_spread) + square(std::log(s.width) / config.girth_spread);
+  }
+  return sum / static_cast<double>(3 * kSegmentCount);
+}
+
+struct Candidate {
+  Shape shape;
+  Pose pose;
+};
+
+// A group of numbers that are fitted together: added to the logarithm of scales, to the sleeve or to the
+// translation.
+struct Group {
+  std::vector<double> steps;
+  std::vector<double> reach;  // how far each may go from the start
+  std::function<Candidate(const Candidate&, const Eigen::VectorXd&)> apply;
+};
+
+void scale(SegmentScale& s, double length, double height, double width) {
+  s.length *= std::exp(length);
+  s.height *= std::exp(height);
+  s.width *= std::exp(width);
+}
+
+Group trunk_group() {
+  return {{0.02, 0.02, 0.04, 0.05, 0.05, 0.05},
+          {0.3, 0.3, 0.4, 0.3, 0.3, 0.4},
+          [](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            to.pose.root += Eigen::Vector3d(x[0], x[1], x[2]);
+            scale(to.shape[Segment::chest], x[3], x[4], x[5]);
+            return to;
+          }};
+}
+
+Group head_group() {
+  return {{0.05, 0.05, 0.05}, {0.3, 0.3, 0.3}, [](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            scale(to.shape[Segment::head], x[0], x[1], x[2]);
+            return to;
+          }};
+}
+
+Group arms_group(const std::vector<Side>& sides) {
+  return {{0.05, 0.10, 0.05, 0.10, 0.05, 0.10, 0.15},
+          {0.3, 0.6, 0.3, 0.6, 0.3, 0.5, 2.0},
+          [sides](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            for (const Side side : sides) {
+              const bool left = side == Side::left;
+              scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], x[0], x[1], x[1]);
+              scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], x[2], x[3], x[3]);
+              scale(to.shape[left ? Segment::l_hand : Segment::r_hand], x[4], x[5], x[5]);
+            }
+            to.shape.sleeve = std::clamp(from.shape.sleeve + x[6], 0.0, 2.0);
+            return to;
+          }};
+}
+
+}  // namespace
+
+ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
+                   const ShapeFitConfig& config) {
+  std::vector<Group> groups = {trunk_group(), head_group()};
+  if (config.share_sides) {
+    groups.push_back(arms_group({Side::left, Side::right}));
+  } else {
+    groups.push_back(arms_group({Side::left}));
+    groups.push_back(arms_group({Side::right}));
+  }
+  Candidate best = {shape, pose};
+  ShapeFit fit;
+  for (const Group& group : groups) {
+    const auto n = static_cast<Eigen::Index>(group.steps.size());
+    const Eigen::VectorXd steps = Eigen::Map<const Eigen::VectorXd>(group.steps.data(), n);
+    const Eigen::VectorXd reach = Eigen::Map<const Eigen::VectorXd>(group.reach.data(), n);
+    const auto cost = [&](const Eigen::VectorXd& x) {
+      const Candidate c = group.apply(best, x);
+      const Model model = make_model(c.shape);
+      Score s;
+      backend.evaluate(frame, model, {&c.pose, 1}, Reduction::all, {&s, 1});
+      const double scale_px = 0.02 * frame.camera.width;
+      return s.region + config.contour_weight * s.contour / scale_px +
+             config.prior_weight * shape_prior(c.shape, config);
+    };
+    SimplexOptions options;
+    options.max_evaluations = config.iterations;
+    const Bounds bounds = {-reach, reach};
+    const SimplexResult found =
+        minimise(cost, axis_simplex(Eigen::VectorXd::Zero(n), steps, bounds), bounds, options);
+    best = group.apply(best, found.best().point);
+    fit.cost = found.best().cost;
+    fit.evaluations += found.evaluations;
+  }
+  fit.shape = best.shape;
+  fit.pose = best.pose;
+  return fit;
+}
+
+}  // namespace telemime

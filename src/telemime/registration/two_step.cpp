@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/registration/two_step.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kParts = 3;  // trunk, left arm, right arm
+
+// What a step leaves to the next: the pose, and the extent of each block's last simplex.
+struct StepResult {
+  Pose pose;
+  std::vector<std::vector<Vertex>> simplexes;
+  bool converged = true;
+};
+
+SearchBlock make_block(std::size_t part, const Objective& objective, const Pose& pose, double factor) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  switch (part) {
+    case 0:
+      return trunk_block(pose, limits, factor);
+    case 1:
+      return arm_block(body, pose, Side::left, limits, factor);
+    default:
+      return arm_block(body, pose, Side::right, limits, factor);
+  }
+}
+
+std::vector<Eigen::VectorXd> first_simplex(const SearchBlock& block, const std::vector<Vertex>* last,
+                                           double shrink) {
+  if (last == nullptr || last->size() < 2) {
+    return axis_simplex(block.start, block.steps, block.bounds);
+  }
+  // The last simplex's extent, laid about where this block is now (other blocks may have moved on).
+  Eigen::VectorXd extent = block.steps * shrink;
+  for (const Vertex& v : *last) {
+    extent = extent.cwiseMax((v.point - last->front().point).cwiseAbs().cwiseMin(block.steps));
+  }
+  return axis_simplex(block.start, extent, block.bounds);
+}
+
+StepResult run_step(Objective& objective, const Pose& start, const RegistrationConfig& config,
+                    const ObjectiveWeights& weights, int budget, const StepResult* before) {
+  StepResult result;
+  result.pose = start;
+  result.simplexes.resize(kParts);
+  const double shrink = config.edge_factor / config.simplex_factor;
+  const auto search = [&](const SearchBlock& block, std::size_t part, int evaluations) {
+    if (evaluations < 2) {
+      return;
+    }
+    const auto* last = before != nullptr ? &before->simplexes[part] : nullptr;
+    SimplexOptions options;
+    options.tolerance = config.tolerance;
+    options.max_evaluations = evaluations;
+    const SimplexResult found =
+        minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+                 first_simplex(block, last, shrink), block.bounds, options);
+    result.pose = block.decode(found.best().point);
+    result.simplexes[part] = found.simplex;
+    result.converged = result.converged && found.reason == StopReason::converged;
+  };
+  if (!config.blocks) {
+    search(whole_block(start, objective.limits(), config.simplex_factor), 0, budget);
+    return result;
+  }
+  const int first = objective.evaluations();
+  constexpr std::array<double, kParts> kShare = {0.2, 0.4, 0.4};
+  for (int round = 0; round < config.rounds; ++round) {
+    const double factor = config.simplex_factor * std::pow(0.5, round);
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const int left = budget - (objective.evaluations() - first);
+      const int planned = static_cast<int>(std::lround(budget * kShare[part] / config.rounds));
+      search(make_block(part, objective, result.pose, factor), part, std::min(left, planned));
+    }
+  }
+  return result;
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void RegistrationConfig::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "registration: " + what);
+    }
+  };
+  require(iterations >= 1 && iterations <= 1000000, "iterations must be between 1 and 1000000");
+  require(region_share >= 0.0 && region_share <= 1.0, "region_share must be between 0 and 1");
+  require(simplex_factor > 0.0 && simplex_factor <= 20.0, "simplex_factor must be above 0, at most 20");
+  require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
+  require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
+  require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
+  for (const ObjectiveWeights* w : {&region, &edge}) {
+    require(
+        w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 && w->temporal >= 0.0,
+        "weights must not be negative");
+    require(w->contour_scale > 0.0, "contour_scale must be positive");
+  }
+}
+
+RegistrationConfig reference_registration() {
+  RegistrationConfig config;
+  config.blocks = false;
+  config.region_share = 0.5;
+  config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0};
+  config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0};
+  return config;
+}
+
+RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config) {
+  const double share = config.method == Method::regions ? 1.0
+                       : config.method == Method::edges ? 0.0
+                                                        : config.region_share;
+  // The last evaluation scores the pose that is returned.
+  const int budget = std::max(1, config.iterations - 1);
+  const int region_budget = static_cast<int>(std::lround(share * budget));
+
+  RegistrationResult result;
+  StepResult step;
+  step.pose = start;
+  step.simplexes.resize(kParts);
+  int before = objective.evaluations();
+  auto clock = std::chrono::steady_clock::now();
+  if (region_budget > 0) {
+    step = run_step(objective, start, config, config.region, region_budget, nullptr);
+  }
+  result.region_evaluations = objective.evaluations() - before;
+  result.region_ms = milliseconds_since(clock);
+
+  before = objective.evaluations();
+  clock = std::chrono::steady_clock::now();
+  if (budget - region_budget > 0) {
+    step = run_step(objective, step.pose, config, config.edge, budget - region_budget,
+                    region_budget > 0 ? &step : nullptr);
+  }
+  result.edge_evaluations = objective.evaluations() - before;
+  result.edge_ms = milliseconds_since(clock);
+  result.pose = objective.limits().clamp(step.pose);
+  result.score = objective.score(result.pose, Reduction::all);
+  result.converged = step.converged;
+  return result;
+}
+
+Method parse_method(const std::string& name) {
+  for (const Method m : {Method::regions, Method::edges, Method::two_step}) {
+    if (name == to_string(m)) {
+      return m;
+    }
+  }
+  throw Error(ErrorKind::usage, "unknown method '" + name + "'", "Use regions, edges or two-step.");
+}
+
+std::string_view to_string(Method method) {
+  switch (method) {
+    case Method::regions:
+      return "regions";
+    case Method::edges:
+      return "edges";
+    case Method::two_step:
+      break;
+  }
+  return "two-step";
+}
+
+}  // namespace telemime
