@@ -15,7 +15,7 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/telemime")
 install(TARGETS ${rooms} telemime_all EXPORT telemime ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT telemime NAMESPACE telemime:: FILE telemimeTargets.cmake DESTINATION "${package_dir}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/telemime" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-        FILES_MATCHING PATTERN "*.h" PATTERN "*testing.h" EXCLUDE)
+        FILES_MATCHING PATTERN "*.h" PATTERN "testing*.h" EXCLUDE)
 if(TARGET telemime)
   install(TARGETS telemime RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()

@@ -26,7 +26,10 @@ function(telemime_room name)
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
 
   if(NOT sources)
-    add_library(telemime_${name} INTERFACE)
+    add_library(telemime_${name} INTERFACE)  # headers only
+    add_library(telemime::${name} ALIAS telemime_${name})
+    set_target_properties(telemime_${name} PROPERTIES EXPORT_NAME ${name})
+    set_property(GLOBAL APPEND PROPERTY TELEMIME_ROOMS telemime_${name})
     return()
   endif()
   add_library(telemime_${name} STATIC ${sources})
@@ -54,12 +57,15 @@ endfunction()
 # LABELS slow). The label "slow" keeps it out of the runs under sanitizers.
 function(telemime_test name)
   cmake_parse_arguments(TEST "" "" "SOURCES;ROOMS;LIBRARIES;LABELS" ${ARGN})
+  set(labels)
+  if(TEST_LABELS)
+    set(labels LABELS "${TEST_LABELS}")
+  endif()
   add_executable(${name}_test ${TEST_SOURCES})
   list(TRANSFORM TEST_ROOMS PREPEND telemime::)
   target_link_libraries(${name}_test PRIVATE ${TEST_ROOMS} ${TEST_LIBRARIES} telemime_flags GTest::gtest
                                              GTest::gtest_main)
   target_compile_definitions(${name}_test PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 LABELS "${TEST_LABELS}"
-                                  SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
+                       PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${labels})
 endfunction()
