@@ -57,6 +57,8 @@ Json body_json(const Body& body) {
           {"head_top_from_head", millimetres(body.head_top_from_head)},
           {"l_shoulder_from_neck", millimetres(body.shoulder_from_neck[0])},
           {"r_shoulder_from_neck", millimetres(body.shoulder_from_neck[1])},
+          {"clavicle_lift", millimetres(body.clavicle_lift)},
+          {"clavicle_reach", millimetres(body.clavicle_reach)},
           {"l_upper_arm", millimetres(body.upper_arm_length[0])},
           {"r_upper_arm", millimetres(body.upper_arm_length[1])},
           {"l_forearm", millimetres(body.forearm_length[0])},

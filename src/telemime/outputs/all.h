@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "telemime/outputs/encoder.h"
+#include "telemime/outputs/encoders/bap.h"
+#include "telemime/outputs/encoders/bvh.h"
+#include "telemime/outputs/encoders/csv.h"
+#include "telemime/outputs/encoders/jsonl.h"
+
+namespace telemime {
+
+/// What a user may choose about the files.
+struct OutputOptions {
+  std::string bap_profile = "iso";  ///< bap/profile.h
+};
+
+/// One file format that a run can write.
+struct OutputFormat {
+  std::string_view name;       ///< as the user names it
+  std::string_view file_name;  ///< in the folder of the results
+  std::string_view summary;
+  std::unique_ptr<Encoder> (*make)(const OutputOptions&);
+};
+
+/// All of them. A new format is an encoder and a line here.
+inline constexpr std::array<OutputFormat, 4> kOutputFormats = {{
+    {"jsonl", "pose.jsonl", "everything, one JSON object a frame",
+     [](const OutputOptions&) { return make_jsonl_encoder(); }},
+    {"csv", "pose.csv", "a table for spreadsheets", [](const OutputOptions&) { return make_csv_encoder(); }},
+    {"bvh", "motion.bvh", "skeleton animation for Blender and others",
+     [](const OutputOptions&) { return make_bvh_encoder(); }},
+    {"bap", "motion.bap", "MPEG-4 body animation parameters",
+     [](const OutputOptions& options) { return make_bap_encoder(options.bap_profile); }},
+}};
+
+/// By name. Throws Error(usage) that lists the names.
+const OutputFormat& output_format(std::string_view name);
+
+}  // namespace telemime

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/bvh/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/random.h"
+#include "telemime/outputs/bvh/skeleton.h"
+#include "telemime/outputs/encoders/bvh.h"
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+std::string encoded(const StreamHeader& header, const std::vector<MotionFrame>& frames) {
+  return testing_motion::encode_all(*make_bvh_encoder(), header, frames);
+}
+
+Eigen::Vector3d place(const std::vector<Eigen::Isometry3d>& world, BvhBone bone) {
+  return world[static_cast<std::size_t>(bone)].translation();
+}
+
+Eigen::Vector3d end_of(const BvhFile& file, const std::vector<Eigen::Isometry3d>& world, BvhBone bone) {
+  const auto b = static_cast<std::size_t>(bone);
+  return world[b] * *file.joints[b].end_site;
+}
+
+/// m, camera frame, to cm of the file.
+Eigen::Vector3d in_file(const Eigen::Vector3d& camera) {
+  return 100.0 * (camera_from_body_at_rest() * camera);
+}
+
+/// Distance (cm) of the worst of the twelve joints.
+double worst_joint(const BvhFile& file, std::size_t f, const JointPositions& joints) {
+  const auto world = bvh_world(file, f);
+  const std::array<std::pair<Joint, Eigen::Vector3d>, kJointCount> pairs = {{
+      {Joint::root, place(world, BvhBone::spine)},
+      {Joint::neck, place(world, BvhBone::neck)},
+      {Joint::head, place(world, BvhBone::head)},
+      {Joint::head_top, end_of(file, world, BvhBone::head)},
+      {Joint::l_shoulder, place(world, BvhBone::l_arm)},
+      {Joint::r_shoulder, place(world, BvhBone::r_arm)},
+      {Joint::l_elbow, place(world, BvhBone::l_forearm)},
+      {Joint::r_elbow, place(world, BvhBone::r_forearm)},
+      {Joint::l_wrist, place(world, BvhBone::l_hand)},
+      {Joint::r_wrist, place(world, BvhBone::r_hand)},
+      {Joint::l_hand, end_of(file, world, BvhBone::l_hand)},
+      {Joint::r_hand, end_of(file, world, BvhBone::r_hand)},
+  }};
+  double worst = 0.0;
+  for (const auto& [joint, found] : pairs) {
+    worst = std::max(worst, (found - in_file(joints[joint])).norm());
+  }
+  return worst;
+}
+
+TEST(Bvh, JointsStandWhereTheMotionFrameHasThem) {
+  const StreamHeader header = testing_motion::header();
+  std::vector<MotionFrame> frames = testing_motion::gesture(header, 40);
+  Random random(3);
+  for (int n = 0; n < 200; ++n) {
+    frames.push_back(testing_motion::frame_of(header.body, header.camera,
+                                              testing_motion::random_pose(header.limits, random),
+                                              static_cast<std::int64_t>(frames.size()), header.fps));
+  }
+  const BvhFile file = parse_bvh(encoded(header, frames), "test.bvh");
+  EXPECT_TRUE(file.complaint.empty()) << file.complaint;
+  EXPECT_NEAR(file.frame_time, 0.04, 1e-9);
+  ASSERT_EQ(file.frames.size(), frames.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    EXPECT_LT(worst_joint(file, f, frames[f].joints), 0.002) << "frame " << f;  // cm: 0.02 mm
+  }
+}
+
+TEST(Bvh, RestIsAnUprightTPoseFacingForward) {
+  const Body body = make_body(Shape{});
+  BvhFile file;
+  file.joints = bvh_skeleton(body);
+  std::size_t channels = 0;
+  for (const BvhJoint& joint : file.joints) {
+    channels += joint.channels.size();
+  }
+  file.frames = {std::vector<double>(channels, 0.0)};
+  const auto world = bvh_world(file, 0);
+  const Eigen::Vector3d shoulder = place(world, BvhBone::l_arm);
+  const Eigen::Vector3d hand = end_of(file, world, BvhBone::l_hand);
+  EXPECT_GT(shoulder.x(), 10.0);  // the person's left is +x
+  EXPECT_NEAR(hand.y(), shoulder.y(), 1e-9);
+  EXPECT_NEAR(hand.z(), shoulder.z(), 1e-9);
+  EXPECT_GT(end_of(file, world, BvhBone::head).y(), place(world, BvhBone::neck).y());
+  EXPECT_LT(place(world, BvhBone::l_foot).y(), place(world, BvhBone::l_thigh).y());
+  EXPECT_GT(end_of(file, world, BvhBone::l_foot).z(), place(world, BvhBone::l_foot).z());  // toes forward
+  const Eigen::Vector3d right = end_of(file, world, BvhBone::r_hand);
+  EXPECT_TRUE(right.isApprox(Eigen::Vector3d(-hand.x(), hand.y(), hand.z()), 1e-9));
+}
+
+TEST(Bvh, ATPoseHasNoRotationInTheArms) {
+  const Body body = make_body(Shape{});
+  Pose pose;
+  pose[Angle::l_shoulder_abduct] = std::numbers::pi / 2.0;
+  pose[Angle::r_shoulder_abduct] = -std::numbers::pi / 2.0;
+  const BvhMotion motion = bvh_motion(body, pose);
+  for (std::size_t b = 0; b < kBvhBoneCount; ++b) {
+    EXPECT_TRUE(motion.parent_from_bone[b].isApprox(Eigen::Matrix3d::Identity(), 1e-9)) << "bone " << b;
+  }
+}
+
+TEST(Bvh, OnlyTheHipsTranslateAndLegsStandStill) {
+  const auto joints = bvh_skeleton(make_body(Shape{}));
+  ASSERT_EQ(joints.size(), kBvhBoneCount);
+  for (std::size_t b = 0; b < joints.size(); ++b) {
+    EXPECT_EQ(joints[b].channels.size(), b == 0 ? 6U : 3U);
+    EXPECT_LT(joints[b].parent, static_cast<int>(b));
+  }
+  Random random(4);
+  const BvhMotion motion =
+      bvh_motion(make_body(Shape{}), testing_motion::random_pose(anatomical_limits(), random));
+  for (auto b = static_cast<std::size_t>(BvhBone::l_thigh); b < kBvhBoneCount; ++b) {
+    EXPECT_TRUE(motion.parent_from_bone[b].isIdentity(0.0));
+  }
+}
+
+TEST(Bvh, AnglesGoOnPastHalfATurn) {
+  const StreamHeader header = testing_motion::header();
+  std::vector<MotionFrame> frames;
+  for (int t = 0; t < 60; ++t) {
+    Pose pose;
+    pose[Angle::root_torsion] = 0.1 * t;
+    frames.push_back(testing_motion::frame_of(header.body, header.camera, pose, t, header.fps));
+  }
+  const BvhFile file = parse_bvh(encoded(header, frames), "test.bvh");
+  for (std::size_t f = 1; f < file.frames.size(); ++f) {
+    for (std::size_t c = 3; c < file.frames[f].size(); ++c) {
+      EXPECT_LT(std::abs(file.frames[f][c] - file.frames[f - 1][c]), 20.0)
+          << "frame " << f << " channel " << c;
+    }
+  }
+}
+
+TEST(Bvh, EveryPrefixOfWholeFramesIsAFile) {
+  const StreamHeader header = testing_motion::header();
+  const auto frames = testing_motion::gesture(header, 5);
+  const auto encoder = make_bvh_encoder();
+  std::string text = encoder->begin(header);
+  EXPECT_EQ(parse_bvh(text, "t").frames.size(), 0U);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    text += encoder->frame(frames[f]);
+    const auto patch = encoder->patch();
+    ASSERT_TRUE(patch);
+    text.replace(patch->offset, patch->bytes.size(), patch->bytes);
+    const BvhFile file = parse_bvh(text, "t");
+    EXPECT_EQ(file.frames.size(), f + 1);
+    EXPECT_TRUE(file.complaint.empty()) << file.complaint;
+  }
+}
+
+TEST(BvhReader, ReportsACutEndAndAWrongCount) {
+  const StreamHeader header = testing_motion::header();
+  const std::string text = encoded(header, testing_motion::gesture(header, 3));
+  const BvhFile cut = parse_bvh(std::string_view(text).substr(0, text.size() - 200), "cut.bvh");
+  EXPECT_EQ(cut.frames.size(), 2U);
+  EXPECT_NE(cut.complaint.find("cut off"), std::string::npos);
+  std::string fewer = text;
+  fewer.replace(fewer.find("Frames:"), 18, "Frames:          7");
+  EXPECT_NE(parse_bvh(fewer, "t").complaint.find("7"), std::string::npos);
+}
+
+TEST(BvhReader, NamesTheLineThatIsWrong) {
+  const StreamHeader header = testing_motion::header();
+  const std::string text = encoded(header, testing_motion::gesture(header, 2));
+  const auto message_with = [&text](const std::string& from, const std::string& to) -> std::string {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    try {
+      parse_bvh(changed, "t.bvh");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_NE(message_with("HIERARCHY", "HIERARCHIE").find("line 1"), std::string::npos);
+  EXPECT_NE(message_with("CHANNELS 6", "CHANNELS 7").find("channels"), std::string::npos);
+  EXPECT_NE(message_with("Zrotation", "Wrotation").find("Wrotation"), std::string::npos);
+  EXPECT_NE(message_with("Frame Time: 0.04", "Frame Time: -1.0").find("frame time"), std::string::npos);
+  EXPECT_NE(message_with("MOTION", "ROOT a").find("several roots"), std::string::npos);
+  EXPECT_THROW(parse_bvh("", "t"), Error);
+  EXPECT_THROW(parse_bvh("HIERARCHY\nROOT Hips\n{\n", "t"), Error);
+}
+
+}  // namespace
+}  // namespace telemime

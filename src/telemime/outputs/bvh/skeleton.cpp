@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/bvh/skeleton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "telemime/body/rotations.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kCentimetresPerMetre = 100.0;
+
+// Fractions of stature of what is not tracked: plausible, so that a retargeter sees a whole person who
+// stands.
+constexpr double kHipsBelowRoot = 0.03;
+constexpr double kHipHalfWidth = 0.05;
+constexpr double kThigh = 0.225;
+constexpr double kShank = 0.225;
+constexpr double kAnkleHeight = 0.032;
+constexpr double kFootLength = 0.11;
+// The inner end of the clavicle from C7, and the height of its outer end above the shoulder centre.
+constexpr double kCollarSide = 0.012;
+constexpr double kCollarBelowNeck = 0.035;
+constexpr double kCollarForward = 0.020;
+constexpr double kBlade = 0.030;
+
+double side_sign(Side side) {
+  return side == Side::left ? 1.0 : -1.0;
+}
+
+/// From the hanging arm of our rest pose to the arm of the T-pose.
+Eigen::Matrix3d t_pose_from_rest(Side side) {
+  return rotation_z(side_sign(side) * std::numbers::pi / 2.0);
+}
+
+/// Clavicle and shoulder blade: two links in the chest frame, m.
+struct Girdle {
+  Eigen::Vector3d collar;    ///< inner end of the clavicle
+  Eigen::Vector3d blade;     ///< outer end of the clavicle
+  Eigen::Vector3d shoulder;  ///< shoulder centre
+};
+
+Eigen::Vector3d collar_in_chest(const Body& body, Side side) {
+  return body.neck_from_root + body.shape.stature * Eigen::Vector3d(side_sign(side) * kCollarSide,
+                                                                    -kCollarBelowNeck, kCollarForward);
+}
+
+/// Direction in the plane of `along` and the vertical, perpendicular to `along`, upward.
+Eigen::Vector3d upward(const Eigen::Vector3d& along) {
+  const Eigen::Vector3d axis = along.normalized();
+  return (Eigen::Vector3d::UnitY() - axis.y() * axis).normalized();
+}
+
+Girdle girdle_in_t_pose(const Body& body, Side side) {
+  Girdle girdle;
+  girdle.collar = collar_in_chest(body, side);
+  girdle.shoulder = shoulder_in_chest(body, side, side_sign(side) * Eigen::Vector3d::UnitX());
+  girdle.blade = girdle.shoulder + kBlade * body.shape.stature * upward(girdle.shoulder - girdle.collar);
+  return girdle;
+}
+
+/// The same links with the shoulder elsewhere: the triangle of the three points from its three sides.
+Girdle girdle_reaching(const Girdle& rest, const Eigen::Vector3d& shoulder) {
+  const double clavicle = (rest.blade - rest.collar).norm();
+  const double blade = (rest.shoulder - rest.blade).norm();
+  const Eigen::Vector3d reach = shoulder - rest.collar;
+  const double distance = reach.norm();
+  const double along = (distance * distance + clavicle * clavicle - blade * blade) / (2.0 * distance);
+  const double height = std::sqrt(std::max(0.0, clavicle * clavicle - along * along));
+  return {rest.collar, rest.collar + along * reach / distance + height * upward(reach), shoulder};
+}
+
+/// Axes along a link and across the plane of the girdle.
+Eigen::Matrix3d link_frame(const Eigen::Vector3d& link, const Girdle& girdle) {
+  Eigen::Matrix3d frame;
+  const Eigen::Vector3d reach = girdle.shoulder - girdle.collar;
+  frame.col(0) = link.normalized();
+  frame.col(1) = reach.cross(upward(reach)).normalized();
+  frame.col(2) = frame.col(0).cross(frame.col(1));
+  return frame;
+}
+
+BvhJoint joint(const char* name, BvhBone parent, const Eigen::Vector3d& metres) {
+  BvhJoint result;
+  result.name = name;
+  result.parent = static_cast<int>(parent);
+  result.offset = kCentimetresPerMetre * metres;
+  result.channels = {BvhChannel::z_rotation, BvhChannel::x_rotation, BvhChannel::y_rotation};
+  return result;
+}
+
+BvhJoint last_joint(const char* name, BvhBone parent, const Eigen::Vector3d& metres,
+                    const Eigen::Vector3d& end_metres) {
+  BvhJoint result = joint(name, parent, metres);
+  result.end_site = kCentimetresPerMetre * end_metres;
+  return result;
+}
+
+void add_arm(const Body& body, Side side, std::vector<BvhJoint>& joints) {
+  const bool left = side == Side::left;
+  const auto i = static_cast<std::size_t>(side);
+  const Eigen::Vector3d outward = side_sign(side) * Eigen::Vector3d::UnitX();
+  const Girdle girdle = girdle_in_t_pose(body, side);
+  const Eigen::Vector3d spine1 = 0.5 * body.neck_from_root;
+  joints.push_back(joint(left ? "LeftShoulder" : "RightShoulder", BvhBone::spine1, girdle.collar - spine1));
+  joints.push_back(joint(left ? "LeftShoulderBlade" : "RightShoulderBlade",
+                         left ? BvhBone::l_collar : BvhBone::r_collar, girdle.blade - girdle.collar));
+  joints.push_back(joint(left ? "LeftArm" : "RightArm", left ? BvhBone::l_blade : BvhBone::r_blade,
+                         girdle.shoulder - girdle.blade));
+  joints.push_back(joint(left ? "LeftForeArm" : "RightForeArm", left ? BvhBone::l_arm : BvhBone::r_arm,
+                         body.upper_arm_length[i] * outward));
+  joints.push_back(last_joint(left ? "LeftHand" : "RightHand", left ? BvhBone::l_forearm : BvhBone::r_forearm,
+                              body.forearm_length[i] * outward, body.hand_length[i] * outward));
+}
+
+void add_leg(const Body& body, Side side, std::vector<BvhJoint>& joints) {
+  const bool left = side == Side::left;
+  const double h = body.shape.stature;
+  joints.push_back(
+      joint(left ? "LeftUpLeg" : "RightUpLeg", BvhBone::hips, {side_sign(side) * kHipHalfWidth * h, 0, 0}));
+  joints.push_back(
+      joint(left ? "LeftLeg" : "RightLeg", left ? BvhBone::l_thigh : BvhBone::r_thigh, {0, -kThigh * h, 0}));
+  joints.push_back(last_joint(left ? "LeftFoot" : "RightFoot", left ? BvhBone::l_shank : BvhBone::r_shank,
+                              {0, -kShank * h, 0}, {0, -kAnkleHeight * h, kFootLength * h}));
+}
+
+Eigen::Vector3d spine_from_hips(const Body& body) {
+  return {0.0, kHipsBelowRoot * body.shape.stature, 0.0};
+}
+
+/// Angle about the vertical by which the trunk faces away from +z; 0 for one that lies.
+double heading(const Eigen::Matrix3d& trunk) {
+  const Eigen::Vector3d front = trunk.col(2);
+  return std::hypot(front.x(), front.z()) > 1e-6 ? std::atan2(front.x(), front.z()) : 0.0;
+}
+
+}  // namespace
+
+std::vector<BvhJoint> bvh_skeleton(const Body& body) {
+  std::vector<BvhJoint> joints;
+  BvhJoint hips = joint("Hips", BvhBone::hips, Eigen::Vector3d::Zero());
+  hips.parent = -1;
+  hips.channels.insert(hips.channels.begin(),
+                       {BvhChannel::x_position, BvhChannel::y_position, BvhChannel::z_position});
+  joints.push_back(hips);
+  joints.push_back(joint("Spine", BvhBone::hips, spine_from_hips(body)));
+  joints.push_back(joint("Spine1", BvhBone::spine, 0.5 * body.neck_from_root));
+  joints.push_back(joint("Neck", BvhBone::spine1, 0.5 * body.neck_from_root));
+  joints.push_back(last_joint("Head", BvhBone::neck, body.head_from_neck, body.head_top_from_head));
+  add_arm(body, Side::left, joints);
+  add_arm(body, Side::right, joints);
+  add_leg(body, Side::left, joints);
+  add_leg(body, Side::right, joints);
+  return joints;
+}
+
+BvhMotion bvh_motion(const Body& body, const Pose& pose) {
+  const Kinematics k = forward_kinematics(body, pose);
+  const Eigen::Matrix3d world_from_camera = camera_from_body_at_rest().transpose();
+  const Eigen::Matrix3d trunk = world_from_camera * k[Segment::chest].linear();
+  const Eigen::Matrix3d hips = rotation_y(heading(trunk));
+  BvhMotion motion;
+  motion.parent_from_bone.fill(Eigen::Matrix3d::Identity());
+  const auto set = [&motion](BvhBone bone, const Eigen::Matrix3d& rotation) {
+    motion.parent_from_bone[static_cast<std::size_t>(bone)] = rotation;
+  };
+  motion.hips = kCentimetresPerMetre * (world_from_camera * pose.root - hips * spine_from_hips(body));
+  set(BvhBone::hips, hips);
+  set(BvhBone::spine, hips.transpose() * trunk);
+  set(BvhBone::neck, k[Segment::chest].linear().transpose() * k[Segment::head].linear());
+
+  for (const Side side : {Side::left, Side::right}) {
+    const bool left = side == Side::left;
+    const Eigen::Isometry3d& upper = k[left ? Segment::l_upper_arm : Segment::r_upper_arm];
+    const Eigen::Isometry3d& fore = k[left ? Segment::l_forearm : Segment::r_forearm];
+    const Eigen::Isometry3d& hand = k[left ? Segment::l_hand : Segment::r_hand];
+    const Eigen::Isometry3d arm_in_chest = k[Segment::chest].inverse() * upper;
+    const Girdle rest = girdle_in_t_pose(body, side);
+    const Girdle girdle = girdle_reaching(rest, arm_in_chest.translation());
+    const Eigen::Matrix3d clavicle = link_frame(girdle.blade - girdle.collar, girdle) *
+                                     link_frame(rest.blade - rest.collar, rest).transpose();
+    const Eigen::Matrix3d blade = link_frame(girdle.shoulder - girdle.blade, girdle) *
+                                  link_frame(rest.shoulder - rest.blade, rest).transpose();
+    const Eigen::Matrix3d t = t_pose_from_rest(side);
+    set(left ? BvhBone::l_collar : BvhBone::r_collar, clavicle);
+    set(left ? BvhBone::l_blade : BvhBone::r_blade, clavicle.transpose() * blade);
+    set(left ? BvhBone::l_arm : BvhBone::r_arm, blade.transpose() * arm_in_chest.linear() * t.transpose());
+    set(left ? BvhBone::l_forearm : BvhBone::r_forearm,
+        t * upper.linear().transpose() * fore.linear() * t.transpose());
+    set(left ? BvhBone::l_hand : BvhBone::r_hand,
+        t * fore.linear().transpose() * hand.linear() * t.transpose());
+  }
+  return motion;
+}
+
+}  // namespace telemime

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/encoders/bap.h"
+
+#include <algorithm>
+#include <string>
+
+#include "telemime/outputs/bap/profile.h"
+#include "telemime/outputs/finite.h"
+#include "telemime/outputs/numbers.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kCountWidth = 9;
+constexpr std::string_view kName = "motion.bap";
+
+/// "25", or "29.970" when it is not whole.
+std::string frame_rate(double fps) {
+  std::string text;
+  append_fixed(text, fps, fps == std::round(fps) ? 0 : 3);
+  return text;
+}
+
+class BapEncoder final : public Encoder {
+ public:
+  explicit BapEncoder(const BapProfile& profile) : profile_(profile) {
+    const auto ids = bap_ids(profile);
+    for (int id = 1; id <= profile.mask_length; ++id) {
+      mask_ += std::binary_search(ids.begin(), ids.end(), id) ? "1" : "0";
+      mask_ += id < profile.mask_length ? " " : "\n";
+    }
+  }
+
+  std::string begin(const StreamHeader& header) override {
+    std::string text =
+        std::string(profile_.version) + " " + std::string(kName) + " " + frame_rate(header.fps) + " ";
+    count_offset_ = text.size();
+    return text + padded_count(0, kCountWidth) + "\n";
+  }
+
+  std::string frame(const MotionFrame& raw) override {
+    const MotionFrame frame = finite_(raw);
+    last_ = encode_bap(profile_, frame.pose, last_);
+    std::string text = mask_ + std::to_string(frame.frame);
+    for (const int value : last_) {
+      text += " " + std::to_string(value);
+    }
+    ++count_;
+    return text + "\n";
+  }
+
+  std::string end() override { return {}; }
+
+  std::optional<Patch> patch() const override {
+    return Patch{count_offset_, padded_count(count_, kCountWidth)};
+  }
+
+ private:
+  const BapProfile& profile_;
+  std::string mask_;
+  FiniteFrames finite_;
+  BapValues last_{};
+  std::size_t count_ = 0;
+  std::size_t count_offset_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Encoder> make_bap_encoder(std::string_view profile) {
+  return std::make_unique<BapEncoder>(bap_profile(profile));
+}
+
+}  // namespace telemime

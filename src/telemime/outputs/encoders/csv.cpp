@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/encoders/csv.h"
+
+#include <string>
+
+#include "telemime/outputs/finite.h"
+#include "telemime/outputs/numbers.h"
+
+namespace telemime {
+namespace {
+
+void append_cell(std::string& line, double value, int decimals) {
+  line += ',';
+  append_fixed(line, value, decimals);
+}
+
+class CsvEncoder final : public Encoder {
+ public:
+  std::string begin(const StreamHeader& /*header*/) override {
+    std::string line = "frame,time_s,state";
+    for (const auto name : kAngleNames) {
+      line.append(",").append(name).append("_deg");
+    }
+    line += ",root_x_mm,root_y_mm,root_z_mm";
+    for (std::size_t j = 1; j < kJointCount; ++j) {  // joint 0 is the root, whose place stands before
+      for (const char* const axis : {"_x_mm", "_y_mm", "_z_mm"}) {
+        line.append(",").append(kJointNames[j]).append(axis);
+      }
+    }
+    for (const auto name : kJointNames) {
+      line.append(",").append(name).append("_u_px,").append(name).append("_v_px");
+    }
+    return line + ",F,D_C,evaluations\n";
+  }
+
+  std::string frame(const MotionFrame& raw) override {
+    const MotionFrame frame = finite_(raw);
+    std::string line = std::to_string(frame.frame);
+    append_cell(line, frame.time, 6);
+    line += frame.state == TrackState::tracking ? ",tracking" : ",lost";
+    for (const double angle : frame.pose.angles) {
+      append_cell(line, angle * kDegreesPerRadian, 4);
+    }
+    append_place(line, frame.pose.root);
+    for (std::size_t j = 1; j < kJointCount; ++j) {
+      append_place(line, frame.joints.at[j]);
+    }
+    for (const auto& pixel : frame.pixels) {
+      append_cell(line, pixel.x(), 3);
+      append_cell(line, pixel.y(), 3);
+    }
+    append_cell(line, frame.region_score, 6);
+    append_cell(line, frame.contour_score, 6);
+    return line + "," + std::to_string(frame.evaluations) + "\n";
+  }
+
+  std::string end() override { return {}; }
+  std::optional<Patch> patch() const override { return std::nullopt; }
+
+ private:
+  static void append_place(std::string& line, const Eigen::Vector3d& place) {
+    for (const double value : place) {
+      append_cell(line, value * kMillimetresPerMetre, 2);
+    }
+  }
+
+  FiniteFrames finite_;
+};
+
+}  // namespace
+
+std::unique_ptr<Encoder> make_csv_encoder() {
+  return std::make_unique<CsvEncoder>();
+}
+
+}  // namespace telemime

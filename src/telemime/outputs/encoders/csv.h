@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "telemime/outputs/encoder.h"
+
+namespace telemime {
+
+/// pose.csv: one line a frame for spreadsheets; a first line with the names of the columns (docs/formats.md).
+/// Millimetres, degrees, camera frame.
+std::unique_ptr<Encoder> make_csv_encoder();
+
+}  // namespace telemime

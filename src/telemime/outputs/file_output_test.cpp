@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/file_output.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "telemime/core/errors.h"
+#include "telemime/outputs/all.h"
+#include "telemime/outputs/bap/reader.h"
+#include "telemime/outputs/bvh/bvh.h"
+#include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/readers/text_file.h"
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+class FileOutputTest : public testing::Test {
+ protected:
+  FileOutputTest()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("telemime_outputs_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~FileOutputTest() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  const StreamHeader header_ = testing_motion::header();
+  const std::vector<MotionFrame> frames_ = testing_motion::gesture(header_, 10);
+  std::filesystem::path folder_;
+};
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::output);
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST_F(FileOutputTest, WritesWhatTheEncoderMakes) {
+  for (const OutputFormat& format : kOutputFormats) {
+    const auto path = folder_ / format.file_name;
+    FileOutput output(path, format.make({}), header_);
+    for (const MotionFrame& frame : frames_) {
+      output.write(frame);
+    }
+    output.close();
+    output.close();
+    EXPECT_EQ(read_text_file(path), testing_motion::encode_all(*format.make({}), header_, frames_))
+        << format.name;
+  }
+}
+
+TEST_F(FileOutputTest, AFileIsValidAfterEveryFrame) {
+  FileOutput json(folder_ / "pose.jsonl", make_jsonl_encoder(), header_);
+  FileOutput bvh(folder_ / "motion.bvh", make_bvh_encoder(), header_);
+  FileOutput bap(folder_ / "motion.bap", make_bap_encoder("iso"), header_);
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    json.write(frames_[f]);
+    bvh.write(frames_[f]);
+    bap.write(frames_[f]);
+    // Nothing was closed: this is what a killed run leaves behind.
+    const PoseFile json_file = read_pose_jsonl(json.path());
+    const BvhFile bvh_file = read_bvh(bvh.path());
+    const BapFile bap_file = read_bap(bap.path());
+    EXPECT_EQ(json_file.frames.size(), f + 1);
+    EXPECT_EQ(bvh_file.frames.size(), f + 1);
+    EXPECT_EQ(bap_file.stated_frames, static_cast<std::int64_t>(f + 1));
+    EXPECT_TRUE(json_file.complaint.empty() && bvh_file.complaint.empty() && bap_file.complaint.empty());
+  }
+}
+
+TEST_F(FileOutputTest, AFullDiskIsNamed) {
+  const std::string message =
+      message_of([&] { FileOutput output("/dev/full", make_jsonl_encoder(), header_); });
+  EXPECT_NE(message.find("/dev/full"), std::string::npos) << message;
+  EXPECT_NE(message.find("No space left"), std::string::npos) << message;
+}
+
+TEST_F(FileOutputTest, AFolderThatIsNotThereIsNamed) {
+  const std::string file = folder_ / "missing" / "pose.jsonl";
+  const std::string message = message_of([&] { FileOutput output(file, make_jsonl_encoder(), header_); });
+  EXPECT_NE(message.find(file), std::string::npos) << message;
+  EXPECT_NE(message.find("No such file"), std::string::npos) << message;
+}
+
+TEST_F(FileOutputTest, AFrameThatDoesNotFitIsTakenBack) {
+  const auto path = folder_ / "pose.jsonl";
+  const auto whole = testing_motion::encode_all(*make_jsonl_encoder(), header_, {frames_[0], frames_[1]});
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // so that the write fails instead
+  FileOutput output(path, make_jsonl_encoder(), header_);
+  const rlimit small = {whole.size() + 100, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  output.write(frames_[0]);
+  output.write(frames_[1]);
+  const std::string message = message_of([&] { output.write(frames_[2]); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("pose.jsonl"), std::string::npos) << message;
+  EXPECT_EQ(read_text_file(path), whole);
+}
+
+TEST_F(FileOutputTest, APipeIsWrittenWithoutPatches) {
+  const auto path = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const int reader = ::open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  FileOutput output(path, make_bap_encoder("iso"), header_);
+  output.write(frames_[0]);
+  output.close();
+  std::string text(100000, '\0');
+  const ssize_t size = ::read(reader, text.data(), text.size());
+  ::close(reader);
+  ASSERT_GT(size, 0);
+  text.resize(static_cast<std::size_t>(size));
+  const BapFile file = parse_bap(text, "pipe");
+  EXPECT_EQ(file.frames.size(), 1U);
+  EXPECT_EQ(file.stated_frames, 0);
+}
+
+TEST(OutputFormats, AreFoundByName) {
+  for (const OutputFormat& format : kOutputFormats) {
+    EXPECT_EQ(&output_format(format.name), &format);
+  }
+  EXPECT_THROW(output_format("fbx"), Error);
+}
+
+}  // namespace
+}  // namespace telemime
