@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "telemime/body/body.h"
+#include "telemime/body/motion_frame.h"
+#include "telemime/core/camera.h"
+
+namespace telemime {
+
+/// Cutoff frequency of a One-Euro filter: minimum + slope * speed (Casiez, Roussel & Vogel, CHI 2012).
+struct OneEuroOptions {
+  double minimum_cutoff = 1.0;  ///< Hz, at rest: lower is stiller
+  double slope = 1.0;           ///< Hz for each rad/s or m/s: higher follows fast motion sooner
+  double speed_cutoff = 1.0;    ///< Hz, low-pass of the speed itself
+};
+
+struct SmoothingOptions {
+  std::string name = "one-euro";            ///< none, recursive, one-euro
+  double recursive_coefficient = 0.6;       ///< share of the past, in [0, 1) (thesis 4.30)
+  OneEuroOptions angles = {1.0, 1.5, 1.0};  ///< of joint rotations, speeds in rad/s
+  OneEuroOptions root = {1.0, 5.0, 1.0};    ///< of the translation, speeds in m/s
+};
+
+/// Steadies a stream of frames. Rotations are smoothed, not angles, so that nothing happens where angles
+/// jump; the joints follow by forward kinematics and the pixels by what the joints move in the image. A lost
+/// frame, or one that is not finite, passes unchanged and ends the memory; so does a time that does not
+/// advance or that advances more than a second. Smoothed angles may leave the joint limits by little.
+class Smoother {
+ public:
+  Smoother() = default;
+  Smoother(const Smoother&) = delete;
+  Smoother& operator=(const Smoother&) = delete;
+  virtual ~Smoother() = default;
+
+  /// Frames in the order of their time.
+  virtual MotionFrame operator()(const MotionFrame& frame) = 0;
+};
+
+/// `camera` is that of frame.pixels. Throws Error(config) when a name or a number is not usable.
+std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const Body& body,
+                                        const Camera& camera);
+
+}  // namespace telemime
