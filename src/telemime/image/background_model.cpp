@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/background_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+/// Smallest deviations: 8-bit steps, compression, flicker. Without them a still scene has zero variance.
+constexpr float kChromaFloor = 0.018F;
+constexpr float kLuminanceFloor = 0.022F;
+/// Grey levels of noise assumed in every channel; on the logarithmic scale dark pixels are noisier.
+constexpr float kChannelNoise = 1.5F;
+
+float noise_variance(float l) {
+  const float deviation = kChannelNoise / std::exp(l);
+  return deviation * deviation;
+}
+
+}  // namespace
+
+BackgroundModel learn_background_model(std::span<const cv::Mat> pictures) {
+  if (pictures.empty()) {
+    throw Error(ErrorKind::usage, "a background needs at least one picture without a person");
+  }
+  const cv::Size size = pictures.front().size();
+  std::array<cv::Mat, 3> sum;
+  std::array<cv::Mat, 3> sum2;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum[i] = cv::Mat::zeros(size, CV_32FC1);
+    sum2[i] = cv::Mat::zeros(size, CV_32FC1);
+  }
+  // Squares are summed about the first picture: the variance is small beside the mean.
+  const LogColour origin = log_colour(pictures.front());
+  const std::array<const cv::Mat*, 3> zero{&origin.u, &origin.v, &origin.l};
+  for (const cv::Mat& picture : pictures) {
+    if (picture.size() != size) {
+      throw Error(ErrorKind::usage, "the pictures of the background differ in size");
+    }
+    const LogColour colour = log_colour(picture);
+    const std::array<const cv::Mat*, 3> planes{&colour.u, &colour.v, &colour.l};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const cv::Mat d = *planes[i] - *zero[i];
+      sum[i] += d;
+      sum2[i] += d.mul(d);
+    }
+  }
+  const auto n = static_cast<double>(pictures.size());
+  std::array<cv::Mat, 3> variance;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum[i] /= n;
+    variance[i] = sum2[i] / n - sum[i].mul(sum[i]);
+  }
+  BackgroundModel model;
+  model.mean = {origin.u + sum[0], origin.v + sum[1], origin.l + sum[2]};
+  model.chroma_variance = 0.5 * (variance[0] + variance[1]);
+  model.luminance_variance = variance[2];
+  model.valid = cv::Mat(size, CV_8UC1, cv::Scalar(255));
+  for (int r = 0; r < size.height; ++r) {
+    const auto* l = model.mean.l.ptr<float>(r);
+    auto* chroma = model.chroma_variance.ptr<float>(r);
+    auto* luminance = model.luminance_variance.ptr<float>(r);
+    for (int c = 0; c < size.width; ++c) {
+      const float noise = noise_variance(l[c]);
+      chroma[c] = std::max(chroma[c], 0.0F) + kChromaFloor * kChromaFloor + 2 * noise;
+      luminance[c] = std::max(luminance[c], 0.0F) + kLuminanceFloor * kLuminanceFloor + noise / 3;
+    }
+  }
+  return model;
+}
+
+BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
+                                   const ShadowRange& shadow, float unknown) {
+  const cv::Size size = model.valid.size();
+  BackgroundEnergy out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
+  const float darkest = std::log(shadow.darkest);
+  const float extra = shadow.chroma * shadow.chroma;
+  // Of the three dimensions only l is uniform in a shadow, -2 ln of 1 / |darkest|; ln 2 pi is shared by all.
+  const float uniform = 2 * std::log(-darkest) - std::log(2 * std::acos(-1.0F)) + shadow.prior_cost;
+  cv::Mat logs(2, size.width, CV_32FC1);
+  cv::Mat argument(2, size.width, CV_32FC1);
+  for (int r = 0; r < size.height; ++r) {
+    const auto* u = picture.u.ptr<float>(r);
+    const auto* v = picture.v.ptr<float>(r);
+    const auto* l = picture.l.ptr<float>(r);
+    const auto* mu = model.mean.u.ptr<float>(r);
+    const auto* mv = model.mean.v.ptr<float>(r);
+    const auto* ml = model.mean.l.ptr<float>(r);
+    const auto* vc = model.chroma_variance.ptr<float>(r);
+    const auto* vl = model.luminance_variance.ptr<float>(r);
+    const auto* valid = model.valid.ptr<unsigned char>(r);
+    auto* a0 = argument.ptr<float>(0);
+    auto* a1 = argument.ptr<float>(1);
+    for (int c = 0; c < size.width; ++c) {
+      a0[c] = vc[c] * vc[c] * vl[c];
+      a1[c] = vc[c] + extra;
+    }
+    cv::log(argument, logs);
+    const auto* log_plain = logs.ptr<float>(0);
+    const auto* log_shadow = logs.ptr<float>(1);
+    auto* e = out.energy.ptr<float>(r);
+    auto* s = out.shaded.ptr<unsigned char>(r);
+    for (int c = 0; c < size.width; ++c) {
+      const float du = u[c] - mu[c];
+      const float dv = v[c] - mv[c];
+      const float dl = l[c] - ml[c];
+      const float chroma2 = du * du + dv * dv;
+      const float plain = chroma2 / vc[c] + dl * dl / vl[c] + log_plain[c];
+      // Outside the range of shadows the cost grows with the square of the distance to its nearer end.
+      const float above = dl > 0 ? dl : 0;
+      const float below = dl < darkest ? darkest - dl : 0;
+      const float outside = above + below;
+      const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] + uniform;
+      const float best = plain < shade ? plain : shade;
+      e[c] = valid[c] != 0 ? best : unknown;
+      s[c] = shade < plain ? 255 : 0;
+    }
+  }
+  return out;
+}
+
+Eigen::Vector3f estimate_gain(const BackgroundModel& model, const LogColour& picture,
+                              const cv::Mat& believed) {
+  // About two thousand pixels are plenty for a median.
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(model.valid.total()) / 4000)));
+  std::array<std::vector<float>, 3> differences;
+  for (int r = step / 2; r < model.valid.rows; r += step) {
+    for (int c = step / 2; c < model.valid.cols; c += step) {
+      if (model.valid.at<unsigned char>(r, c) == 0 ||
+          (!believed.empty() && believed.at<unsigned char>(r, c) == 0)) {
+        continue;
+      }
+      differences[0].push_back(picture.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
+      differences[1].push_back(picture.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
+      differences[2].push_back(picture.l.at<float>(r, c) - model.mean.l.at<float>(r, c));
+    }
+  }
+  if (differences[0].size() < 50) {
+    return Eigen::Vector3f::Zero();
+  }
+  Eigen::Vector3f gain;
+  for (std::size_t i = 0; i < 3; ++i) {
+    auto& d = differences[i];
+    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
+    std::nth_element(d.begin(), middle, d.end());
+    gain[static_cast<Eigen::Index>(i)] = *middle;
+  }
+  return gain;
+}
+
+void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate) {
+  for (int r = 0; r < model.valid.rows; ++r) {
+    const auto* w = where.ptr<unsigned char>(r);
+    auto* valid = model.valid.ptr<unsigned char>(r);
+    const auto move = [&](const cv::Mat& from, cv::Mat& to) {
+      const auto* f = from.ptr<float>(r);
+      auto* t = to.ptr<float>(r);
+      for (int c = 0; c < model.valid.cols; ++c) {
+        const float k = w[c] == 0 ? 0.0F : (valid[c] == 0 ? 1.0F : rate);
+        t[c] += k * (f[c] - t[c]);
+      }
+    };
+    move(picture.u, model.mean.u);
+    move(picture.v, model.mean.v);
+    move(picture.l, model.mean.l);
+    for (int c = 0; c < model.valid.cols; ++c) {
+      valid[c] = w[c] != 0 ? 255 : valid[c];
+    }
+  }
+}
+
+}  // namespace telemime

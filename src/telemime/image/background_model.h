@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <span>
+
+#include "telemime/image/log_colour.h"
+
+namespace telemime {
+
+/// What the empty scene looks like at every pixel, on the scale of LogColour. Planes (h x w).
+struct BackgroundModel {
+  LogColour mean;
+  cv::Mat chroma_variance;     ///< CV_32FC1, of u and v together, never below the floor
+  cv::Mat luminance_variance;  ///< CV_32FC1, of l
+  cv::Mat valid;               ///< CV_8UC1, 255 where the background was seen
+  bool empty() const { return valid.empty(); }
+};
+
+/// Mean and variance of each pixel over pictures (CV_8UC3, one size) without a person; all pixels valid.
+/// Thesis 3.4.1 with colours that a shadow moves along one axis. Throws Error(usage) when there is no
+/// picture or sizes differ.
+BackgroundModel learn_background_model(std::span<const cv::Mat> pictures);
+
+/// Energies (-2 ln density over [u, v, l], without 3 ln 2 pi) of every pixel under the background.
+struct BackgroundEnergy {
+  cv::Mat energy;  ///< CV_32FC1: the better of unshaded and shaded
+  cv::Mat shaded;  ///< CV_8UC1, 255 where the shadow explains the pixel better
+};
+
+/// How a cast shadow may look.
+struct ShadowRange {
+  float darkest = 0.55F;    ///< smallest ratio of luminance still taken for a shadow, in (0, 1)
+  float chroma = 0.035F;    ///< deviation of u and v in a shadow (bounced light is coloured)
+  float prior_cost = 3.0F;  ///< -2 ln of the share of shaded pixels
+};
+
+/// `picture` must already have its gain undone (estimate_gain). Pixels that are not valid get `unknown`.
+BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
+                                   const ShadowRange& shadow, float unknown);
+
+/// Median of picture - model [u, v, l] over pixels that are valid and where `believed` (CV_8UC1, may be
+/// empty: everywhere) is not 0: what a lamp or the camera's own gain and white balance added. Nothing ([0, 0,
+/// 0]) with fewer than 50 such pixels.
+Eigen::Vector3f estimate_gain(const BackgroundModel& model, const LogColour& picture,
+                              const cv::Mat& believed);
+
+/// Moves the model towards the picture by `rate` in [0, 1] where `where` (CV_8UC1) is not 0, and makes pixels
+/// that were not valid there valid.
+void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate);
+
+}  // namespace telemime

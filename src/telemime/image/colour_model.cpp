@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/colour_model.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr float kNever = 1e4F;
+
+struct Prepared {
+  Eigen::Vector3f mean;
+  Eigen::Matrix3f inverse;
+  float constant;
+};
+
+std::vector<Prepared> prepare(const ColourMixture& mixture) {
+  std::vector<Prepared> out;
+  for (const ColourGaussian& g : mixture) {
+    out.push_back({g.mean, g.covariance.inverse(),
+                   std::log(g.covariance.determinant()) - 2 * std::log(std::max(g.weight, 1e-3F))});
+  }
+  return out;
+}
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Eigen::Vector3f median_of(std::span<const Eigen::Vector3f> samples) {
+  Eigen::Vector3f median;
+  std::vector<float> values(samples.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(samples.begin(), samples.end(), values.begin(), [axis](const auto& s) { return s[axis]; });
+    median[axis] = median_of(values);
+  }
+  return median;
+}
+
+/// Adds the tolerance. The chroma keeps its slope along l (skin is more saturated in the shade), only the
+/// spread along that line grows.
+Eigen::Matrix3f widened(const Eigen::Matrix3f& covariance, const ColourTolerance& tolerance) {
+  const float variance_l = covariance(2, 2) + 1e-6F;
+  Eigen::Vector2f slope = covariance.block<2, 1>(0, 2) / variance_l;
+  slope = slope.cwiseMax(-0.5F).cwiseMin(0.5F);
+  Eigen::Matrix2f rest = covariance.block<2, 2>(0, 0) - slope * slope.transpose() * variance_l;
+  const float wanted_l =
+      variance_l * tolerance.stretch * tolerance.stretch + tolerance.luminance * tolerance.luminance;
+  rest += Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
+  // A clipped slope may leave `rest` indefinite: its diagonal never falls below the tolerance.
+  if (rest.determinant() < std::pow(tolerance.chroma, 4) || rest(0, 0) <= 0) {
+    rest = Eigen::Matrix2f(covariance.block<2, 2>(0, 0)) +
+           Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
+    slope.setZero();
+  }
+  Eigen::Matrix3f out;
+  out.block<2, 2>(0, 0) = rest + slope * slope.transpose() * wanted_l;
+  out.block<2, 1>(0, 2) = slope * wanted_l;
+  out.block<1, 2>(2, 0) = out.block<2, 1>(0, 2).transpose();
+  out(2, 2) = wanted_l;
+  return out;
+}
+
+struct Moments {
+  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+};
+
+Moments moments_of(std::span<const Eigen::Vector3f> samples) {
+  Moments m;
+  for (const auto& s : samples) {
+    m.mean += s;
+  }
+  m.mean /= static_cast<float>(samples.size());
+  for (const auto& s : samples) {
+    m.covariance += (s - m.mean) * (s - m.mean).transpose();
+  }
+  m.covariance /= static_cast<float>(samples.size());
+  return m;
+}
+
+void require_samples(std::size_t count) {
+  if (count < 8) {
+    throw Error(ErrorKind::usage,
+                "a colour needs at least 8 sample pixels, there are " + std::to_string(count));
+  }
+}
+
+/// Chroma counts double in the distances of k-means: stripes differ in hue before they differ in light.
+const Eigen::Vector3f kMeansScale(2.0F, 2.0F, 1.0F);
+
+}  // namespace
+
+ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const ColourTolerance& tolerance) {
+  require_samples(samples.size());
+  Eigen::Vector3f centre = median_of(samples);
+  std::vector<Eigen::Vector3f> deviations(samples.size());
+  std::transform(samples.begin(), samples.end(), deviations.begin(),
+                 [&](const auto& s) { return Eigen::Vector3f((s - centre).cwiseAbs()); });
+  // 1.48 turns a median absolute deviation into a standard deviation.
+  const Eigen::Vector3f spread = (1.48F * median_of(deviations)).cwiseMax(0.02F);
+  Eigen::Matrix3f covariance = spread.cwiseAbs2().asDiagonal();
+  constexpr int kTrims = 4;
+  for (int i = 0; i < kTrims; ++i) {
+    const Eigen::Matrix3f inverse = covariance.inverse();
+    std::vector<Eigen::Vector3f> kept;
+    for (const auto& s : samples) {
+      if ((s - centre).dot(inverse * (s - centre)) < 8.0F) {
+        kept.push_back(s);
+      }
+    }
+    if (kept.size() < 8) {
+      break;
+    }
+    const Moments m = moments_of(kept);
+    centre = m.mean;
+    // 1.2 makes up for the tails that the trimming cut off.
+    covariance = 1.2F * m.covariance + 1e-4F * Eigen::Matrix3f::Identity();
+  }
+  return {centre, widened(covariance, tolerance), 1.0F};
+}
+
+ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
+                          const ColourTolerance& tolerance) {
+  require_samples(samples.size());
+  std::vector<Eigen::Vector3f> centres{median_of(samples)};
+  const auto distance2 = [](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    return (a - b).cwiseProduct(kMeansScale).squaredNorm();
+  };
+  const auto nearest = [&](const Eigen::Vector3f& s) {
+    return static_cast<std::size_t>(
+        std::min_element(centres.begin(), centres.end(),
+                         [&](const auto& a, const auto& b) { return distance2(s, a) < distance2(s, b); }) -
+        centres.begin());
+  };
+  std::vector<std::vector<Eigen::Vector3f>> groups;
+  const auto regroup = [&] {
+    groups.assign(centres.size(), {});
+    for (const auto& s : samples) {
+      groups[nearest(s)].push_back(s);
+    }
+  };
+  while (static_cast<int>(centres.size()) < most) {
+    // The next start is the 98th percentile of the distances, not the farthest sample: that is an outlier.
+    std::vector<std::pair<float, std::size_t>> far;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      far.emplace_back(distance2(samples[i], centres[nearest(samples[i])]), i);
+    }
+    const auto rank = far.begin() + static_cast<std::ptrdiff_t>(far.size() * 95 / 100);
+    std::nth_element(far.begin(), rank, far.end());
+    if (rank->first < 0.15F * 0.15F) {
+      break;
+    }
+    centres.push_back(samples[rank->second]);
+    for (int i = 0; i < 6; ++i) {
+      regroup();
+      for (std::size_t g = 0; g < groups.size(); ++g) {
+        if (!groups[g].empty()) {
+          centres[g] = moments_of(groups[g]).mean;
+        }
+      }
+    }
+  }
+  regroup();
+  ColourMixture mixture;
+  for (const auto& group : groups) {
+    if (group.size() < 8 || group.size() * 25 < samples.size()) {
+      continue;
+    }
+    const Moments m = moments_of(group);
+    mixture.push_back({m.mean, widened(m.covariance, tolerance),
+                       static_cast<float>(group.size()) / static_cast<float>(samples.size())});
+  }
+  return mixture;
+}
+
+float energy(const ColourMixture& mixture, const Eigen::Vector3f& colour) {
+  float best = kNever;
+  for (const Prepared& p : prepare(mixture)) {
+    const Eigen::Vector3f d = colour - p.mean;
+    best = std::min(best, d.dot(p.inverse * d) + p.constant);
+  }
+  return best;
+}
+
+cv::Mat energy(const ColourMixture& mixture, const LogColour& picture) {
+  cv::Mat out(picture.u.size(), CV_32FC1, cv::Scalar(kNever));
+  for (const Prepared& p : prepare(mixture)) {
+    const float mu = p.mean[0];
+    const float mv = p.mean[1];
+    const float ml = p.mean[2];
+    const float uu = p.inverse(0, 0);
+    const float vv = p.inverse(1, 1);
+    const float ll = p.inverse(2, 2);
+    const float uv = 2 * p.inverse(0, 1);
+    const float ul = 2 * p.inverse(0, 2);
+    const float vl = 2 * p.inverse(1, 2);
+    for (int r = 0; r < out.rows; ++r) {
+      const auto* u = picture.u.ptr<float>(r);
+      const auto* v = picture.v.ptr<float>(r);
+      const auto* l = picture.l.ptr<float>(r);
+      auto* o = out.ptr<float>(r);
+      for (int c = 0; c < out.cols; ++c) {
+        const float du = u[c] - mu;
+        const float dv = v[c] - mv;
+        const float dl = l[c] - ml;
+        const float e =
+            du * (uu * du + uv * dv + ul * dl) + dv * (vv * dv + vl * dl) + ll * dl * dl + p.constant;
+        o[c] = e < o[c] ? e : o[c];
+      }
+    }
+  }
+  return out;
+}
+
+float mahalanobis2(const ColourMixture& mixture, const Eigen::Vector3f& colour) {
+  float best = std::numeric_limits<float>::max();
+  for (const ColourGaussian& g : mixture) {
+    const Eigen::Vector3f d = colour - g.mean;
+    best = std::min(best, d.dot(g.covariance.inverse() * d));
+  }
+  return best;
+}
+
+}  // namespace telemime

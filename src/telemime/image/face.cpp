@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/face.h"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+cv::CascadeClassifier load_cascade(const std::filesystem::path& folder, const std::string& name) {
+  const std::filesystem::path file = find_cascade(folder, name);
+  cv::CascadeClassifier cascade;
+  if (!cascade.load(file.string())) {
+    throw Error(ErrorKind::config, "the face detector's file " + file.string() + " cannot be read",
+                "install the package opencv-data again, or name another folder of cascades");
+  }
+  return cascade;
+}
+
+std::optional<cv::Rect> largest_of(const std::vector<cv::Rect>& faces, const cv::Point& corner) {
+  if (faces.empty()) {
+    return std::nullopt;
+  }
+  const auto best = std::max_element(faces.begin(), faces.end(),
+                                     [](const auto& a, const auto& b) { return a.width < b.width; });
+  return *best + corner;
+}
+
+}  // namespace
+
+std::filesystem::path find_cascade(const std::filesystem::path& folder, const std::string& name) {
+  std::vector<std::filesystem::path> places;
+  if (!folder.empty()) {
+    places.push_back(folder);
+  } else {
+    for (const char* place : {"/usr/share/opencv4/haarcascades", "/usr/local/share/opencv4/haarcascades",
+                              "/opt/homebrew/share/opencv4/haarcascades", "/usr/share/opencv/haarcascades"}) {
+      places.emplace_back(place);
+    }
+  }
+  std::string searched;
+  for (const auto& place : places) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(place / name, ignored)) {
+      return place / name;
+    }
+    searched += (searched.empty() ? "" : ", ") + place.string();
+  }
+  throw Error(ErrorKind::config, "the face detector's file " + name + " was not found in " + searched,
+              "install the package opencv-data, or name the folder that holds the cascades");
+}
+
+FaceDetector::FaceDetector(const std::filesystem::path& folder)
+    : frontal_(load_cascade(folder, "haarcascade_frontalface_alt2.xml")),
+      profile_(load_cascade(folder, "haarcascade_profileface.xml")) {}
+
+std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& region, int smallest,
+                                           int largest, bool profiles) {
+  const cv::Rect inside = region & cv::Rect(0, 0, grey.cols, grey.rows);
+  if (inside.width < 20 || inside.height < 20) {
+    return std::nullopt;
+  }
+  const cv::Mat window = grey(inside);
+  const cv::Size least(smallest, smallest);
+  const cv::Size most(largest, largest);
+  std::vector<cv::Rect> faces;
+  frontal_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
+  if (faces.empty() && profiles) {
+    profile_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
+    if (faces.empty()) {
+      // The cascade knows one side only.
+      cv::Mat mirrored;
+      cv::flip(window, mirrored, 1);
+      profile_.detectMultiScale(mirrored, faces, 1.1, 3, 0, least, most);
+      for (cv::Rect& face : faces) {
+        face.x = window.cols - face.x - face.width;
+      }
+    }
+  }
+  return largest_of(faces, inside.tl());
+}
+
+}  // namespace telemime

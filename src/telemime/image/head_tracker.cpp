@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/head_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace telemime {
+namespace {
+
+/// Side of the face in the correlation's picture, and how far the face may move in one frame (of its side).
+constexpr int kPatch = 20;
+constexpr double kReach = 0.5;
+
+/// The square of `side` around `centre`, resampled to `size` pixels.
+cv::Mat square_at(const cv::Mat& grey, const cv::Point2d& centre, double side, int size) {
+  const double scale = side / size;
+  const cv::Matx23d map(scale, 0, centre.x - 0.5 * side + 0.5 * scale, 0, scale,
+                        centre.y - 0.5 * side + 0.5 * scale);
+  cv::Mat out;
+  cv::warpAffine(grey, out, map, cv::Size(size, size), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 cv::BORDER_REPLICATE);
+  return out;
+}
+
+/// Offset of the top of the parabola through three values, in [-0.5, 0.5].
+double peak(double left, double middle, double right) {
+  const double curvature = left - 2 * middle + right;
+  return curvature < -1e-9 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0.0;
+}
+
+}  // namespace
+
+HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades)
+    : config_(config), detector_(cascades) {}
+
+void HeadTracker::anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
+  const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
+  const double side = found.width;
+  if (fresh || !face_) {
+    face_ = TrackedFace{centre, side, true, 1.0};
+  } else {
+    // The detector's square jitters by several percent: its size is trusted slowly, its place faster.
+    face_->side += 0.25 * (side - face_->side);
+    face_->centre += 0.5 * (centre - face_->centre);
+    face_->detected = true;
+    face_->match = 1.0;
+  }
+  patch_ = square_at(grey, face_->centre, face_->side, kPatch);
+  since_detected_ = 0;
+  since_sure_ = 0;
+}
+
+double HeadTracker::carry(const cv::Mat& grey) {
+  const double window = face_->side * (1 + 2 * kReach);
+  const int size = static_cast<int>(kPatch * (1 + 2 * kReach));
+  const cv::Mat around = square_at(grey, face_->centre, window, size);
+  cv::Mat score;
+  cv::matchTemplate(around, patch_, score, cv::TM_CCOEFF_NORMED);
+  double best = 0;
+  cv::Point at;
+  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
+  const auto value = [&](int x, int y) {
+    return static_cast<double>(
+        score.at<float>(std::clamp(y, 0, score.rows - 1), std::clamp(x, 0, score.cols - 1)));
+  };
+  const double dx = at.x + peak(value(at.x - 1, at.y), best, value(at.x + 1, at.y)) - 0.5 * (score.cols - 1);
+  const double dy = at.y + peak(value(at.x, at.y - 1), best, value(at.x, at.y + 1)) - 0.5 * (score.rows - 1);
+  if (best >= config_.lost_match) {
+    face_->centre += cv::Point2d(dx, dy) * (face_->side / kPatch);
+  }
+  return best;
+}
+
+std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey) {
+  const int smallest = std::max(20, static_cast<int>(config_.smallest_face * grey.rows));
+  const auto found = detector_.find(grey, cv::Rect(0, 0, grey.cols, grey.rows), smallest, grey.rows, false);
+  since_search_ = 0;
+  face_.reset();
+  if (found) {
+    anchor(grey, *found, true);
+  }
+  return face_;
+}
+
+std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey) {
+  if (!face_) {
+    ++since_search_;
+    return since_search_ >= config_.search_every ? restart(grey) : std::nullopt;
+  }
+  face_->detected = false;
+  face_->match = carry(grey);
+  ++since_detected_;
+  const bool doubtful = face_->match < config_.lost_match + 0.2;
+  since_sure_ = face_->match < config_.lost_match ? since_sure_ + 1 : 0;
+  if (doubtful || since_detected_ >= config_.detect_every) {
+    const double reach = face_->side * (doubtful ? 1.2 : 0.8);
+    const cv::Rect window(
+        cv::Point(static_cast<int>(face_->centre.x - reach), static_cast<int>(face_->centre.y - reach)),
+        cv::Point(static_cast<int>(face_->centre.x + reach), static_cast<int>(face_->centre.y + reach)));
+    const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75),
+                                      static_cast<int>(face_->side * 1.35), false);
+    if (found) {
+      anchor(grey, *found, false);
+    } else {
+      since_detected_ = 0;
+    }
+  }
+  if (since_sure_ > config_.lost_after) {
+    return restart(grey);
+  }
+  return face_;
+}
+
+}  // namespace telemime

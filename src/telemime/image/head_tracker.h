@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "telemime/image/face.h"
+
+namespace telemime {
+
+/// A head as the tracker carries it: the face square of the detector, pixels of the picture given to it.
+struct TrackedFace {
+  cv::Point2d centre;
+  double side = 0.0;
+  bool detected = false;  ///< the detector fired in this frame
+  double match = 1.0;     ///< correlation with the face when last detected, [-1, 1]
+};
+
+struct HeadTrackerConfig {
+  int detect_every = 5;         ///< frames between looks of the detector while the track is good
+  int search_every = 3;         ///< frames between searches of the whole picture while there is no track
+  double lost_match = 0.45;     ///< below this correlation the face is not where it was
+  int lost_after = 12;          ///< frames without a sure position until the track is given up
+  double smallest_face = 0.07;  ///< of the picture's height
+};
+
+/// Follows one face: the detector anchors it, a correlation of the face's picture carries it in between.
+class HeadTracker {
+ public:
+  HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades);
+
+  /// The face in the next picture (CV_8UC1; all pictures of one size), or nothing.
+  std::optional<TrackedFace> update(const cv::Mat& grey);
+
+  /// Searches the whole picture at once and starts anew from what is found.
+  std::optional<TrackedFace> restart(const cv::Mat& grey);
+
+  /// Forgets the track.
+  void forget() { face_.reset(); }
+
+ private:
+  void anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh);
+  double carry(const cv::Mat& grey);
+
+  HeadTrackerConfig config_;
+  FaceDetector detector_;
+  std::optional<TrackedFace> face_;
+  cv::Mat patch_;
+  int since_detected_ = 0;
+  int since_sure_ = 0;
+  int since_search_ = 1 << 20;
+};
+
+}  // namespace telemime

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/segmentation.h"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace telemime {
+namespace {
+
+/// What colour says of a pixel, before its place is looked at.
+enum Colour : unsigned char { kSkin = 0, kClothes = 1, kHair = 2, kOther = 3 };
+
+struct ColourVotes {
+  cv::Mat best;     ///< CV_32FC1, energy of the best of the person's colours
+  cv::Mat colour;   ///< CV_8UC1, which
+  cv::Mat learned;  ///< CV_8UC1, which, `kOther` excluded
+};
+
+struct Ellipse {
+  explicit Ellipse(const HeadRegion& head)
+      : x(static_cast<float>(head.centre.x())),
+        y(static_cast<float>(head.centre.y())),
+        rx(static_cast<float>(head.radii.x())),
+        ry(static_cast<float>(head.radii.y())) {}
+  /// Below 1 inside.
+  float at(int row, int column) const {
+    const float dx = (static_cast<float>(column) - x) / rx;
+    const float dy = (static_cast<float>(row) - y) / ry;
+    return dx * dx + dy * dy;
+  }
+  float x, y, rx, ry;
+};
+
+void smooth(cv::Mat& energy, float limit) {
+  cv::min(energy, limit, energy);
+  cv::blur(energy, energy, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
+}
+
+ColourVotes vote(const LogColour& picture, const PersonColours& colours,
+                 const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
+  cv::Mat skin = energy(colours.skin, picture);
+  cv::Mat clothes = energy(colours.clothes, picture);
+  cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, picture);
+  // A far colour must not outvote its neighbours by being very far.
+  const float limit = config.unknown_cost + config.vote_limit;
+  const cv::Size size = picture.u.size();
+  ColourVotes out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_8UC1)};
+  for (int r = 0; r < size.height; ++r) {
+    const auto* s = skin.ptr<float>(r);
+    const auto* c = clothes.ptr<float>(r);
+    const auto* h = hair.ptr<float>(r);
+    auto* b = out.best.ptr<float>(r);
+    for (int i = 0; i < size.width; ++i) {
+      b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], config.unknown_cost));
+    }
+  }
+  smooth(skin, limit);
+  smooth(clothes, limit);
+  smooth(hair, limit);
+  for (int r = 0; r < size.height; ++r) {
+    const auto* s = skin.ptr<float>(r);
+    const auto* c = clothes.ptr<float>(r);
+    const auto* h = hair.ptr<float>(r);
+    auto* colour = out.colour.ptr<unsigned char>(r);
+    auto* learned = out.learned.ptr<unsigned char>(r);
+    for (int i = 0; i < size.width; ++i) {
+      const bool is_skin = s[i] < c[i];
+      unsigned char best = is_skin ? kSkin : kClothes;
+      const float least = is_skin ? s[i] : c[i];
+      learned[i] = best;
+      if (head && h[i] < least && h[i] < config.unknown_cost) {
+        const float dx = (static_cast<float>(i) - static_cast<float>(head->centre.x())) /
+                         static_cast<float>(head->radii.x());
+        const float dy = (static_cast<float>(r) - static_cast<float>(head->centre.y())) /
+                         static_cast<float>(head->radii.y());
+        if (dx > -2.2F && dx < 2.2F && dy < 3.2F) {
+          best = kHair;
+        }
+      }
+      if (best != kHair && least >= config.unknown_cost) {
+        best = kOther;
+      }
+      colour[i] = best;
+    }
+  }
+  return out;
+}
+
+cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& votes,
+                      const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
+  cv::Mat margin = background.energy - votes.best;
+  if (head) {
+    const Ellipse ellipse(*head);
+    for (int r = 0; r < margin.rows; ++r) {
+      auto* m = margin.ptr<float>(r);
+      for (int c = 0; c < margin.cols; ++c) {
+        m[c] += ellipse.at(r, c) < 0.9F ? config.head_bonus : 0.0F;
+      }
+    }
+  }
+  cv::max(margin, -config.vote_limit, margin);
+  cv::min(margin, config.vote_limit, margin);
+  cv::GaussianBlur(margin, margin, cv::Size(3, 3), 0.8, 0.8, cv::BORDER_REPLICATE);
+  cv::Mat silhouette;
+  cv::compare(margin, 0, silhouette, cv::CMP_GT);
+  return silhouette;
+}
+
+/// Drops pieces that are small or that have neither the head nor the person's colours.
+void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
+                    bool colours_known, const SegmentationConfig& config) {
+  cv::Mat pieces;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(silhouette, pieces, stats, centroids, 8, CV_32S);
+  std::vector<int> own(static_cast<std::size_t>(count), 0);
+  std::vector<int> in_head(static_cast<std::size_t>(count), 0);
+  const std::optional<Ellipse> ellipse = head ? std::optional<Ellipse>(Ellipse(*head)) : std::nullopt;
+  for (int r = 0; r < silhouette.rows; ++r) {
+    const auto* p = pieces.ptr<int>(r);
+    const auto* colour = votes.colour.ptr<unsigned char>(r);
+    for (int c = 0; c < silhouette.cols; ++c) {
+      const auto i = static_cast<std::size_t>(p[c]);
+      own[i] += colour[c] == kSkin || colour[c] == kClothes ? 1 : 0;
+      in_head[i] += ellipse && ellipse->at(r, c) < 1 ? 1 : 0;
+    }
+  }
+  const double least = config.least_part * static_cast<double>(silhouette.total());
+  std::vector<unsigned char> keep(static_cast<std::size_t>(count), 0);
+  for (int i = 1; i < count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    const bool ours = in_head[k] > 0 || (colours_known ? own[k] * 2 > area : !head && area > 10 * least);
+    keep[k] = area >= least && ours ? 255 : 0;
+  }
+  for (int r = 0; r < silhouette.rows; ++r) {
+    const auto* p = pieces.ptr<int>(r);
+    auto* s = silhouette.ptr<unsigned char>(r);
+    for (int c = 0; c < silhouette.cols; ++c) {
+      s[c] = keep[static_cast<std::size_t>(p[c])];
+    }
+  }
+}
+
+/// Fills holes of the silhouette of up to `most` pixels.
+void fill_small_holes(cv::Mat& silhouette, double most) {
+  cv::Mat outside;
+  cv::bitwise_not(silhouette, outside);
+  cv::Mat pieces;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(outside, pieces, stats, centroids, 4, CV_32S);
+  for (int i = 1; i < count; ++i) {
+    if (stats.at<int>(i, cv::CC_STAT_AREA) > most) {
+      continue;
+    }
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    silhouette(box).setTo(255, pieces(box) == i);
+  }
+}
+
+/// Unknown colours in strips of one or two pixels are the mixed pixels between two known ones.
+void give_strips_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette) {
+  cv::Mat other = (votes.colour == kOther) & silhouette;
+  cv::Mat thick;
+  cv::morphologyEx(other, thick, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
+  cv::Mat thin = other & ~thick;
+  votes.learned.copyTo(votes.colour, thin);
+}
+
+cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
+              bool colours_known) {
+  cv::Mat labels = cv::Mat::zeros(silhouette.size(), CV_8UC1);
+  const std::optional<Ellipse> ellipse = head ? std::optional<Ellipse>(Ellipse(*head)) : std::nullopt;
+  const auto code = [](Label l) { return static_cast<unsigned char>(l); };
+  for (int r = 0; r < labels.rows; ++r) {
+    const auto* s = silhouette.ptr<unsigned char>(r);
+    const auto* colour = votes.colour.ptr<unsigned char>(r);
+    auto* out = labels.ptr<unsigned char>(r);
+    for (int c = 0; c < labels.cols; ++c) {
+      if (s[c] == 0) {
+        continue;
+      }
+      Label chosen = Label::ignore;
+      if (colours_known) {
+        chosen = colour[c] == kSkin ? Label::arms : colour[c] == kClothes ? Label::clothes : Label::ignore;
+      }
+      if (ellipse) {
+        const float t = ellipse->at(r, c);
+        const float dy = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
+        const bool face = t < 1 && (dy < 0.6F || colour[c] != kClothes);
+        const bool near = t < 1.45F && dy < 0.85F && (colour[c] == kSkin || colour[c] == kHair);
+        if (face || near) {
+          chosen = Label::head;
+        }
+      }
+      out[c] = code(chosen);
+    }
+  }
+  if (ellipse && colours_known) {
+    // The neck: skin straight under the chin, column by column until something else begins.
+    const int first = std::max(0, static_cast<int>(ellipse->x - 0.85F * ellipse->rx));
+    const int last = std::min(labels.cols - 1, static_cast<int>(ellipse->x + 0.85F * ellipse->rx));
+    const int bottom = std::min(labels.rows - 1, static_cast<int>(ellipse->y + 2.0F * ellipse->ry));
+    for (int c = first; c <= last; ++c) {
+      int r = std::max(0, static_cast<int>(ellipse->y + 0.5F * ellipse->ry));
+      for (; r <= bottom; ++r) {
+        auto& l = labels.at<unsigned char>(r, c);
+        if (l == code(Label::arms)) {
+          l = code(Label::head);
+        } else if (l != code(Label::head) && ellipse->at(r, c) > 1) {
+          break;
+        }
+      }
+    }
+  }
+  return labels;
+}
+
+}  // namespace
+
+Segmentation segment(const LogColour& picture, const BackgroundEnergy& background,
+                     const PersonColours& colours, const std::optional<HeadRegion>& head,
+                     const SegmentationConfig& config) {
+  ColourVotes votes = vote(picture, colours, head, config);
+  Segmentation out;
+  out.silhouette = silhouette_of(background, votes, head, config);
+  drop_strangers(out.silhouette, votes, head, colours.known(), config);
+  fill_small_holes(out.silhouette, config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
+  give_strips_to_neighbours(votes, out.silhouette);
+  out.labels = label(out.silhouette, votes, head, colours.known());
+  return out;
+}
+
+}  // namespace telemime

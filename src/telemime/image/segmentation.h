@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "telemime/image/background_model.h"
+#include "telemime/image/observation.h"
+#include "telemime/image/person_colours.h"
+
+namespace telemime {
+
+struct SegmentationConfig {
+  float unknown_cost = 3.0F;   ///< -2 ln density of a person's pixel of no learned colour
+  float vote_limit = 14.0F;    ///< one pixel's say in the 3x3 vote on person or background
+  float head_bonus = 8.0F;     ///< in favour of the person inside the head's ellipse
+  double least_part = 0.0015;  ///< of the picture: smaller pieces of silhouette are dropped
+};
+
+/// Labels and silhouette of one frame (see Observation).
+struct Segmentation {
+  cv::Mat labels;
+  cv::Mat silhouette;
+};
+
+/// Every pixel to background, head, arms, clothes or ignore by the least energy among the background (plain
+/// or shaded) and the person's colours, after a 3x3 vote; then pieces that belong to nobody are dropped and
+/// the head, neck and hanging hair are told by their place (thesis 2.4.4.1, 3.4.2). Without learned colours
+/// every person pixel outside the head is `ignore`.
+Segmentation segment(const LogColour& picture, const BackgroundEnergy& background,
+                     const PersonColours& colours, const std::optional<HeadRegion>& head,
+                     const SegmentationConfig& config);
+
+}  // namespace telemime
