@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "telemime/core/errors.h"
@@ -21,6 +22,12 @@ constexpr float kChannelNoise = 1.5F;
 float noise_variance(float l) {
   const float deviation = kChannelNoise / std::exp(l);
   return deviation * deviation;
+}
+
+float median_of(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
@@ -125,33 +132,72 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
   return out;
 }
 
-Eigen::Vector3f estimate_gain(const BackgroundModel& model, const LogColour& picture,
-                              const cv::Mat& believed) {
-  // About two thousand pixels are plenty for a median.
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(model.valid.total()) / 4000)));
-  std::array<std::vector<float>, 3> differences;
-  for (int r = step / 2; r < model.valid.rows; r += step) {
-    for (int c = step / 2; c < model.valid.cols; c += step) {
+LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed) {
+  constexpr int kAcross = 8;
+  constexpr int kDown = 6;
+  const cv::Size size = model.valid.size();
+  // About ten thousand pixels are plenty for 48 medians.
+  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) / 10000)));
+  std::array<std::array<std::vector<float>, 3>, static_cast<std::size_t>(kAcross * kDown)> differences;
+  for (int r = step / 2; r < size.height; r += step) {
+    for (int c = step / 2; c < size.width; c += step) {
       if (model.valid.at<unsigned char>(r, c) == 0 ||
           (!believed.empty() && believed.at<unsigned char>(r, c) == 0)) {
         continue;
       }
-      differences[0].push_back(picture.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
-      differences[1].push_back(picture.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
-      differences[2].push_back(picture.l.at<float>(r, c) - model.mean.l.at<float>(r, c));
+      auto& cell =
+          differences[static_cast<std::size_t>(r * kDown / size.height * kAcross + c * kAcross / size.width)];
+      cell[0].push_back(picture.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
+      cell[1].push_back(picture.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
+      cell[2].push_back(picture.l.at<float>(r, c) - model.mean.l.at<float>(r, c));
     }
   }
-  if (differences[0].size() < 50) {
-    return Eigen::Vector3f::Zero();
-  }
-  Eigen::Vector3f gain;
+  std::array<std::vector<float>, 3> everything;
+  std::array<float, 3> whole{};
   for (std::size_t i = 0; i < 3; ++i) {
-    auto& d = differences[i];
-    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-    std::nth_element(d.begin(), middle, d.end());
-    gain[static_cast<Eigen::Index>(i)] = *middle;
+    for (const auto& cell : differences) {
+      everything[i].insert(everything[i].end(), cell[i].begin(), cell[i].end());
+    }
+    whole[i] = everything[i].empty() ? 0.0F : median_of(everything[i]);
   }
-  return gain;
+  cv::Mat medians = cv::Mat::zeros(kDown, kAcross, CV_32FC3);
+  cv::Mat weights = cv::Mat::zeros(kDown, kAcross, CV_32FC1);
+  for (int cell = 0; cell < kAcross * kDown; ++cell) {
+    auto& planes = differences[static_cast<std::size_t>(cell)];
+    const std::size_t count = planes[0].size();
+    if (count < 12) {
+      continue;
+    }
+    const auto weight = static_cast<float>(count);
+    weights.at<float>(cell / kAcross, cell % kAcross) = weight;
+    auto& median = medians.at<cv::Vec3f>(cell / kAcross, cell % kAcross);
+    for (int i = 0; i < 3; ++i) {
+      median[i] = weight * median_of(planes[static_cast<std::size_t>(i)]);
+    }
+  }
+  // Two blurs of sums and weights: near cells decide where there are any, far ones where there are none.
+  cv::Mat near;
+  cv::Mat near_weight;
+  cv::GaussianBlur(medians, near, cv::Size(3, 3), 0.7, 0.7, cv::BORDER_CONSTANT);
+  cv::GaussianBlur(weights, near_weight, cv::Size(3, 3), 0.7, 0.7, cv::BORDER_CONSTANT);
+  cv::Mat grid = cv::Mat::zeros(kDown, kAcross, CV_32FC3);
+  for (int cell = 0; !everything[0].empty() && cell < kAcross * kDown; ++cell) {
+    const int r = cell / kAcross;
+    const int c = cell % kAcross;
+    // Pixels' worth of trust in the median of the whole picture. Before anything is believed a cell may be
+    // all person: then only the whole picture is asked.
+    const float far = believed.empty() ? 1e9F : 3.0F;
+    for (int i = 0; i < 3; ++i) {
+      const float mean = whole[static_cast<std::size_t>(i)];
+      grid.at<cv::Vec3f>(r, c)[i] =
+          (near.at<cv::Vec3f>(r, c)[i] + far * mean) / (near_weight.at<float>(r, c) + far);
+    }
+  }
+  cv::Mat wide;
+  cv::resize(grid, wide, size, 0, 0, cv::INTER_LINEAR);
+  std::array<cv::Mat, 3> planes;
+  cv::split(wide, planes.data());
+  return {planes[0], planes[1], planes[2]};
 }
 
 void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate) {

@@ -33,18 +33,19 @@ struct BackgroundEnergy {
 struct ShadowRange {
   float darkest = 0.55F;    ///< smallest ratio of luminance still taken for a shadow, in (0, 1)
   float chroma = 0.035F;    ///< deviation of u and v in a shadow (bounced light is coloured)
-  float prior_cost = 3.0F;  ///< -2 ln of the share of shaded pixels
+  float prior_cost = 1.0F;  ///< -2 ln of the share of shaded pixels
 };
 
 /// `picture` must already have its gain undone (estimate_gain). Pixels that are not valid get `unknown`.
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
                                    const ShadowRange& shadow, float unknown);
 
-/// Median of picture - model [u, v, l] over pixels that are valid and where `believed` (CV_8UC1, may be
-/// empty: everywhere) is not 0: what a lamp or the camera's own gain and white balance added. Nothing ([0, 0,
-/// 0]) with fewer than 50 such pixels.
-Eigen::Vector3f estimate_gain(const BackgroundModel& model, const LogColour& picture,
-                              const cv::Mat& believed);
+/// What a lamp, a shadow as wide as the room, or the camera's own gain and white balance added to the
+/// picture: picture - model, one median per cell of a coarse grid over pixels that are valid and where
+/// `believed` (CV_8UC1; empty: everywhere) is not 0, smoothed over the grid and stretched to the picture.
+/// Cells without enough such pixels take from their neighbours, a picture without any gets zeros. Three
+/// planes like LogColour.
+LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed);
 
 /// Moves the model towards the picture by `rate` in [0, 1] where `where` (CV_8UC1) is not 0, and makes pixels
 /// that were not valid there valid.

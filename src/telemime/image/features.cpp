@@ -19,12 +19,6 @@ void require(bool holds, const std::string& cause, const std::string& remedy) {
   }
 }
 
-/// From the detector's square to the ellipse from crown to chin: shares of the square's side, measured on
-/// heads of known height.
-constexpr double kHalfWidth = 0.44;
-constexpr double kCrown = 0.78;
-constexpr double kChin = 0.56;
-
 }  // namespace
 
 void ImageConfig::validate() const {
@@ -70,20 +64,13 @@ FeatureExtractor::Pictures FeatureExtractor::pictures_of(const Frame& frame) con
   return p;
 }
 
-std::optional<HeadRegion> FeatureExtractor::head_region(const std::optional<TrackedFace>& face,
-                                                        const Pictures& p) const {
+std::optional<HeadRegion> FeatureExtractor::region_of(const std::optional<TrackedFace>& face,
+                                                      const Pictures& p) const {
   if (!face) {
     return std::nullopt;
   }
-  const double sx = static_cast<double>(config_.width) / p.face.cols;
-  const double sy = static_cast<double>(config_.height) / p.face.rows;
-  const double crown = face->centre.y - kCrown * face->side;
-  const double chin = face->centre.y + kChin * face->side;
-  HeadRegion head;
-  head.centre = {(face->centre.x + 0.5) * sx - 0.5, (0.5 * (crown + chin) + 0.5) * sy - 0.5};
-  head.radii = {kHalfWidth * face->side * sx, 0.5 * (chin - crown) * sy};
-  head.detected = face->detected;
-  return head;
+  return head_region(*face, shape_, static_cast<double>(config_.width) / p.face.cols,
+                     static_cast<double>(config_.height) / p.face.rows);
 }
 
 BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures) {
@@ -93,7 +80,7 @@ BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures) {
     return {cv::Mat(pictures.grey.size(), CV_32FC1, cv::Scalar(0)),
             cv::Mat::zeros(pictures.grey.size(), CV_8UC1)};
   }
-  shift(pictures.colour, -estimate_gain(model, pictures.colour, believed_));
+  subtract(pictures.colour, estimate_gain(model, pictures.colour, believed_));
   return background_energy(model, pictures.colour, config_.shadow, 0.0F);
 }
 
@@ -113,24 +100,37 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
 
 PersonReport FeatureExtractor::begin_person(const Frame& frame) {
   Pictures p = pictures_of(frame);
-  const std::optional<HeadRegion> head = head_region(head_.restart(p.face), p);
-  if (!head) {
+  const std::optional<TrackedFace> face = head_.restart(p.face);
+  if (!face) {
     return {false, "no face was found: look at the camera, in enough light"};
   }
   const BackgroundEnergy background = background_of(p);
-  const Segmentation rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
+  shape_ = HeadShape{};
+  std::optional<HeadRegion> head;
+  Segmentation rough;
+  // The head's outline is measured on a silhouette that the head itself helped to find: twice is enough.
+  for (int turn = 0; turn < 2; ++turn) {
+    head = region_of(face, p);
+    rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
+    shape_ = adapted(shape_, *head, rough.silhouette, 1.0);
+  }
+  head = region_of(face, p);
   return learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
 }
 
 Observation FeatureExtractor::extract(const Frame& frame) {
   Pictures p = pictures_of(frame);
   Observation out;
-  out.head = head_region(head_.update(p.face), p);
+  const std::optional<TrackedFace> face = head_.update(p.face);
+  out.head = region_of(face, p);
   const BackgroundEnergy background = background_of(p);
   Segmentation segmentation =
       segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette;
+  if (out.head) {
+    shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
+  }
 
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3));
   cv::Mat grown;

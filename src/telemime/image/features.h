@@ -10,6 +10,7 @@
 
 #include "telemime/core/frame.h"
 #include "telemime/image/background_model.h"
+#include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/observation.h"
 #include "telemime/image/person_colours.h"
@@ -30,6 +31,7 @@ struct ImageConfig {
   std::filesystem::path cascades;  ///< folder of OpenCV's face cascades; empty: searched
   int face_width = 320;            ///< the face detector looks at pictures of at most this width
   HeadTrackerConfig head;
+  double head_shape_rate = 0.2;  ///< share of each frame in the head's outline
   ShadowRange shadow;
   SegmentationConfig segmentation;
   EdgeConfig edges;
@@ -67,11 +69,12 @@ class FeatureExtractor {
  private:
   struct Pictures;
   Pictures pictures_of(const Frame& frame) const;
-  std::optional<HeadRegion> head_region(const std::optional<TrackedFace>& face, const Pictures& p) const;
+  std::optional<HeadRegion> region_of(const std::optional<TrackedFace>& face, const Pictures& p) const;
   BackgroundEnergy background_of(Pictures& pictures);
 
   ImageConfig config_;
   HeadTracker head_;
+  HeadShape shape_;
   ImageCalibration calibration_;
   cv::Mat believed_;  ///< background of the frame before
 };

@@ -53,10 +53,10 @@ Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned 
   return {r - g, b - g, (b + g + r) / 3};
 }
 
-void shift(LogColour& picture, const Eigen::Vector3f& by) {
-  cv::add(picture.u, cv::Scalar(by[0]), picture.u);
-  cv::add(picture.v, cv::Scalar(by[1]), picture.v);
-  cv::add(picture.l, cv::Scalar(by[2]), picture.l);
+void subtract(LogColour& picture, const LogColour& gain) {
+  picture.u -= gain.u;
+  picture.v -= gain.v;
+  picture.l -= gain.l;
 }
 
 }  // namespace telemime

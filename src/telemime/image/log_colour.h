@@ -25,7 +25,7 @@ LogColour log_colour(const cv::Mat& bgr);
 /// One colour [u, v, l].
 Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned char red);
 
-/// Adds the same three numbers [u, v, l] to every pixel.
-void shift(LogColour& picture, const Eigen::Vector3f& by);
+/// Takes the planes of `gain` away from those of `picture` (same size).
+void subtract(LogColour& picture, const LogColour& gain);
 
 }  // namespace telemime

@@ -10,7 +10,7 @@ namespace telemime {
 namespace {
 
 constexpr ColourTolerance kSkinTolerance{0.05F, 0.20F, 1.6F};
-constexpr ColourTolerance kClothesTolerance{0.05F, 0.16F, 1.4F};
+constexpr ColourTolerance kClothesTolerance{0.05F, 0.25F, 1.5F};
 constexpr ColourTolerance kHairTolerance{0.07F, 0.25F, 1.3F};
 constexpr int kMostClothes = 4;
 
@@ -50,6 +50,14 @@ Samples keep_if(const Samples& samples, const std::function<bool(const Eigen::Ve
   return kept;
 }
 
+/// A Gaussian as wide as this is a mixture of things, and would claim other classes' pixels.
+void keep_if_narrow(const ColourGaussian& fitted, ColourMixture& mixture) {
+  constexpr float kWidest = 0.18F;
+  if (fitted.covariance(0, 0) < kWidest * kWidest && fitted.covariance(1, 1) < kWidest * kWidest) {
+    mixture = {fitted};
+  }
+}
+
 }  // namespace
 
 PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
@@ -84,12 +92,21 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
   }
   learned.clothes = fit_mixture(clothes, kMostClothes, kClothesTolerance);
 
+  const Samples below =
+      collect(picture, silhouette, head, [](double x, double y) { return std::abs(x) < 3.5 && y > 3.4; });
+  const Samples lower = keep_if(below, [&](const Eigen::Vector3f& c) {
+    return mahalanobis2(learned.skin, c) > 12 && mahalanobis2(learned.clothes, c) > 9;
+  });
+  if (lower.size() >= kFewest && lower.size() * 8 >= below.size()) {
+    keep_if_narrow(fit_robust(lower, kHairTolerance), learned.lower);
+  }
+
   const Samples above = collect(picture, silhouette, head, [](double x, double y) {
     return x * x + y * y < 1 && y < -0.45 && x * x + y * y > 0.2;
   });
   const Samples hair = keep_if(above, unlike_skin);
   if (hair.size() >= kFewest / 2 && hair.size() * 4 >= above.size()) {
-    learned.hair = {fit_robust(hair, kHairTolerance)};
+    keep_if_narrow(fit_robust(hair, kHairTolerance), learned.hair);
   }
   colours = learned;
   return {true, {}};

@@ -14,6 +14,7 @@ struct PersonColours {
   ColourMixture skin;
   ColourMixture clothes;
   ColourMixture hair;
+  ColourMixture lower;  ///< trousers or skirt, when seen at the start
   bool known() const { return !skin.empty(); }
 };
 

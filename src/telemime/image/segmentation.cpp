@@ -2,6 +2,7 @@
 #include "telemime/image/segmentation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -43,6 +44,8 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
   cv::Mat skin = energy(colours.skin, picture);
   cv::Mat clothes = energy(colours.clothes, picture);
   cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, picture);
+  cv::Mat lower = energy(colours.lower, picture);
+  cv::min(lower, config.unknown_cost, lower);
   // A far colour must not outvote its neighbours by being very far.
   const float limit = config.unknown_cost + config.vote_limit;
   const cv::Size size = picture.u.size();
@@ -51,18 +54,21 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
     const auto* s = skin.ptr<float>(r);
     const auto* c = clothes.ptr<float>(r);
     const auto* h = hair.ptr<float>(r);
+    const auto* o = lower.ptr<float>(r);
     auto* b = out.best.ptr<float>(r);
     for (int i = 0; i < size.width; ++i) {
-      b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], config.unknown_cost));
+      b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], o[i]));
     }
   }
   smooth(skin, limit);
   smooth(clothes, limit);
   smooth(hair, limit);
+  smooth(lower, limit);
   for (int r = 0; r < size.height; ++r) {
     const auto* s = skin.ptr<float>(r);
     const auto* c = clothes.ptr<float>(r);
     const auto* h = hair.ptr<float>(r);
+    const auto* o = lower.ptr<float>(r);
     auto* colour = out.colour.ptr<unsigned char>(r);
     auto* learned = out.learned.ptr<unsigned char>(r);
     for (int i = 0; i < size.width; ++i) {
@@ -70,7 +76,7 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
       unsigned char best = is_skin ? kSkin : kClothes;
       const float least = is_skin ? s[i] : c[i];
       learned[i] = best;
-      if (head && h[i] < least && h[i] < config.unknown_cost) {
+      if (head && h[i] < least && h[i] < o[i]) {
         const float dx = (static_cast<float>(i) - static_cast<float>(head->centre.x())) /
                          static_cast<float>(head->radii.x());
         const float dy = (static_cast<float>(r) - static_cast<float>(head->centre.y())) /
@@ -79,7 +85,7 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
           best = kHair;
         }
       }
-      if (best != kHair && least >= config.unknown_cost) {
+      if (best != kHair && least >= o[i]) {
         best = kOther;
       }
       colour[i] = best;
@@ -108,7 +114,8 @@ cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& vot
   return silhouette;
 }
 
-/// Drops pieces that are small or that have neither the head nor the person's colours.
+/// Drops pieces that are small or that have neither the head nor mostly skin (a hand beside the picture's
+/// edge).
 void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
                     bool colours_known, const SegmentationConfig& config) {
   cv::Mat pieces;
@@ -123,7 +130,7 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
     const auto* colour = votes.colour.ptr<unsigned char>(r);
     for (int c = 0; c < silhouette.cols; ++c) {
       const auto i = static_cast<std::size_t>(p[c]);
-      own[i] += colour[c] == kSkin || colour[c] == kClothes ? 1 : 0;
+      own[i] += colour[c] == kSkin ? 1 : 0;
       in_head[i] += ellipse && ellipse->at(r, c) < 1 ? 1 : 0;
     }
   }
@@ -162,13 +169,76 @@ void fill_small_holes(cv::Mat& silhouette, double most) {
   }
 }
 
-/// Unknown colours in strips of one or two pixels are the mixed pixels between two known ones.
-void give_strips_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette) {
-  cv::Mat other = (votes.colour == kOther) & silhouette;
+/// Unknown colours in strips of one or two pixels are the mixed pixels between two known ones, and small
+/// patches of them are folds and deep shade: both go to the likelier of skin and clothes. What reaches the
+/// bottom of the picture stays: trousers begin there.
+void give_scraps_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette, double most) {
+  const cv::Mat other = (votes.colour == kOther) & silhouette;
   cv::Mat thick;
   cv::morphologyEx(other, thick, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
-  cv::Mat thin = other & ~thick;
-  votes.learned.copyTo(votes.colour, thin);
+  cv::Mat pieces;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(thick, pieces, stats, centroids, 4, CV_32S);
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
+                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    if (stats.at<int>(i, cv::CC_STAT_AREA) <= most && box.br().y < other.rows) {
+      thick(box).setTo(0, pieces(box) == i);
+    }
+  }
+  votes.learned.copyTo(votes.colour, other & ~thick);
+}
+
+/// The neck: skin (and the shade under the chin, which has no colour of its own) from the chin down, column
+/// by column until the clothes begin.
+void name_the_neck(cv::Mat& labels, const Ellipse& ellipse) {
+  const auto code = [](Label l) { return static_cast<unsigned char>(l); };
+  const int first = std::max(0, static_cast<int>(ellipse.x - 1.05F * ellipse.rx));
+  const int last = std::min(labels.cols - 1, static_cast<int>(ellipse.x + 1.05F * ellipse.rx));
+  const int bottom = std::min(labels.rows - 1, static_cast<int>(ellipse.y + 1.75F * ellipse.ry));
+  for (int c = first; c <= last; ++c) {
+    int r = std::max(0, static_cast<int>(ellipse.y + 0.5F * ellipse.ry));
+    for (; r <= bottom; ++r) {
+      auto& l = labels.at<unsigned char>(r, c);
+      const bool below = ellipse.at(r, c) > 1;
+      if (below && (l == code(Label::clothes) || l == code(Label::background))) {
+        break;
+      }
+      if (l == code(Label::arms) || (below && l == code(Label::ignore) &&
+                                     std::abs(static_cast<float>(c) - ellipse.x) < 0.7F * ellipse.rx)) {
+        l = code(Label::head);
+      }
+    }
+  }
+}
+
+/// Small islands of one of skin and clothes that lie in the other: a highlight on an arm, a pattern on a
+/// shirt.
+void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
+  const cv::Mat mask = labels == static_cast<unsigned char>(island);
+  cv::Mat pieces;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(mask, pieces, stats, centroids, 8, CV_32S);
+  for (int i = 1; i < count; ++i) {
+    if (stats.at<int>(i, cv::CC_STAT_AREA) > most) {
+      continue;
+    }
+    const cv::Rect box =
+        cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT) - 1, stats.at<int>(i, cv::CC_STAT_TOP) - 1,
+                 stats.at<int>(i, cv::CC_STAT_WIDTH) + 2, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2) &
+        cv::Rect(0, 0, labels.cols, labels.rows);
+    const cv::Mat self = pieces(box) == i;
+    cv::Mat ring;
+    cv::dilate(self, ring, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
+    ring &= ~self;
+    const int around = cv::countNonZero(ring);
+    const int wet = cv::countNonZero((labels(box) == static_cast<unsigned char>(sea)) & ring);
+    if (wet * 10 > around * 7) {
+      labels(box).setTo(static_cast<unsigned char>(sea), self);
+    }
+  }
 }
 
 cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
@@ -201,21 +271,7 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
     }
   }
   if (ellipse && colours_known) {
-    // The neck: skin straight under the chin, column by column until something else begins.
-    const int first = std::max(0, static_cast<int>(ellipse->x - 0.85F * ellipse->rx));
-    const int last = std::min(labels.cols - 1, static_cast<int>(ellipse->x + 0.85F * ellipse->rx));
-    const int bottom = std::min(labels.rows - 1, static_cast<int>(ellipse->y + 2.0F * ellipse->ry));
-    for (int c = first; c <= last; ++c) {
-      int r = std::max(0, static_cast<int>(ellipse->y + 0.5F * ellipse->ry));
-      for (; r <= bottom; ++r) {
-        auto& l = labels.at<unsigned char>(r, c);
-        if (l == code(Label::arms)) {
-          l = code(Label::head);
-        } else if (l != code(Label::head) && ellipse->at(r, c) > 1) {
-          break;
-        }
-      }
-    }
+    name_the_neck(labels, *ellipse);
   }
   return labels;
 }
@@ -230,8 +286,12 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
   out.silhouette = silhouette_of(background, votes, head, config);
   drop_strangers(out.silhouette, votes, head, colours.known(), config);
   fill_small_holes(out.silhouette, config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
-  give_strips_to_neighbours(votes, out.silhouette);
+  give_scraps_to_neighbours(votes, out.silhouette,
+                            4 * config.least_part * static_cast<double>(out.silhouette.total()));
   out.labels = label(out.silhouette, votes, head, colours.known());
+  const double island = 0.5 * config.least_part * static_cast<double>(out.silhouette.total());
+  drown_islands(out.labels, Label::clothes, Label::arms, 2 * island);
+  drown_islands(out.labels, Label::arms, Label::clothes, island);
   return out;
 }
 

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "telemime/image/head_tracker.h"
+#include "telemime/image/observation.h"
+
+namespace telemime {
+
+/// How a person's head lies around the square of the face detector, in sides of that square. Hair decides
+/// the crown and the width, so both are measured on the silhouette and carried along.
+struct HeadShape {
+  double shift = 0.0;        ///< of the head's middle to the right of the square's
+  double half_width = 0.44;  ///< hair included
+  double crown = 0.74;       ///< above the square's centre
+  double chin = 0.57;        ///< below the square's centre; not measured, the neck hides it
+};
+
+/// The head's ellipse. `scale_x`, `scale_y`: from pixels of the detector's picture to working pixels.
+HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double scale_x, double scale_y);
+
+/// The shape moved by `rate` (0 to 1) towards what the silhouette (CV_8UC1, working pixels) shows around
+/// `head`, the region that `shape` gave. Rows and columns where something else touches the head are left out.
+HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate);
+
+}  // namespace telemime
