@@ -68,10 +68,6 @@ SearchBlock whole_block(const Pose& pose, const JointLimits& limits, double fact
   return numbers_block("whole", pose, limits, factor, which);
 }
 
-SearchBlock trunk_block(const Pose& pose, const JointLimits& limits, double factor) {
-  return numbers_block("trunk", pose, limits, factor, {0, 1, 2, 3, 4, 5, 6, 7, 8});
-}
-
 Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
                 const JointLimits& limits) {
   Pose moved = pose;
@@ -96,6 +92,16 @@ Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& 
     }
   }
   return moved;
+}
+
+SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& limits, double factor) {
+  SearchBlock block = numbers_block("trunk", pose, limits, factor, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  block.decode = [&body, &limits, move = block.decode, left = arm_target(body, pose, Side::left),
+                  right = arm_target(body, pose, Side::right)](const Eigen::VectorXd& x) {
+    const Pose moved = with_wrist(body, move(x), Side::left, left, limits);
+    return with_wrist(body, moved, Side::right, right, limits);
+  };
+  return block;
 }
 
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,

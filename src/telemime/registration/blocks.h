@@ -24,8 +24,9 @@ struct SearchBlock {
 /// All 23 pose numbers (m and rad): the search of the reference.
 SearchBlock whole_block(const Pose& pose, const JointLimits& limits, double factor);
 
-/// Root translation and rotation, neck (9 numbers). The arms keep their angles, so they go with the trunk.
-SearchBlock trunk_block(const Pose& pose, const JointLimits& limits, double factor);
+/// Root translation and rotation, neck (9 numbers). The wrists stay where they are as far as they can be
+/// reached, so that trunk and arms are searched independently of each other.
+SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& limits, double factor);
 
 /// One arm in end-effector space: the wrist along its viewing ray (x/z, y/z, z), swivel, and the hand's
 /// flexion, pivot and twisting (7 numbers). A wrist out of reach is drawn into reach.

@@ -18,7 +18,22 @@ constexpr double kAhead = 0.045;
 constexpr double kDesignStature = 1.70;
 
 ObjectiveWeights search_weights() {
-  return {1.0, 0.15, 0.02, 4.0, 0.02, 0.0};
+  ObjectiveWeights weights;
+  weights.contour = 0.15;
+  weights.natural = 0.04;
+  return weights;
+}
+
+// Pose alignment without memory of earlier frames.
+RegistrationConfig alignment(const RegistrationConfig& registration, int iterations, double fronto_parallel) {
+  RegistrationConfig config = registration;
+  config.iterations = iterations;
+  for (ObjectiveWeights* w : {&config.region, &config.edge}) {
+    w->temporal = 0.0;
+    w->trunk = 0.0;
+    w->fronto_parallel = fronto_parallel;
+  }
+  return config;
 }
 
 struct HeadGeometry {
@@ -122,11 +137,7 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
     best = search_arm(objective, best, Side::left, weights, arms, random);
     best = search_arm(objective, best, Side::right, weights, arms, random);
   }
-  RegistrationConfig converge = registration;
-  converge.iterations = config.pose_iterations;
-  converge.region.temporal = 0.0;
-  converge.edge.temporal = 0.0;
-  return register_pose(objective, best, converge).pose;
+  return register_pose(objective, best, alignment(registration, config.pose_iterations, 0.0), random).pose;
 }
 
 Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRegion& head,
@@ -138,19 +149,20 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
   {
     Objective objective(backend, frame, model, limits);
     result.pose = initialise_pose(objective, head, config, registration, random);
+    result.pose =
+        register_pose(objective, result.pose,
+                      alignment(registration, config.pose_iterations, config.fronto_parallel), random)
+            .pose;
     result.evaluations += objective.evaluations();
   }
-  RegistrationConfig converge = registration;
-  converge.iterations = config.pose_iterations;
-  converge.region.temporal = 0.0;
-  converge.edge.temporal = 0.0;
+  const RegistrationConfig align = alignment(registration, config.pose_iterations, config.fronto_parallel);
   for (int round = 0; round < config.rounds; ++round) {
     const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, config.shape);
     result.evaluations += fit.evaluations;
     result.shape = fit.shape;
     model = make_model(result.shape);
     Objective objective(backend, frame, model, limits);
-    const RegistrationResult registered = register_pose(objective, fit.pose, converge);
+    const RegistrationResult registered = register_pose(objective, fit.pose, align, random);
     result.pose = registered.pose;
     result.score = registered.score;
     result.evaluations += objective.evaluations();

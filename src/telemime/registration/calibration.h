@@ -17,9 +17,10 @@ struct CalibrationConfig {
   double farthest = 5.0;          ///< m, D_max
   ArmSearchConfig arms;
   ShapeFitConfig shape;
-  int rounds = 2;              ///< of pose alignment and shape adjustment
-  int pose_iterations = 800;   ///< evaluations of each pose alignment
-  double worst_region = 0.45;  ///< F above which the fit is refused
+  int rounds = 2;                 ///< of pose alignment and shape adjustment
+  int pose_iterations = 800;      ///< evaluations of each pose alignment
+  double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image
+  double worst_region = 0.45;     ///< F above which the fit is refused
 
   void validate() const;
 };

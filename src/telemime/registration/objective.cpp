@@ -30,6 +30,25 @@ double distance_from_expected(const Kinematics& k, const JointPositions& expecte
   return sum / static_cast<double>(kArms.size());
 }
 
+double trunk_change(const Pose& pose, const Pose& expected) {
+  double sum = (pose.root - expected.root).squaredNorm() / square(0.03);
+  for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_torsion,
+                        Angle::neck_roll, Angle::neck_tilt}) {
+    sum += square((pose[a] - expected[a]) / 0.1);
+  }
+  return sum;
+}
+
+double depth_of_arms(const Kinematics& k) {
+  double sum = 0.0;
+  for (const bool left : {true, false}) {
+    const double shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder].z();
+    sum += square((k.joints[left ? Joint::l_elbow : Joint::r_elbow].z() - shoulder) / 0.1);
+    sum += square((k.joints[left ? Joint::l_wrist : Joint::r_wrist].z() - shoulder) / 0.1);
+  }
+  return sum / 4.0;
+}
+
 }  // namespace
 
 double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
@@ -60,8 +79,12 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
   if (weights.natural > 0.0) {
     cost += weights.natural * natural_cost(model_.body, pose, k);
   }
-  if (weights.temporal > 0.0 && expected_) {
-    cost += weights.temporal * distance_from_expected(k, *expected_);
+  if (weights.fronto_parallel > 0.0) {
+    cost += weights.fronto_parallel * depth_of_arms(k);
+  }
+  if (expected_) {
+    cost += weights.temporal > 0.0 ? weights.temporal * distance_from_expected(k, expected_->joints) : 0.0;
+    cost += weights.trunk > 0.0 ? weights.trunk * trunk_change(pose, expected_->pose) : 0.0;
   }
   const bool region = weights.region > 0.0;
   const bool contour = weights.contour > 0.0;

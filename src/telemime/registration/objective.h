@@ -16,8 +16,13 @@ struct ObjectiveWeights {
       0.02;              ///< D_C is divided by this share of the image's width, so that it is of F's size
   double invalid = 4.0;  ///< per metre of interpenetration
   double natural = 0.0;  ///< of natural_cost
-  double temporal =
-      0.0;  ///< of the squared way (m over 0.15 m) of elbows and wrists from where they are expected
+  /// Of the squared way (m over 0.15 m) of elbows and wrists from where they are expected.
+  double temporal = 0.0;
+  /// Of the squared change of the trunk (m over 0.03 m, rad over 0.1) from what is expected.
+  double trunk = 0.0;
+  /// Of the squared depth (m over 0.1 m) of elbows and wrists before or behind their shoulder: calibration
+  /// assumes that the person holds the arms parallel to the image (thesis 3.3).
+  double fronto_parallel = 0.0;
 };
 
 /// A mild preference for poses that people take: hands before the chest rather than behind it, elbows low,
@@ -35,8 +40,8 @@ class Objective {
   double operator()(const Pose& pose, const ObjectiveWeights& weights);
   /// F and D_C of the pose; counts as one evaluation.
   Score score(const Pose& pose, Reduction terms);
-  /// Where elbows and wrists are expected (m, camera frame), for the temporal term; none: the term is 0.
-  void expect(const std::optional<JointPositions>& joints) { expected_ = joints; }
+  /// The pose that is expected in this frame, for the terms "temporal" and "trunk"; without it they are 0.
+  void expect(const Pose& pose) { expected_ = Expected{pose, forward_kinematics(model_.body, pose).joints}; }
 
   const Model& model() const { return model_; }
   const JointLimits& limits() const { return limits_; }
@@ -48,7 +53,11 @@ class Objective {
   const PreparedFrame& frame_;
   const Model& model_;
   const JointLimits& limits_;
-  std::optional<JointPositions> expected_;
+  struct Expected {
+    Pose pose;
+    JointPositions joints;
+  };
+  std::optional<Expected> expected_;
   int evaluations_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/registration/arm_search.h"
 
 namespace telemime {
 namespace {
@@ -26,7 +27,7 @@ SearchBlock make_block(std::size_t part, const Objective& objective, const Pose&
   const JointLimits& limits = objective.limits();
   switch (part) {
     case 0:
-      return trunk_block(pose, limits, factor);
+      return trunk_block(body, pose, limits, factor);
     case 1:
       return arm_block(body, pose, Side::left, limits, factor);
     default:
@@ -85,6 +86,32 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
+// Arms from elsewhere: depth flips of where the arm is, and random ones. They replace the arm when their cost
+// is lower.
+Pose propose_arms(Objective& objective, const Pose& start, const RegistrationConfig& config, Random& random) {
+  Pose best = start;
+  double best_cost = objective(start, config.region);
+  const Body& body = objective.model().body;
+  for (const Side side : {Side::left, Side::right}) {
+    const Pose from = best;
+    std::vector<Pose> arms;
+    if (config.flips) {
+      arms = depth_flips(body, from, side, objective.limits());
+    }
+    for (int i = 0; i < config.proposals; ++i) {
+      arms.push_back(random_arm(body, from, side, objective.limits(), random));
+    }
+    for (const Pose& arm : arms) {
+      const double cost = objective(arm, config.region);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = arm;
+      }
+    }
+  }
+  return best;
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -102,11 +129,12 @@ void RegistrationConfig::validate() const {
   require(simplex_factor > 0.0 && simplex_factor <= 20.0, "simplex_factor must be above 0, at most 20");
   require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
   require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
+  require(proposals >= 0 && proposals <= 100000, "proposals must be between 0 and 100000");
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
-    require(
-        w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 && w->temporal >= 0.0,
-        "weights must not be negative");
+    require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
+                w->temporal >= 0.0 && w->trunk >= 0.0,
+            "weights must not be negative");
     require(w->contour_scale > 0.0, "contour_scale must be positive");
   }
 }
@@ -115,12 +143,15 @@ RegistrationConfig reference_registration() {
   RegistrationConfig config;
   config.blocks = false;
   config.region_share = 0.5;
-  config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0};
-  config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0};
+  config.proposals = 0;
+  config.flips = false;
+  config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0, 0.0};
+  config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0, 0.0};
   return config;
 }
 
-RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config) {
+RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config,
+                                 Random& random) {
   const double share = config.method == Method::regions ? 1.0
                        : config.method == Method::edges ? 0.0
                                                         : config.region_share;
@@ -135,7 +166,11 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   int before = objective.evaluations();
   auto clock = std::chrono::steady_clock::now();
   if (region_budget > 0) {
-    step = run_step(objective, start, config, config.region, region_budget, nullptr);
+    const int proposals = 2 * (config.proposals + (config.flips ? 3 : 0));
+    const bool affordable = proposals > 0 && proposals < region_budget / 2;
+    const Pose from = affordable ? propose_arms(objective, start, config, random) : start;
+    const int spent = objective.evaluations() - before;
+    step = run_step(objective, from, config, config.region, region_budget - spent, nullptr);
   }
   result.region_evaluations = objective.evaluations() - before;
   result.region_ms = milliseconds_since(clock);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "telemime/core/random.h"
 #include "telemime/registration/blocks.h"
 #include "telemime/registration/objective.h"
 
@@ -26,10 +27,15 @@ struct RegistrationConfig {
   /// Rounds over the blocks within a step.
   int rounds = 2;
   /// The region step's objective.
-  ObjectiveWeights region{1.0, 0.0, 0.02, 4.0, 0.010, 0.010};
+  ObjectiveWeights region{1.0, 0.0, 0.02, 4.0, 0.04, 0.010, 0.002};
   /// The edge step's objective: D_C, with F beside it so that the contours do not leave their regions.
-  ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.010, 0.010};
+  ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.010, 0.002};
   double tolerance = 1e-4;
+  /// Arms that are tried anywhere each frame, for each arm, so that one that was lost in a fast motion comes
+  /// back; 0: none.
+  int proposals = 30;
+  /// Tries the arms' mirror images in depth each frame.
+  bool flips = true;
 
   /// Throws Error(config) with what to change.
   void validate() const;
@@ -50,7 +56,8 @@ struct RegistrationResult {
 
 /// Two-step registration (thesis 2.4.4.4, 3.5.4) from a pose near the right one: minimise F, then D_C,
 /// starting the edge step from the region step's last simplex.
-RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config);
+RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config,
+                                 Random& random);
 
 Method parse_method(const std::string& name);
 std::string_view to_string(Method method);

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/pipeline/config.h"
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+using Json = nlohmann::json;
+
+Error bad(const std::string& what) {
+  return {ErrorKind::config, "configuration: " + what,
+          "Names, units and defaults are in docs/configuration.md; `telemime config` prints them all."};
+}
+
+// Visits every setting as (path, reference), so that reading and writing cannot differ.
+template <typename C, typename Visit>
+void each_setting(C& c, Visit&& visit) {
+  visit("seed", c.seed);
+  visit("limits", c.limits);
+  visit("camera/field_of_view", c.field_of_view);
+  visit("budget_ms", c.budget_ms);
+  visit("image/width", c.image.width);
+  visit("image/height", c.image.height);
+  visit("image/face_width", c.image.face_width);
+  visit("image/background_rate", c.image.background_rate);
+  visit("image/edges/alpha", c.image.edges.alpha);
+  visit("image/edges/low", c.image.edges.low);
+  visit("image/edges/high", c.image.edges.high);
+  visit("image/edges/distance_cap", c.image.edges.distance_cap);
+  visit("calibration/stature", c.calibration.stature);
+  visit("calibration/nearest", c.calibration.nearest);
+  visit("calibration/farthest", c.calibration.farthest);
+  visit("calibration/rounds", c.calibration.rounds);
+  visit("calibration/pose_iterations", c.calibration.pose_iterations);
+  visit("calibration/fronto_parallel", c.calibration.fronto_parallel);
+  visit("calibration/worst_region", c.calibration.worst_region);
+  visit("calibration/arm_samples", c.calibration.arms.samples);
+  visit("calibration/arm_kept", c.calibration.arms.kept);
+  visit("calibration/arm_refine", c.calibration.arms.refine);
+  visit("calibration/shape_iterations", c.calibration.shape.iterations);
+  visit("calibration/share_sides", c.calibration.shape.share_sides);
+  visit("calibration/length_spread", c.calibration.shape.length_spread);
+  visit("calibration/girth_spread", c.calibration.shape.girth_spread);
+  visit("calibration/prior_weight", c.calibration.shape.prior_weight);
+  visit("calibration/contour_weight", c.calibration.shape.contour_weight);
+  visit("registration/method", c.registration.method);
+  visit("registration/iterations", c.registration.iterations);
+  visit("registration/region_share", c.registration.region_share);
+  visit("registration/simplex_factor", c.registration.simplex_factor);
+  visit("registration/edge_factor", c.registration.edge_factor);
+  visit("registration/blocks", c.registration.blocks);
+  visit("registration/rounds", c.registration.rounds);
+  visit("registration/proposals", c.registration.proposals);
+  visit("registration/flips", c.registration.flips);
+  visit("registration/tolerance", c.registration.tolerance);
+  const auto weights = [&](const std::string& step, auto& w) {
+    visit(step + "/region", w.region);
+    visit(step + "/contour", w.contour);
+    visit(step + "/contour_scale", w.contour_scale);
+    visit(step + "/invalid", w.invalid);
+    visit(step + "/natural", w.natural);
+    visit(step + "/temporal", w.temporal);
+    visit(step + "/trunk", w.trunk);
+    visit(step + "/fronto_parallel", w.fronto_parallel);
+  };
+  weights("registration/region_step", c.registration.region);
+  weights("registration/edge_step", c.registration.edge);
+  visit("tracking/lost_region", c.tracking.lost_region);
+  visit("tracking/found_region", c.tracking.found_region);
+  visit("tracking/patience", c.tracking.patience);
+  visit("tracking/retry_every", c.tracking.retry_every);
+  visit("tracking/calibration_patience", c.tracking.calibration_patience);
+  visit("tracking/velocity", c.tracking.velocity);
+  visit("smoothing/name", c.smoothing.name);
+  visit("smoothing/recursive_coefficient", c.smoothing.recursive_coefficient);
+  visit("smoothing/angles/minimum_cutoff", c.smoothing.angles.minimum_cutoff);
+  visit("smoothing/angles/slope", c.smoothing.angles.slope);
+  visit("smoothing/angles/speed_cutoff", c.smoothing.angles.speed_cutoff);
+  visit("smoothing/root/minimum_cutoff", c.smoothing.root.minimum_cutoff);
+  visit("smoothing/root/slope", c.smoothing.root.slope);
+  visit("smoothing/root/speed_cutoff", c.smoothing.root.speed_cutoff);
+}
+
+template <typename T>
+Json value_of(const T& value) {
+  return value;
+}
+Json value_of(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+Json value_of(const Method& value) {
+  return to_string(value);
+}
+
+void read(double& to, const Json& from) {
+  to = from.get<double>();
+  if (!std::isfinite(to)) {
+    throw bad("a number is not finite");
+  }
+}
+void read(float& to, const Json& from) {
+  double wide = 0.0;
+  read(wide, from);
+  to = static_cast<float>(wide);
+}
+void read(int& to, const Json& from) {
+  if (!from.is_number_integer() || std::abs(from.get<double>()) > 2e9) {
+    throw bad("a whole number is needed, not " + from.dump());
+  }
+  to = from.get<int>();
+}
+void read(std::uint64_t& to, const Json& from) {
+  if (!from.is_number_unsigned()) {
+    throw bad("a whole number from 0 is needed, not " + from.dump());
+  }
+  to = from.get<std::uint64_t>();
+}
+void read(bool& to, const Json& from) {
+  to = from.get<bool>();
+}
+void read(std::string& to, const Json& from) {
+  to = from.get<std::string>();
+}
+void read(Method& to, const Json& from) {
+  to = parse_method(from.get<std::string>());
+}
+void read(std::optional<double>& to, const Json& from) {
+  if (from.is_null()) {
+    to.reset();
+    return;
+  }
+  double number = 0.0;
+  read(number, from);
+  to = number;
+}
+
+void collect_leaves(const Json& json, const std::string& path, std::vector<std::string>& leaves) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string here = path.empty() ? key : path + "/" + key;
+    if (value.is_object()) {
+      collect_leaves(value, here, leaves);
+    } else {
+      leaves.push_back(here);
+    }
+  }
+}
+
+}  // namespace
+
+Config::Config() {
+  image.width = 320;
+  image.height = 240;
+}
+
+void Config::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw bad(what);
+    }
+  };
+  image.validate();
+  calibration.validate();
+  registration.validate();
+  require(field_of_view > 1.0 && field_of_view < 179.0,
+          "camera.field_of_view must be between 1 and 179 degrees");
+  require(!budget_ms || (*budget_ms > 0.0 && *budget_ms < 1e5), "budget_ms must be above 0 and below 100000");
+  require(tracking.lost_region > 0.0 && tracking.lost_region <= 1.0,
+          "tracking.lost_region must be in (0, 1]");
+  require(tracking.found_region > 0.0 && tracking.found_region <= 1.0,
+          "tracking.found_region must be in (0, 1]");
+  require(tracking.patience >= 1 && tracking.retry_every >= 1 && tracking.calibration_patience >= 0,
+          "tracking.patience, retry_every and calibration_patience must be positive");
+  require(tracking.velocity >= 0.0 && tracking.velocity <= 1.0, "tracking.velocity must be between 0 and 1");
+}
+
+Json to_json(const Config& config) {
+  Json json = Json::object();
+  each_setting(config, [&](const std::string& path, const auto& value) {
+    json[Json::json_pointer("/" + path)] = value_of(value);
+  });
+  return json;
+}
+
+void update_from_json(Config& config, const Json& json) {
+  if (!json.is_object()) {
+    throw bad("the file must hold one JSON object");
+  }
+  std::vector<std::string> leaves;
+  collect_leaves(json, "", leaves);
+  Config updated = config;
+  each_setting(updated, [&](const std::string& path, auto& value) {
+    const Json::json_pointer pointer("/" + path);
+    if (!json.contains(pointer)) {
+      return;
+    }
+    try {
+      read(value, json.at(pointer));
+    } catch (const Json::exception&) {
+      throw bad("'" + path + "' cannot be " + json.at(pointer).dump());
+    } catch (const Error& e) {
+      throw bad("'" + path + "': " + e.what());
+    }
+    std::erase(leaves, path);
+  });
+  if (!leaves.empty()) {
+    throw bad("there is no setting '" + leaves.front() + "'");
+  }
+  updated.validate();
+  config = updated;
+}
+
+void update_from_file(Config& config, const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) {
+    throw Error(ErrorKind::config, "configuration file " + file.string() + " cannot be opened",
+                "Check the path and its permissions.");
+  }
+  const Json json = Json::parse(in, nullptr, false, true);
+  if (json.is_discarded()) {
+    throw Error(ErrorKind::config, "configuration file " + file.string() + " is not valid JSON",
+                "JSON knows no NaN or Infinity; `telemime config` prints a file to start from.");
+  }
+  update_from_json(config, json);
+}
+
+}  // namespace telemime

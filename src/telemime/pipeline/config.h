@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "telemime/image/features.h"
+#include "telemime/registration/calibration.h"
+#include "telemime/registration/two_step.h"
+#include "telemime/smoothing/smoother.h"
+
+namespace telemime {
+
+/// When a person counts as found, and when as lost.
+struct TrackingConfig {
+  double lost_region = 0.62;   ///< F above this for `patience` frames: lost
+  double found_region = 0.55;  ///< F at or below this after a search: found
+  int patience = 8;            ///< frames
+  int retry_every = 3;         ///< frames between searches for a person while lost
+  /// Frames to wait for a first frame in which the shape can be fitted (thesis 3.3); then the average body
+  /// starts, and the shape is fitted when a good frame comes.
+  int calibration_patience = 10;
+  double velocity = 0.5;  ///< share of the last frame's motion of the arms that is expected again
+};
+
+/// The whole configuration; every default stands in the struct of its own room.
+struct Config {
+  std::uint64_t seed = 1;
+  std::string limits = "anatomical";  ///< reference, anatomical or a file
+  double field_of_view = 60.0;        ///< degrees, horizontal; used when there is no camera file
+  std::optional<double>
+      budget_ms;  ///< time for the search in each frame: replaces registration.iterations (tune)
+  ImageConfig image;
+  CalibrationConfig calibration;
+  RegistrationConfig registration;
+  TrackingConfig tracking;
+  SmoothingOptions smoothing;
+
+  /// The working image is 320x240 by default.
+  Config();
+  /// Throws Error(config) with what to change.
+  void validate() const;
+};
+
+/// The effective configuration, as written beside the results.
+nlohmann::json to_json(const Config& config);
+
+/// Replaces the values that `json` holds. Throws Error(config) that names an unknown key, a wrong type or a
+/// number that is not finite; `config` is unchanged then.
+void update_from_json(Config& config, const nlohmann::json& json);
+
+/// The same from a file. Throws Error(config).
+void update_from_file(Config& config, const std::filesystem::path& file);
+
+}  // namespace telemime

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/pipeline/tracker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace telemime {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// The arms are expected to go on as they did; the trunk hardly moves, and extrapolating it would only shake
+// it.
+Pose expected_pose(const Pose& pose, const Pose& previous, double velocity, const JointLimits& limits) {
+  PoseVector motion = pose.vector() - previous.vector();
+  motion.head<9>().setZero();
+  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
+}
+
+std::string scale_words(const CalibrationConfig& config) {
+  return config.stature ? "the height given" : "an average adult's head (no height was given)";
+}
+
+}  // namespace
+
+void complete(MotionFrame& frame, const Body& body, const Camera& camera) {
+  frame.joints = forward_kinematics(body, frame.pose).joints;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    Eigen::Vector3d p = frame.joints.at[i];
+    p.z() = std::max(p.z(), 0.01);
+    frame.pixels[i] = camera.project(p);
+  }
+}
+
+Tracker::Tracker(const Config& config, const Camera& camera)
+    : config_(config),
+      camera_(camera),
+      working_camera_(camera.scaled_to(config.image.width, config.image.height)),
+      limits_(load_limits(config.limits)),
+      features_(config.image),
+      backend_(make_scalar_backend()),
+      random_(config.seed) {
+  config_.validate();
+  Shape average;
+  average.stature = config.calibration.stature.value_or(average.stature);
+  model_ = make_model(average);
+}
+
+void Tracker::learn_background(std::span<const Frame> frames) {
+  features_.learn_background(frames);
+}
+
+void Tracker::set_calibration(const TrackerCalibration& calibration, ImageCalibration image) {
+  calibration_ = calibration;
+  model_ = make_model(calibration.shape);
+  features_.set_calibration(std::move(image));
+  phase_ = Phase::lost;
+  frames_until_search_ = 0;
+}
+
+void Tracker::recalibrate() {
+  calibration_.reset();
+  phase_ = Phase::waiting;
+  waited_ = 0;
+  frames_until_search_ = 0;
+}
+
+bool Tracker::person_colours(const Frame& frame, std::string& note) {
+  if (calibration_ || features_.calibration().colours.known()) {
+    return true;
+  }
+  const PersonReport report = features_.begin_person(frame);
+  note = report.reason;
+  return report.accepted;
+}
+
+TrackedFrame Tracker::step(const Frame& frame) {
+  Stopwatch watch;
+  TrackedFrame result;
+  MotionFrame& motion = result.motion;
+  motion.frame = frame.index;
+  motion.time = frame.time;
+  motion.pose = pose_;
+  const bool coloured = person_colours(frame, result.note);
+  result.observation = features_.extract(frame);
+  motion.stage_ms.emplace_back("features", watch.lap());
+
+  if (coloured) {
+    const PreparedFrame prepared = prepare(result.observation, working_camera_);
+    if (phase_ == Phase::tracking) {
+      follow(prepared, result);
+    } else if (--frames_until_search_ <= 0) {
+      search(prepared, result.observation, result);
+    }
+  }
+  motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;
+  motion.pose = pose_;
+  complete(motion, model_.body, camera_);
+  motion.stage_ms.emplace_back("search", watch.lap());
+  return result;
+}
+
+void Tracker::search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result) {
+  if (!observation.head) {
+    lose("no head is seen", result);
+    return;
+  }
+  if (!calibration_) {
+    if (!observation.head->detected) {
+      lose("waiting for a face that looks at the camera", result);
+      return;
+    }
+    const Calibration fit = calibrate(*backend_, prepared, *observation.head, limits_, config_.calibration,
+                                      config_.registration, random_);
+    result.motion.evaluations += fit.evaluations;
+    if (!fit.refusal.empty() && waited_ < config_.tracking.calibration_patience) {
+      ++waited_;
+      lose("waiting for a better first frame: " + fit.refusal, result);
+      frames_until_search_ = 1;
+      return;
+    }
+    calibration_ = TrackerCalibration{fit.shape, scale_words(config_.calibration), fit.refusal, fit.score};
+    model_ = make_model(fit.shape);
+    phase_ = Phase::tracking;
+    previous_ = fit.pose;
+    adopt(fit.pose, fit.score, result);
+    return;
+  }
+  Objective objective(*backend_, prepared, model_, limits_);
+  const Pose found =
+      initialise_pose(objective, *observation.head, config_.calibration, config_.registration, random_);
+  const Score score = objective.score(found, Reduction::all);
+  result.motion.evaluations += objective.evaluations();
+  if (score.region > config_.tracking.found_region) {
+    lose("somebody is there, but the body does not fit", result);
+    return;
+  }
+  phase_ = Phase::tracking;
+  previous_ = found;
+  adopt(found, score, result);
+}
+
+void Tracker::follow(const PreparedFrame& prepared, TrackedFrame& result) {
+  Objective objective(*backend_, prepared, model_, limits_);
+  const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity, limits_);
+  const bool goes_on =
+      objective(expected, config_.registration.region) < objective(pose_, config_.registration.region);
+  const Pose start = goes_on ? expected : pose_;
+  objective.expect(start);
+  const RegistrationResult found = register_pose(objective, start, config_.registration, random_);
+  result.motion.evaluations += objective.evaluations();
+  result.motion.stage_ms.emplace_back("regions", found.region_ms);
+  result.motion.stage_ms.emplace_back("edges", found.edge_ms);
+  previous_ = pose_;
+  adopt(found.pose, found.score, result);
+
+  const bool bad = found.score.region > config_.tracking.lost_region || !result.observation.head;
+  bad_frames_ = bad ? bad_frames_ + 1 : 0;
+  if (bad_frames_ >= config_.tracking.patience) {
+    lose("the body no longer fits the picture", result);
+  }
+}
+
+void Tracker::adopt(const Pose& pose, const Score& score, TrackedFrame& result) {
+  pose_ = pose;
+  result.motion.region_score = score.region;
+  result.motion.contour_score = score.contour;
+  result.note.clear();
+}
+
+void Tracker::lose(const std::string& why, TrackedFrame& result) {
+  phase_ = calibration_ ? Phase::lost : Phase::waiting;
+  bad_frames_ = 0;
+  frames_until_search_ = config_.tracking.retry_every;
+  result.note = why;
+}
+
+}  // namespace telemime

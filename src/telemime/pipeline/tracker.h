@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "telemime/body/motion_frame.h"
+#include "telemime/core/camera.h"
+#include "telemime/core/frame.h"
+#include "telemime/core/random.h"
+#include "telemime/image/features.h"
+#include "telemime/likelihood/backend.h"
+#include "telemime/pipeline/config.h"
+
+namespace telemime {
+
+/// What calibration found out about a person and the scene; enough to track them again without calibrating.
+struct TrackerCalibration {
+  Shape shape;
+  std::string scale_from;  ///< where the absolute scale comes from, in words
+  std::string refusal;     ///< why the arms kept average proportions; empty: they were fitted
+  Score score;
+};
+
+/// One frame's result with what a viewer may want to draw.
+struct TrackedFrame {
+  MotionFrame motion;       ///< not smoothed
+  Observation observation;  ///< of the working image
+  std::string note;         ///< why the person is not tracked, in words; empty while tracking
+};
+
+/// Follows one person from frame to frame: features, calibration on the first good frame, registration, lost
+/// and found. Same frames, same configuration: same results.
+class Tracker {
+ public:
+  /// `camera` is that of the input images. Throws Error(config).
+  Tracker(const Config& config, const Camera& camera);
+
+  void learn_background(std::span<const Frame> frames);
+  void set_calibration(const TrackerCalibration& calibration, ImageCalibration image);
+
+  TrackedFrame step(const Frame& frame);
+
+  /// Starts over with the person (not the scene) at the next frame.
+  void recalibrate();
+
+  const std::optional<TrackerCalibration>& calibration() const { return calibration_; }
+  const FeatureExtractor& features() const { return features_; }
+  const Model& model() const { return model_; }
+  const Camera& camera() const { return camera_; }
+  const Camera& working_camera() const { return working_camera_; }
+  const JointLimits& limits() const { return limits_; }
+  const Config& config() const { return config_; }
+
+ private:
+  enum class Phase { waiting, tracking, lost };
+
+  bool person_colours(const Frame& frame, std::string& note);
+  void search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result);
+  void follow(const PreparedFrame& prepared, TrackedFrame& result);
+  void adopt(const Pose& pose, const Score& score, TrackedFrame& result);
+  void lose(const std::string& why, TrackedFrame& result);
+
+  Config config_;
+  Camera camera_;
+  Camera working_camera_;
+  JointLimits limits_;
+  FeatureExtractor features_;
+  std::unique_ptr<Backend> backend_;
+  Random random_;
+  Model model_;
+  std::optional<TrackerCalibration> calibration_;
+  Phase phase_ = Phase::waiting;
+  Pose pose_;
+  Pose previous_;
+  int bad_frames_ = 0;
+  int frames_until_search_ = 0;
+  int waited_ = 0;
+};
+
+/// Fills joints and pixels of a frame from its pose.
+void complete(MotionFrame& frame, const Body& body, const Camera& camera);
+
+}  // namespace telemime
