@@ -164,7 +164,7 @@ TEST(BvhReader, ReportsACutEndAndAWrongCount) {
   EXPECT_NE(cut.complaint.find("cut off"), std::string::npos);
   std::string fewer = text;
   fewer.replace(fewer.find("Frames:"), 18, "Frames:          7");
-  EXPECT_NE(parse_bvh(fewer, "t").complaint.find("7"), std::string::npos);
+  EXPECT_NE(parse_bvh(fewer, "t").complaint.find('7'), std::string::npos);
 }
 
 TEST(BvhReader, NamesTheLineThatIsWrong) {

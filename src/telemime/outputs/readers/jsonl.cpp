@@ -48,8 +48,9 @@ JointLimits read_limits(const json& object, const std::string& where) {
     if (!range.is_array() || range.size() != 2) {
       fail(where, "the limits of " + name + " must be [min, max]");
     }
-    limits.min[a] = fields::number(range[0], where + ": " + name) / kDegreesPerRadian;
-    limits.max[a] = fields::number(range[1], where + ": " + name) / kDegreesPerRadian;
+    const std::string place = std::string(where).append(": ").append(name);
+    limits.min[a] = fields::number(range[0], place) / kDegreesPerRadian;
+    limits.max[a] = fields::number(range[1], place) / kDegreesPerRadian;
   }
   return limits;
 }
