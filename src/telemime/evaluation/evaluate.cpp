@@ -154,6 +154,7 @@ std::vector<StageTime> stage_times(const std::vector<MotionFrame>& frames) {
     }
   }
   std::vector<StageTime> times;
+  times.reserve(samples.size());
   for (const auto& [stage, values] : samples) {
     times.push_back({stage, *quantile(values, 0.5), *quantile(values, 0.95)});
   }

@@ -39,6 +39,7 @@ struct Rig {
 
   std::vector<MotionFrame> frames(int count, const std::function<Pose(int)>& pose) const {
     std::vector<MotionFrame> result;
+    result.reserve(static_cast<std::size_t>(count));
     for (int t = 0; t < count; ++t) {
       result.push_back(frame(pose(t), t));
     }
@@ -50,6 +51,7 @@ struct Rig {
     options.name = name;
     const auto smoother = make_smoother(options, body, camera);
     std::vector<MotionFrame> result;
+    result.reserve(frames.size());
     for (const MotionFrame& frame : frames) {
       result.push_back((*smoother)(frame));
     }
