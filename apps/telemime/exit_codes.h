@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+
+/// Exit codes of the program (docs/cli.md).
+inline constexpr int kExitInternal = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitConfig = 3;
+inline constexpr int kExitInput = 4;
+inline constexpr int kExitOutput = 5;
+inline constexpr int kExitTracking = 6;
+inline constexpr int kExitInterrupted = 130;
+
+inline int exit_code(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage:
+      return kExitUsage;
+    case ErrorKind::config:
+      return kExitConfig;
+    case ErrorKind::input:
+      return kExitInput;
+    case ErrorKind::output:
+      return kExitOutput;
+    case ErrorKind::tracking:
+      return kExitTracking;
+  }
+  return kExitInternal;
+}
+
+/// The user pressed Ctrl-C; everything written so far is valid.
+class Interrupted : public std::exception {};
+
+}  // namespace telemime

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program: every subcommand is one file beside this one.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <exception>
+#include <iostream>
+
+#include "evaluate_command.h"
+#include "exit_codes.h"
+#include "telemime/capture/quiet.h"
+#include "track_command.h"
+
+int main(int argc, char** argv) {
+  telemime::quiet_opencv();
+  CLI::App app("Telemime: 3-D motion capture of the upper body from one camera", "telemime");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", TELEMIME_VERSION);
+  telemime::add_track_command(app);
+  telemime::add_evaluate_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e, std::cout, std::cerr);
+    return code == 0 ? 0 : telemime::kExitUsage;
+  } catch (const telemime::Interrupted&) {
+    return telemime::kExitInterrupted;
+  } catch (const telemime::Error& e) {
+    std::cerr << "telemime: " << e.what() << '\n';
+    return telemime::exit_code(e.kind());
+  } catch (const std::exception& e) {
+    std::cerr << "telemime: unexpected failure: " << e.what() << '\n';
+    return telemime::kExitInternal;
+  }
+  return 0;
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "track_command.h"
+
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <opencv2/highgui.hpp>
+
+#include "exit_codes.h"
+#include "progress_bar.h"
+#include "telemime/core/errors.h"
+#include "track_options.h"
+
+namespace telemime {
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+void on_interrupt(int) {
+  interrupt_requested = 1;
+}
+
+Wish show_window(const Progress& progress) {
+  constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
+  cv::imshow(kTitle, *progress.overlay);
+  int key = cv::waitKey(1);
+  if (key == ' ') {
+    do {
+      key = cv::waitKey(50);
+    } while (key != ' ' && key != 'q' && key != 27 && interrupt_requested == 0);
+  }
+  if (key == 'q' || key == 27) {
+    return Wish::stop;
+  }
+  return key == 'r' ? Wish::recalibrate : Wish::go_on;
+}
+
+void print_summary(const TrackSummary& summary, const TrackRequest& request) {
+  std::cout << summary.frames << " frames, " << summary.tracked << " tracked, in " << summary.seconds
+            << " s (" << static_cast<double>(summary.frames) / std::max(1e-9, summary.seconds)
+            << " frames a second)\n";
+  if (summary.tracked > 0) {
+    std::cout << "mean F " << summary.report["mean_F"] << ", mean D_C " << summary.report["mean_D_C"]
+              << " px\n";
+  }
+  std::cout << "results in " << request.out.string() << '\n';
+}
+
+void run(const TrackOptions& options) {
+  TrackRequest request = make_request(options);
+  ProgressBar bar(options.quiet);
+  RunHooks hooks;
+  hooks.draw = options.show;
+  hooks.message = [&](const std::string& words) {
+    if (!options.quiet) {
+      bar.interrupt();
+      std::cerr << words << '\n';
+    }
+  };
+  hooks.progress = [&](const Progress& progress) {
+    bar.show(progress.frames, progress.total, progress.seconds);
+    const Wish wish = options.show ? show_window(progress) : Wish::go_on;
+    return interrupt_requested != 0 ? Wish::stop : wish;
+  };
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  const TrackSummary summary = run_track(request, hooks);
+  bar.interrupt();
+  if (!options.quiet) {
+    print_summary(summary, request);
+  }
+  if (interrupt_requested != 0) {
+    throw Interrupted();
+  }
+  if (summary.tracked == 0) {
+    const auto& notes = summary.report["notes"];
+    throw Error(ErrorKind::tracking, "nobody was tracked in " + request.input,
+                notes.empty() ? "Is there a person who faces the camera?"
+                              : "The last reason: " + notes.back()["note"].get<std::string>());
+  }
+}
+
+}  // namespace
+
+void add_track_command(CLI::App& app) {
+  const auto options = std::make_shared<TrackOptions>();
+  CLI::App* command = app.add_subcommand("track", "Track a person: 3-D motion out of a video or a camera");
+  add_track_options(*command, *options);
+  command->add_option("--out", options->request.out, "folder of the results")->default_val("telemime-out");
+  command->add_option("--calibration", options->request.calibration, "file of `telemime calibrate`");
+  command->add_option("--formats", options->request.formats, "only these: jsonl csv bvh bap [all]")
+      ->delimiter(',');
+  command->add_option("--bap-profile", options->request.output_options.bap_profile,
+                      "signs and units of motion.bap: iso, greta, vreng-3.1, vreng-3.2 [iso]");
+  command->add_flag("--no-overlay{false}", options->request.overlay, "write no overlay video");
+  command->add_flag("--show", options->show, "a window with overlay, top view and residuals");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace telemime

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/pipeline/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "telemime/core/errors.h"
+#include "telemime/pipeline/overlay.h"
+#include "telemime/pipeline/run_outputs.h"
+#include "telemime/pipeline/scene.h"
+
+namespace telemime {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Numbers over the frames of a run, for the report.
+struct Statistics {
+  std::int64_t frames = 0;
+  std::int64_t tracked = 0;
+  std::int64_t first_tracked = -1;
+  double region = 0.0;
+  double contour = 0.0;
+  double evaluations = 0.0;
+  std::map<std::string, std::vector<double>> stage_ms;
+
+  void add(const MotionFrame& m) {
+    ++frames;
+    for (const auto& [stage, ms] : m.stage_ms) {
+      stage_ms[stage].push_back(ms);
+    }
+    if (m.state != TrackState::tracking) {
+      return;
+    }
+    first_tracked = first_tracked < 0 ? m.frame : first_tracked;
+    ++tracked;
+    region += m.region_score;
+    contour += m.contour_score;
+    evaluations += m.evaluations;
+  }
+
+  nlohmann::json json() const {
+    const double n = std::max<double>(1.0, static_cast<double>(tracked));
+    nlohmann::json json = {
+        {"frames", frames},     {"tracked", tracked},      {"first_tracked", first_tracked},
+        {"mean_F", region / n}, {"mean_D_C", contour / n}, {"mean_evaluations", evaluations / n}};
+    for (const auto& [stage, values] : stage_ms) {
+      std::vector<double> sorted = values;
+      std::sort(sorted.begin(), sorted.end());
+      const auto at = [&](double q) { return sorted[static_cast<std::size_t>(q * (sorted.size() - 1))]; };
+      json["ms"][stage] = {{"median", at(0.5)}, {"p95", at(0.95)}};
+    }
+    return json;
+  }
+};
+
+StreamHeader header_of(const TrackRequest& request, const SourceInfo& info, const Tracker& tracker) {
+  StreamHeader header;
+  header.body = tracker.model().body;
+  header.camera = tracker.camera();
+  header.fps = info.fps;
+  header.limits = tracker.limits();
+  header.config = to_json(request.config);
+  header.extra = {{"input", info.name}};
+  if (tracker.calibration()) {
+    header.extra["scale_from"] = tracker.calibration()->scale_from;
+    header.extra["calibration_refusal"] = tracker.calibration()->refusal;
+  }
+  return header;
+}
+
+// One run: what is written waits until the person's shape is known, because every file begins with it.
+class Run {
+ public:
+  Run(const TrackRequest& request, const RunHooks& hooks, const SourceInfo& info, Tracker& tracker)
+      : request_(request), hooks_(hooks), info_(info), tracker_(tracker), outputs_(request, info.fps) {}
+
+  Wish step(const Frame& frame) {
+    TrackedFrame result = tracker_.step(frame);
+    tell(result.note);
+    if (tracker_.calibration() && !outputs_.begun()) {
+      begin();
+    }
+    MotionFrame motion = result.motion;
+    if (smoother_) {
+      motion = (*smoother_)(motion);
+    }
+    statistics_.add(motion);
+    if (outputs_.begun()) {
+      outputs_.write(motion);
+    } else {
+      waiting_.push_back(motion);
+    }
+    cv::Mat overlay;
+    if (request_.overlay || hooks_.draw) {
+      overlay = draw_overlay(frame.image, {&motion, &tracker_.model(), tracker_.camera(), result.note});
+      if (request_.overlay) {
+        outputs_.write_overlay(overlay);
+      }
+    }
+    if (!hooks_.progress) {
+      return Wish::go_on;
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    return hooks_.progress(
+        {statistics_.frames, info_.frames, seconds, &result, overlay.empty() ? nullptr : &overlay});
+  }
+
+  TrackSummary finish(bool interrupted, const std::string& complaint, const nlohmann::json& scene) {
+    if (!outputs_.begun()) {
+      begin();
+    }
+    TrackSummary summary;
+    summary.frames = statistics_.frames;
+    summary.tracked = statistics_.tracked;
+    summary.first_tracked = statistics_.first_tracked;
+    summary.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    summary.interrupted = interrupted;
+    summary.report = statistics_.json();
+    summary.report["input"] = info_.name;
+    summary.report["fps"] = info_.fps;
+    summary.report["seconds"] = summary.seconds;
+    summary.report["interrupted"] = interrupted;
+    summary.report["scene"] = scene;
+    summary.report["notes"] = notes_;
+    if (!complaint.empty()) {
+      summary.report["complaint"] = complaint;
+    }
+    if (tracker_.calibration()) {
+      summary.report["scale_from"] = tracker_.calibration()->scale_from;
+      summary.report["calibration_refusal"] = tracker_.calibration()->refusal;
+    }
+    summary.report["files"] = outputs_.files();
+    outputs_.close(summary.report);
+    return summary;
+  }
+
+ private:
+  void begin() {
+    const StreamHeader header = header_of(request_, info_, tracker_);
+    outputs_.begin(header);
+    smoother_ = make_smoother(request_.config.smoothing, header.body, header.camera);
+    for (const MotionFrame& motion : waiting_) {
+      outputs_.write(motion);
+    }
+    waiting_.clear();
+  }
+
+  // Each reason once, with the frame at which it came up first.
+  void tell(const std::string& note) {
+    if (note.empty() || !told_.insert(note).second) {
+      return;
+    }
+    notes_.push_back({{"frame", statistics_.frames}, {"note", note}});
+    if (hooks_.message) {
+      hooks_.message("frame " + std::to_string(statistics_.frames) + ": " + note);
+    }
+  }
+
+  const TrackRequest& request_;
+  const RunHooks& hooks_;
+  const SourceInfo& info_;
+  Tracker& tracker_;
+  Clock::time_point start_ = Clock::now();
+  RunOutputs outputs_;
+  std::unique_ptr<Smoother> smoother_;
+  Statistics statistics_;
+  std::vector<MotionFrame> waiting_;
+  std::set<std::string> told_;
+  nlohmann::json notes_ = nlohmann::json::array();
+};
+
+}  // namespace
+
+Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view) {
+  if (file.empty()) {
+    return camera_from_field_of_view(info.width, info.height, field_of_view);
+  }
+  const Camera camera = load_camera(file);
+  const double aspect =
+      static_cast<double>(camera.width) * info.height / (static_cast<double>(camera.height) * info.width);
+  if (std::abs(aspect - 1.0) > 0.02) {
+    throw Error(ErrorKind::config,
+                "the camera file is for " + std::to_string(camera.width) + "x" +
+                    std::to_string(camera.height) + " and the input has " + std::to_string(info.width) + "x" +
+                    std::to_string(info.height) + " pixels",
+                "Calibrate the camera at the input's aspect ratio, or use --fov.");
+  }
+  return camera.scaled_to(info.width, info.height);
+}
+
+TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
+  const auto source = open_source(request.input);
+  const SourceInfo& info = source->info();
+  Tracker tracker(request.config, camera_for(info, request.camera, request.config.field_of_view));
+  Scene scene = learn_scene(request, info, *source, tracker);
+  if (hooks.message) {
+    for (const std::string& words : scene.messages) {
+      hooks.message(words);
+    }
+  }
+  Run run(request, hooks, info, tracker);
+  bool interrupted = false;
+  std::int64_t frames = 0;
+  while (request.most_frames == 0 || frames < request.most_frames) {
+    const std::optional<Frame> frame = scene.next(*source);
+    if (!frame) {
+      break;
+    }
+    ++frames;
+    const Wish wish = run.step(*frame);
+    if (wish == Wish::stop) {
+      interrupted = true;
+      break;
+    }
+    if (wish == Wish::recalibrate) {
+      tracker.recalibrate();
+    }
+  }
+  if (frames == 0) {
+    throw Error(ErrorKind::input, request.input + " holds no frame that can be read", source->complaint());
+  }
+  return run.finish(interrupted, source->complaint(), scene.messages);
+}
+
+}  // namespace telemime

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/capture/source.h"
+#include "telemime/outputs/all.h"
+#include "telemime/pipeline/config.h"
+#include "telemime/pipeline/tracker.h"
+
+namespace telemime {
+
+/// What `telemime track` is asked to do.
+struct TrackRequest {
+  std::string input;
+  std::string background;   ///< person-free clip; empty: learned from the input, or done without
+  std::string camera;       ///< calibration file; empty: field of view
+  std::string calibration;  ///< file of `telemime calibrate`; empty: calibrate on the first good frame
+  std::filesystem::path out;
+  std::vector<std::string> formats;  ///< empty: all
+  OutputOptions output_options;
+  bool overlay = true;
+  std::int64_t most_frames = 0;  ///< 0: all
+  Config config;
+};
+
+/// Where a run stands; handed to the viewer after each frame.
+struct Progress {
+  std::int64_t frames = 0;
+  std::int64_t total = 0;  ///< 0: not known
+  double seconds = 0.0;    ///< since the first frame
+  const TrackedFrame* frame = nullptr;
+  const cv::Mat* overlay = nullptr;  ///< null when nobody wants one
+};
+
+/// What the viewer may ask for between frames.
+enum class Wish { go_on, stop, recalibrate };
+
+struct RunHooks {
+  std::function<Wish(const Progress&)> progress;    ///< after each frame; may be empty
+  std::function<void(const std::string&)> message;  ///< what the user should know, in words; may be empty
+  bool draw = false;                                ///< make overlays even when none is written
+};
+
+struct TrackSummary {
+  std::int64_t frames = 0;
+  std::int64_t tracked = 0;
+  std::int64_t first_tracked = -1;
+  double seconds = 0.0;
+  bool interrupted = false;
+  nlohmann::json report;  ///< what report.json holds
+};
+
+/// Tracks a whole input and writes the results. Every file is valid at every moment. Throws Error(input) for
+/// an input that cannot be read, Error(output) when results cannot be written, Error(config) for settings.
+TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks);
+
+/// The camera of an input: the calibration file scaled to its size, or the field of view.
+Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view);
+
+}  // namespace telemime
