@@ -69,6 +69,7 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> pictures) {
   model.chroma_variance = 0.5 * (variance[0] + variance[1]);
   model.luminance_variance = variance[2];
   model.valid = cv::Mat(size, CV_8UC1, cv::Scalar(255));
+  model.seen = cv::Mat::zeros(size, CV_8UC1);
   for (int r = 0; r < size.height; ++r) {
     const auto* l = model.mean.l.ptr<float>(r);
     auto* chroma = model.chroma_variance.ptr<float>(r);
@@ -83,7 +84,7 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> pictures) {
 }
 
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
-                                   const ShadowRange& shadow, float unknown) {
+                                   const ShadowRange& shadow, const cv::Mat& unknown) {
   const cv::Size size = model.valid.size();
   BackgroundEnergy out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
   const float darkest = std::log(shadow.darkest);
@@ -101,7 +102,6 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
     const auto* ml = model.mean.l.ptr<float>(r);
     const auto* vc = model.chroma_variance.ptr<float>(r);
     const auto* vl = model.luminance_variance.ptr<float>(r);
-    const auto* valid = model.valid.ptr<unsigned char>(r);
     auto* a0 = argument.ptr<float>(0);
     auto* a1 = argument.ptr<float>(1);
     for (int c = 0; c < size.width; ++c) {
@@ -125,9 +125,14 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
       const float outside = above + below;
       const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] + uniform;
       const float best = plain < shade ? plain : shade;
-      e[c] = valid[c] != 0 ? best : unknown;
+      e[c] = best;
       s[c] = shade < plain ? 255 : 0;
     }
+  }
+  if (!unknown.empty()) {
+    const cv::Mat covered = model.valid == 0;
+    unknown.copyTo(out.energy, covered);
+    out.shaded.setTo(0, covered);
   }
   return out;
 }
@@ -201,22 +206,30 @@ LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, 
 }
 
 void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate) {
+  constexpr int kFramesToBelieve = 12;
+  constexpr float kSteady = 0.1F;
   for (int r = 0; r < model.valid.rows; ++r) {
     const auto* w = where.ptr<unsigned char>(r);
     auto* valid = model.valid.ptr<unsigned char>(r);
-    const auto move = [&](const cv::Mat& from, cv::Mat& to) {
-      const auto* f = from.ptr<float>(r);
-      auto* t = to.ptr<float>(r);
-      for (int c = 0; c < model.valid.cols; ++c) {
-        const float k = w[c] == 0 ? 0.0F : (valid[c] == 0 ? 1.0F : rate);
-        t[c] += k * (f[c] - t[c]);
-      }
-    };
-    move(picture.u, model.mean.u);
-    move(picture.v, model.mean.v);
-    move(picture.l, model.mean.l);
+    auto* seen = model.seen.ptr<unsigned char>(r);
+    const auto* u = picture.u.ptr<float>(r);
+    const auto* v = picture.v.ptr<float>(r);
+    const auto* l = picture.l.ptr<float>(r);
+    auto* mu = model.mean.u.ptr<float>(r);
+    auto* mv = model.mean.v.ptr<float>(r);
+    auto* ml = model.mean.l.ptr<float>(r);
     for (int c = 0; c < model.valid.cols; ++c) {
-      valid[c] = w[c] != 0 ? 255 : valid[c];
+      float k = w[c] != 0 ? rate : 0.0F;
+      if (valid[c] == 0) {
+        const float step = std::abs(u[c] - mu[c]) + std::abs(v[c] - mv[c]) + std::abs(l[c] - ml[c]);
+        const bool steady = seen[c] > 0 && step < 3 * kSteady;
+        seen[c] = static_cast<unsigned char>(w[c] == 0 ? 0 : (steady ? seen[c] + 1 : 1));
+        k = w[c] == 0 ? 0.0F : 1.0F / static_cast<float>(seen[c]);
+        valid[c] = seen[c] >= kFramesToBelieve ? 255 : 0;
+      }
+      mu[c] += k * (u[c] - mu[c]);
+      mv[c] += k * (v[c] - mv[c]);
+      ml[c] += k * (l[c] - ml[c]);
     }
   }
 }

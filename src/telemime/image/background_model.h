@@ -15,6 +15,7 @@ struct BackgroundModel {
   cv::Mat chroma_variance;     ///< CV_32FC1, of u and v together, never below the floor
   cv::Mat luminance_variance;  ///< CV_32FC1, of l
   cv::Mat valid;               ///< CV_8UC1, 255 where the background was seen
+  cv::Mat seen;                ///< CV_8UC1, frames in a row in which a pixel not yet valid looked like scene
   bool empty() const { return valid.empty(); }
 };
 
@@ -36,9 +37,10 @@ struct ShadowRange {
   float prior_cost = 1.0F;  ///< -2 ln of the share of shaded pixels
 };
 
-/// `picture` must already have its gain undone (estimate_gain). Pixels that are not valid get `unknown`.
+/// `picture` must already have its gain undone (estimate_gain). Pixels that are not valid take theirs from
+/// `unknown` (CV_32FC1; may be empty when all are valid).
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
-                                   const ShadowRange& shadow, float unknown);
+                                   const ShadowRange& shadow, const cv::Mat& unknown);
 
 /// What a lamp, a shadow as wide as the room, or the camera's own gain and white balance added to the
 /// picture: picture - model, one median per cell of a coarse grid over pixels that are valid and where
@@ -47,8 +49,8 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
 /// planes like LogColour.
 LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed);
 
-/// Moves the model towards the picture by `rate` in [0, 1] where `where` (CV_8UC1) is not 0, and makes pixels
-/// that were not valid there valid.
+/// Moves the model towards the picture by `rate` in [0, 1] where `where` (CV_8UC1) is not 0. Pixels that were
+/// not valid become so after 12 frames in a row there with a steady colour.
 void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate);
 
 }  // namespace telemime

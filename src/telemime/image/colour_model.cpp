@@ -45,22 +45,19 @@ Eigen::Vector3f median_of(std::span<const Eigen::Vector3f> samples) {
   return median;
 }
 
-/// Adds the tolerance. The chroma keeps its slope along l (skin is more saturated in the shade), only the
-/// spread along that line grows.
+/// Adds the tolerance. The chroma keeps its slope along l, only the spread along that line grows.
 Eigen::Matrix3f widened(const Eigen::Matrix3f& covariance, const ColourTolerance& tolerance) {
+  // More spread than this in one colour is two colours (a face with its beard).
+  constexpr float kMostVariance = 0.3F * 0.3F;
   const float variance_l = covariance(2, 2) + 1e-6F;
-  Eigen::Vector2f slope = covariance.block<2, 1>(0, 2) / variance_l;
-  slope = slope.cwiseMax(-0.5F).cwiseMin(0.5F);
-  Eigen::Matrix2f rest = covariance.block<2, 2>(0, 0) - slope * slope.transpose() * variance_l;
-  const float wanted_l =
-      variance_l * tolerance.stretch * tolerance.stretch + tolerance.luminance * tolerance.luminance;
-  rest += Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
-  // A clipped slope may leave `rest` indefinite: its diagonal never falls below the tolerance.
-  if (rest.determinant() < std::pow(tolerance.chroma, 4) || rest(0, 0) <= 0) {
-    rest = Eigen::Matrix2f(covariance.block<2, 2>(0, 0)) +
-           Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
-    slope.setZero();
-  }
+  const Eigen::Vector2f with_l = covariance.block<2, 1>(0, 2);
+  const Eigen::Vector2f slope = (with_l / variance_l).cwiseMax(-tolerance.slope).cwiseMin(tolerance.slope);
+  // What is left of the chroma's covariance when slope * l is taken away; positive whatever the slope.
+  const Eigen::Matrix2f rest = covariance.block<2, 2>(0, 0) - slope * with_l.transpose() -
+                               with_l * slope.transpose() + slope * slope.transpose() * variance_l +
+                               Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
+  const float wanted_l = std::min(variance_l, kMostVariance) * tolerance.stretch * tolerance.stretch +
+                         tolerance.luminance * tolerance.luminance;
   Eigen::Matrix3f out;
   out.block<2, 2>(0, 0) = rest + slope * slope.transpose() * wanted_l;
   out.block<2, 1>(0, 2) = slope * wanted_l;
@@ -175,9 +172,10 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
     if (group.size() < 8 || group.size() * 25 < samples.size()) {
       continue;
     }
-    const Moments m = moments_of(group);
-    mixture.push_back({m.mean, widened(m.covariance, tolerance),
-                       static_cast<float>(group.size()) / static_cast<float>(samples.size())});
+    // Trimmed, because mixed pixels between two stripes belong to neither.
+    ColourGaussian g = fit_robust(group, tolerance);
+    g.weight = static_cast<float>(group.size()) / static_cast<float>(samples.size());
+    mixture.push_back(g);
   }
   return mixture;
 }

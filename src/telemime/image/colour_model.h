@@ -25,6 +25,7 @@ struct ColourTolerance {
   float chroma = 0.04F;     ///< added to the deviation of u and v (root of the sum of squares)
   float luminance = 0.10F;  ///< the same for l
   float stretch = 1.5F;  ///< the deviation along l is multiplied by this: limbs lie in other light than faces
+  float slope = 0.5F;    ///< how much chroma may change with l at most (skin is more saturated in the shade)
 };
 
 /// Gaussian of the samples after repeated trimming around the median: outliers (eyes, beard, a mask among

@@ -2,44 +2,18 @@
 #include "telemime/image/features.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/image/camera_motion.h"
 #include "telemime/image/distance_map.h"
 #include "telemime/image/edges.h"
+#include "telemime/image/person_shape.h"
 
 namespace telemime {
-namespace {
-
-void require(bool holds, const std::string& cause, const std::string& remedy) {
-  if (!holds) {
-    throw Error(ErrorKind::config, cause, remedy);
-  }
-}
-
-}  // namespace
-
-void ImageConfig::validate() const {
-  require(width >= 40 && height >= 30 && width <= 1920 && height <= 1920,
-          "the working size " + std::to_string(width) + "x" + std::to_string(height) + " is out of range",
-          "use 40x30 to 1920x1920, for instance 160x120");
-  require(face_width >= 80, "face_width is too small for the face detector", "use 320");
-  require(edges.alpha > 0 && edges.alpha <= 10, "edges.alpha is out of range",
-          "use 0 to 10, for instance 1.2");
-  require(edges.low >= 0 && edges.low <= edges.high, "edges.low is above edges.high", "use 3 and 8");
-  require(edges.distance_cap > 0, "edges.distance_cap must be positive", "use 10");
-  require(shadow.darkest > 0 && shadow.darkest < 1, "shadow.darkest must lie between 0 and 1", "use 0.55");
-  require(background_rate >= 0 && background_rate <= 1, "background_rate must lie in 0 to 1", "use 0.01");
-}
-
-struct FeatureExtractor::Pictures {
-  cv::Mat bgr;       ///< of the working size
-  cv::Mat grey;      ///< of the working size
-  cv::Mat face;      ///< grey, for the face detector
-  LogColour colour;  ///< of the working size
-};
 
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
     : config_((config.validate(), config)), head_(config.head, config.cascades) {}
@@ -73,15 +47,48 @@ std::optional<HeadRegion> FeatureExtractor::region_of(const std::optional<Tracke
                      static_cast<double>(config_.height) / p.face.rows);
 }
 
-BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures) {
+BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures, const std::optional<HeadRegion>& head) {
   const BackgroundModel& model = calibration_.background;
-  if (model.empty()) {
-    // Nothing is known of the scene: everything could be the person.
-    return {cv::Mat(pictures.grey.size(), CV_32FC1, cv::Scalar(0)),
-            cv::Mat::zeros(pictures.grey.size(), CV_8UC1)};
+  const cv::Size size = pictures.grey.size();
+  cv::Mat unknown;
+  if (!all_valid_ || model.empty()) {
+    unknown = energy(calibration_.surroundings, pictures.colour);
+    cv::min(unknown, config_.segmentation.unknown_background_cost, unknown);
+    // Where the scene was never seen, place and the frame before must help the colours.
+    constexpr float kPlace = 5.0F;
+    constexpr float kBefore = 4.0F;
+    if (head) {
+      unknown += kPlace * body_prior(size, *head);
+    }
+    if (!silhouette_.empty()) {
+      cv::add(unknown, cv::Scalar(kBefore), unknown, silhouette_);
+    }
   }
-  subtract(pictures.colour, estimate_gain(model, pictures.colour, believed_));
-  return background_energy(model, pictures.colour, config_.shadow, 0.0F);
+  if (model.empty()) {
+    return {unknown, cv::Mat::zeros(size, CV_8UC1)};
+  }
+  const LogColour gain = estimate_gain(model, pictures.colour, believed_);
+  status_.light_change = cv::mean(gain.l)[0];
+  subtract(pictures.colour, gain);
+  return background_energy(model, pictures.colour, config_.shadow, unknown);
+}
+
+bool FeatureExtractor::stands_out(const BackgroundEnergy& background, const HeadRegion& head) const {
+  // A face on a poster is where the background says; a person's head is not.
+  constexpr float kExplained = -9.0F;
+  int inside = 0;
+  int explained = 0;
+  for (int r = 0; r < background.energy.rows; ++r) {
+    for (int c = 0; c < background.energy.cols; ++c) {
+      const double x = (c - head.centre.x()) / head.radii.x();
+      const double y = (r - head.centre.y()) / head.radii.y();
+      if (x * x + y * y < 0.8) {
+        ++inside;
+        explained += background.energy.at<float>(r, c) < kExplained ? 1 : 0;
+      }
+    }
+  }
+  return inside > 0 && explained * 3 < inside * 2;
 }
 
 void FeatureExtractor::learn_background(std::span<const Frame> frames) {
@@ -89,13 +96,24 @@ void FeatureExtractor::learn_background(std::span<const Frame> frames) {
   for (const Frame& frame : frames) {
     pictures.push_back(pictures_of(frame).bgr);
   }
-  calibration_.background = learn_background_model(pictures);
-  believed_.release();
+  ImageCalibration fresh;
+  fresh.background = learn_background_model(pictures);
+  fresh.colours = calibration_.colours;
+  set_calibration(std::move(fresh));
 }
 
 void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   calibration_ = std::move(calibration);
+  if (!calibration_.background.empty() &&
+      calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
+    throw Error(ErrorKind::config, "the background was learned at another working size",
+                "calibrate again, or use the working size of the calibration");
+  }
   believed_.release();
+  silhouette_.release();
+  motion_grey_.release();
+  const cv::Mat& valid = calibration_.background.valid;
+  all_valid_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
 }
 
 PersonReport FeatureExtractor::begin_person(const Frame& frame) {
@@ -104,18 +122,29 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
   if (!face) {
     return {false, "no face was found: look at the camera, in enough light"};
   }
-  const BackgroundEnergy background = background_of(p);
   shape_ = HeadShape{};
-  std::optional<HeadRegion> head;
+  std::optional<HeadRegion> head = region_of(face, p);
+  const BackgroundEnergy background = background_of(p, head);
+  if (!stands_out(background, *head)) {
+    head_.forget();
+    return {false, "the face found belongs to the background (a poster?): sit before the camera"};
+  }
   Segmentation rough;
   // The head's outline is measured on a silhouette that the head itself helped to find: twice is enough.
   for (int turn = 0; turn < 2; ++turn) {
-    head = region_of(face, p);
     rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
+    if (!all_valid_) {
+      // Without a background, colours that are not known yet cannot tell the person from the scene.
+      rough.silhouette = cut_person(p.bgr, *head);
+    }
     shape_ = adapted(shape_, *head, rough.silhouette, 1.0);
+    head = region_of(face, p);
   }
-  head = region_of(face, p);
-  return learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
+  PersonReport report = learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
+  if (report.accepted) {
+    silhouette_ = rough.silhouette;
+  }
+  return report;
 }
 
 Observation FeatureExtractor::extract(const Frame& frame) {
@@ -123,9 +152,19 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   Observation out;
   const std::optional<TrackedFace> face = head_.update(p.face);
   out.head = region_of(face, p);
-  const BackgroundEnergy background = background_of(p);
+  const BackgroundEnergy background = background_of(p, out.head);
+  if (out.head && !stands_out(background, *out.head)) {
+    head_.forget();
+    out.head.reset();
+  }
   Segmentation segmentation =
       segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);
+  // The correlation can slide from the head to something else; colours then tell.
+  hollow_ = out.head && calibration_.colours.known() && segmentation.head_share < 0.25 ? hollow_ + 1 : 0;
+  if (hollow_ > 4) {
+    head_.forget();
+    hollow_ = 0;
+  }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette;
   if (out.head) {
@@ -142,10 +181,14 @@ Observation FeatureExtractor::extract(const Frame& frame) {
 
   cv::dilate(grown, grown, square, cv::Point(-1, -1), 2);
   cv::bitwise_not(grown, believed_);
+  silhouette_ = out.silhouette;
   if (!calibration_.background.empty() && config_.background_rate > 0) {
-    adapt_background(calibration_.background, p.colour, believed_ & ~background.shaded,
-                     config_.background_rate);
+    cv::Mat where = believed_.clone();
+    where.setTo(0, background.shaded);
+    adapt_background(calibration_.background, p.colour, where, config_.background_rate);
   }
+  watch_camera(p.grey);
+  update_status(p, out);
   return out;
 }
 

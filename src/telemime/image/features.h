@@ -1,53 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "telemime/core/frame.h"
-#include "telemime/image/background_model.h"
+#include "telemime/image/feature_config.h"
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/observation.h"
-#include "telemime/image/person_colours.h"
-#include "telemime/image/segmentation.h"
+#include "telemime/image/scene_bootstrap.h"
 
 namespace telemime {
 
-struct EdgeConfig {
-  double alpha = 1.2;          ///< of the Deriche filter, at any working size
-  double low = 3.0;            ///< grey levels per pixel
-  double high = 8.0;           ///< grey levels per pixel
-  double distance_cap = 10.0;  ///< pixels at 160x120; grows with the working width
-};
-
-struct ImageConfig {
-  int width = 160;                 ///< of the working image, pixels
-  int height = 120;                ///< pixels
-  std::filesystem::path cascades;  ///< folder of OpenCV's face cascades; empty: searched
-  int face_width = 320;            ///< the face detector looks at pictures of at most this width
-  HeadTrackerConfig head;
-  double head_shape_rate = 0.2;  ///< share of each frame in the head's outline
-  ShadowRange shadow;
-  SegmentationConfig segmentation;
-  EdgeConfig edges;
-  float background_rate = 0.01F;  ///< share of each frame that uncovered background takes over
-  /// Throws Error(config) that names the value and its range.
-  void validate() const;
-};
-
-/// What calibration learned; a value that can be saved (calibration_file.h).
-struct ImageCalibration {
-  BackgroundModel background;
-  PersonColours colours;
-};
-
 /// Frame -> Observation (thesis 2.4.4.1, 3.4, 3.5.1). Holds what it has learned of the scene and the person;
 /// the same frames in the same order always give the same observations.
+///
+///     FeatureExtractor features(config);
+///     features.learn_background(empty_frames);      // or features.bootstrap(clip)
+///     while (!features.begin_person(frame).accepted) frame = next();
+///     Observation seen = features.extract(frame);   // this and every later frame
 class FeatureExtractor {
  public:
   /// Throws Error(config) for a bad configuration or missing face cascades.
@@ -56,27 +28,50 @@ class FeatureExtractor {
   /// Learns the scene from frames without a person. Throws Error(usage) when there is none.
   void learn_background(std::span<const Frame> frames);
 
-  /// Learns skin, clothes and hair from a frame in which the face is seen. Refuses with a reason.
+  /// Learns what it can of the scene from frames of the clip itself (all of it, or the first second of a live
+  /// input; one frame is enough): an empty stretch, else around the person, else colours alone. At most 150
+  /// frames are looked at for an empty stretch, 16 spread over the clip for the rest.
+  SceneReport bootstrap(std::span<const Frame> clip);
+
+  /// Learns skin, clothes and hair from a frame in which the face is seen. Refuses with a reason; then try
+  /// the next frame. Frames may be extracted before a person has begun: their labels are background and
+  /// ignore.
   PersonReport begin_person(const Frame& frame);
 
   /// Everything of one frame. Frames in the order of time.
   Observation extract(const Frame& frame);
 
+  const ImageStatus& status() const { return status_; }
   const ImageCalibration& calibration() const { return calibration_; }
   void set_calibration(ImageCalibration calibration);
   const ImageConfig& config() const { return config_; }
 
  private:
-  struct Pictures;
+  struct Pictures {
+    cv::Mat bgr;       ///< of the working size
+    cv::Mat grey;      ///< of the working size
+    cv::Mat face;      ///< grey, for the face detector
+    LogColour colour;  ///< of the working size
+  };
   Pictures pictures_of(const Frame& frame) const;
   std::optional<HeadRegion> region_of(const std::optional<TrackedFace>& face, const Pictures& p) const;
-  BackgroundEnergy background_of(Pictures& pictures);
+  BackgroundEnergy background_of(Pictures& pictures, const std::optional<HeadRegion>& head);
+  bool stands_out(const BackgroundEnergy& background, const HeadRegion& head) const;
+  std::vector<SceneSample> samples_of(std::span<const Frame> clip);
+  void watch_camera(const cv::Mat& grey);
+  void update_status(const Pictures& p, const Observation& seen);
 
   ImageConfig config_;
   HeadTracker head_;
   HeadShape shape_;
   ImageCalibration calibration_;
-  cv::Mat believed_;  ///< background of the frame before
+  ImageStatus status_;
+  bool all_valid_ = true;  ///< the background of every pixel was seen
+  cv::Mat believed_;       ///< background of the frame before
+  cv::Mat silhouette_;     ///< of the frame before
+  cv::Mat motion_grey_;    ///< picture of the last look at the camera's motion
+  int since_motion_ = 0;
+  int hollow_ = 0;  ///< frames in a row in which the head had neither skin nor hair
 };
 
 }  // namespace telemime

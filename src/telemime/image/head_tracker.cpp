@@ -77,6 +77,7 @@ std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey) {
   const int smallest = std::max(20, static_cast<int>(config_.smallest_face * grey.rows));
   const auto found = detector_.find(grey, cv::Rect(0, 0, grey.cols, grey.rows), smallest, grey.rows, false);
   since_search_ = 0;
+  misses_ = 0;
   face_.reset();
   if (found) {
     anchor(grey, *found, true);
@@ -95,16 +96,20 @@ std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey) {
   const bool doubtful = face_->match < config_.lost_match + 0.2;
   since_sure_ = face_->match < config_.lost_match ? since_sure_ + 1 : 0;
   if (doubtful || since_detected_ >= config_.detect_every) {
-    const double reach = face_->side * (doubtful ? 1.2 : 0.8);
+    // After misses the window grows: the track may have slid off the face, or grown out of its size.
+    const double growth = 1.0 + 0.25 * std::min(misses_, 4);
+    const double reach = face_->side * (doubtful ? 1.1 : 0.8) * growth;
     const cv::Rect window(
         cv::Point(static_cast<int>(face_->centre.x - reach), static_cast<int>(face_->centre.y - reach)),
         cv::Point(static_cast<int>(face_->centre.x + reach), static_cast<int>(face_->centre.y + reach)));
-    const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75),
-                                      static_cast<int>(face_->side * 1.35), false);
+    const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75 / growth),
+                                      static_cast<int>(face_->side * 1.3 * growth), false);
+    since_detected_ = 0;
     if (found) {
-      anchor(grey, *found, false);
+      anchor(grey, *found, misses_ >= 2);
+      misses_ = 0;
     } else {
-      since_detected_ = 0;
+      ++misses_;
     }
   }
   if (since_sure_ > config_.lost_after) {

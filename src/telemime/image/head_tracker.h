@@ -47,6 +47,7 @@ class HeadTracker {
   std::optional<TrackedFace> face_;
   cv::Mat patch_;
   int since_detected_ = 0;
+  int misses_ = 0;  ///< looks of the detector in a row that found nothing
   int since_sure_ = 0;
   int since_search_ = 1 << 20;
 };

@@ -9,10 +9,10 @@
 namespace telemime {
 namespace {
 
-constexpr ColourTolerance kSkinTolerance{0.05F, 0.20F, 1.6F};
-constexpr ColourTolerance kClothesTolerance{0.05F, 0.25F, 1.5F};
-constexpr ColourTolerance kHairTolerance{0.07F, 0.25F, 1.3F};
-constexpr int kMostClothes = 4;
+constexpr ColourTolerance kSkinTolerance{0.05F, 0.20F, 1.6F, 0.5F};
+constexpr ColourTolerance kClothesTolerance{0.05F, 0.25F, 1.5F, 0.15F};
+constexpr ColourTolerance kHairTolerance{0.07F, 0.25F, 1.3F, 0.3F};
+constexpr int kMostClothes = 5;
 
 using Samples = std::vector<Eigen::Vector3f>;
 

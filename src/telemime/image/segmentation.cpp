@@ -276,6 +276,22 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
   return labels;
 }
 
+double share_of_skin_and_hair(const ColourVotes& votes, const HeadRegion& head) {
+  const Ellipse ellipse(head);
+  int inside = 0;
+  int own = 0;
+  for (int r = 0; r < votes.colour.rows; ++r) {
+    const auto* colour = votes.colour.ptr<unsigned char>(r);
+    for (int c = 0; c < votes.colour.cols; ++c) {
+      if (ellipse.at(r, c) < 1) {
+        ++inside;
+        own += colour[c] == kSkin || colour[c] == kHair ? 1 : 0;
+      }
+    }
+  }
+  return inside > 0 ? static_cast<double>(own) / inside : 0.0;
+}
+
 }  // namespace
 
 Segmentation segment(const LogColour& picture, const BackgroundEnergy& background,
@@ -283,6 +299,7 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
                      const SegmentationConfig& config) {
   ColourVotes votes = vote(picture, colours, head, config);
   Segmentation out;
+  out.head_share = head ? share_of_skin_and_hair(votes, *head) : 0.0;
   out.silhouette = silhouette_of(background, votes, head, config);
   drop_strangers(out.silhouette, votes, head, colours.known(), config);
   fill_small_holes(out.silhouette, config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);

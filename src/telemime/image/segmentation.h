@@ -11,16 +11,18 @@
 namespace telemime {
 
 struct SegmentationConfig {
-  float unknown_cost = 3.0F;   ///< -2 ln density of a person's pixel of no learned colour
-  float vote_limit = 14.0F;    ///< one pixel's say in the 3x3 vote on person or background
-  float head_bonus = 8.0F;     ///< in favour of the person inside the head's ellipse
-  double least_part = 0.0015;  ///< of the picture: smaller pieces of silhouette are dropped
+  float unknown_cost = 3.0F;             ///< -2 ln density of a person's pixel of no learned colour
+  float unknown_background_cost = 2.0F;  ///< -2 ln density of a scene pixel that was never seen
+  float vote_limit = 14.0F;              ///< one pixel's say in the 3x3 vote on person or background
+  float head_bonus = 8.0F;               ///< in favour of the person inside the head's ellipse
+  double least_part = 0.0015;            ///< of the picture: smaller pieces of silhouette are dropped
 };
 
 /// Labels and silhouette of one frame (see Observation).
 struct Segmentation {
   cv::Mat labels;
   cv::Mat silhouette;
+  double head_share = 0.0;  ///< of the head's ellipse that has the colour of skin or hair
 };
 
 /// Every pixel to background, head, arms, clothes or ignore by the least energy among the background (plain

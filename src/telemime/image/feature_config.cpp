@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/feature_config.h"
+
+#include <cmath>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+void require(bool holds, const std::string& cause, const std::string& remedy) {
+  if (!holds) {
+    throw Error(ErrorKind::config, cause, remedy);
+  }
+}
+
+/// Stripes or prints: components of different chroma that each cover a good part of the clothes.
+bool patterned(const ColourMixture& clothes) {
+  for (const ColourGaussian& a : clothes) {
+    for (const ColourGaussian& b : clothes) {
+      const float apart = (a.mean.head<2>() - b.mean.head<2>()).norm();
+      if (a.weight > 0.1F && b.weight > 0.1F && apart > 0.3F) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void ImageConfig::validate() const {
+  require(width >= 40 && height >= 30 && width <= 1920 && height <= 1920,
+          "the working size " + std::to_string(width) + "x" + std::to_string(height) + " is out of range",
+          "use 40x30 to 1920x1920, for instance 160x120");
+  require(face_width >= 80, "face_width is too small for the face detector", "use 320");
+  require(head.detect_every >= 1 && head.search_every >= 1, "head.detect_every and search_every count frames",
+          "use 1 or more");
+  require(head_shape_rate >= 0 && head_shape_rate <= 1, "head_shape_rate must lie in 0 to 1", "use 0.2");
+  require(edges.alpha > 0 && edges.alpha <= 10, "edges.alpha is out of range",
+          "use 0 to 10, for instance 1.2");
+  require(edges.low >= 0 && edges.low <= edges.high, "edges.low is above edges.high", "use 3 and 8");
+  require(edges.distance_cap > 0, "edges.distance_cap must be positive", "use 10");
+  require(shadow.darkest > 0 && shadow.darkest < 1, "shadow.darkest must lie between 0 and 1", "use 0.55");
+  require(background_rate >= 0 && background_rate <= 1, "background_rate must lie in 0 to 1", "use 0.01");
+  require(motion_every >= 0, "motion_every must not be negative", "use 10, or 0 for never");
+}
+
+std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours) {
+  const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+  std::vector<std::string> out;
+  if (status.brightness < 12) {
+    out.push_back("the picture is black (mean grey " + std::to_string(std::lround(status.brightness)) +
+                  " of 255): is the lens covered?");
+  } else if (status.brightness < 40) {
+    out.push_back("the picture is dark (mean grey " + std::to_string(std::lround(status.brightness)) +
+                  " of 255): switch on a light");
+  }
+  if (!status.person) {
+    out.emplace_back("nobody is in the picture");
+  }
+  if (status.camera_motion > 0.7) {
+    out.emplace_back("the camera moves: put it on something firm; the background cannot be used");
+  }
+  if (std::abs(status.light_change) > 0.06) {
+    out.push_back("the light changed by " + percent(std::exp(status.light_change) - 1) +
+                  " since the background was learned");
+  }
+  if (colours.known() && status.person && status.skin_share < 0.13) {
+    out.push_back("little skin of the arms is seen (" + percent(status.skin_share) +
+                  " of arms and clothes): long sleeves or hidden arms make the pose less sure");
+  }
+  if (patterned(colours.clothes)) {
+    out.emplace_back("the clothes have several colours: plain clothes are told from skin more surely");
+  }
+  return out;
+}
+
+}  // namespace telemime

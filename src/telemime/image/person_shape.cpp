@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/person_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace telemime {
+namespace {
+
+enum class Place { core, likely, open, far };
+
+/// x, y: from the head's centre in half widths and half heights of the head. A head is about 1/7.5 of a
+/// stature high and shoulders are about three heads wide: the numbers below are those proportions.
+Place place_of(double x, double y) {
+  const double aside = std::abs(x);
+  if (x * x / 0.6 + y * y / 0.7 < 1 || (aside < 1.3 && y > 1.9) || (aside < 0.6 && y > 0)) {
+    return Place::core;
+  }
+  if (x * x + y * y < 1.25 || (y > 1.6 && aside < 2.6 && y < 7)) {
+    return Place::likely;
+  }
+  if (y < -3.5 || aside > 9) {
+    return Place::far;
+  }
+  return Place::open;
+}
+
+/// grabCut draws from OpenCV's generator of the calling thread: lend it a fixed state, and give back its own.
+class FixedSeed {
+ public:
+  FixedSeed() : state_(cv::theRNG().state) { cv::theRNG().state = 1; }
+  ~FixedSeed() { cv::theRNG().state = state_; }
+  FixedSeed(const FixedSeed&) = delete;
+  FixedSeed& operator=(const FixedSeed&) = delete;
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace
+
+cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
+  const double scale = std::min(1.0, 160.0 / bgr.cols);
+  cv::Mat small;
+  cv::resize(bgr, small, cv::Size(), scale, scale, cv::INTER_AREA);
+  cv::Mat mask(small.size(), CV_8UC1);
+  for (int r = 0; r < mask.rows; ++r) {
+    for (int c = 0; c < mask.cols; ++c) {
+      const double x = ((c + 0.5) / scale - 0.5 - head.centre.x()) / head.radii.x();
+      const double y = ((r + 0.5) / scale - 0.5 - head.centre.y()) / head.radii.y();
+      unsigned char start = cv::GC_PR_BGD;
+      switch (place_of(x, y)) {
+        case Place::core:
+          start = cv::GC_FGD;
+          break;
+        case Place::likely:
+          start = cv::GC_PR_FGD;
+          break;
+        case Place::open:
+          break;
+        case Place::far:
+          start = cv::GC_BGD;
+          break;
+      }
+      mask.at<unsigned char>(r, c) = start;
+    }
+  }
+  const FixedSeed seed;
+  cv::Mat background_colours;
+  cv::Mat person_colours;
+  constexpr int kRounds = 4;
+  cv::grabCut(small, mask, cv::Rect(), background_colours, person_colours, kRounds, cv::GC_INIT_WITH_MASK);
+  cv::Mat person = (mask & 1) * 255;
+  cv::resize(person, person, bgr.size(), 0, 0, cv::INTER_LINEAR);
+  return person > 127;
+}
+
+cv::Mat body_prior(const cv::Size& size, const HeadRegion& head) {
+  cv::Mat prior(size, CV_32FC1);
+  for (int r = 0; r < size.height; ++r) {
+    auto* p = prior.ptr<float>(r);
+    const double y = (r - head.centre.y()) / head.radii.y();
+    for (int c = 0; c < size.width; ++c) {
+      switch (place_of((c - head.centre.x()) / head.radii.x(), y)) {
+        case Place::core:
+          p[c] = 1.0F;
+          break;
+        case Place::likely:
+          p[c] = 0.4F;
+          break;
+        case Place::open:
+          p[c] = -0.2F;
+          break;
+        case Place::far:
+          p[c] = -1.0F;
+          break;
+      }
+    }
+  }
+  return prior;
+}
+
+}  // namespace telemime
