@@ -124,17 +124,23 @@ std::optional<ArmAngles> solve_arm(const Body& body, const Pose& pose, Side side
   const ArmAngles before = arm_angles(pose, side);
   Eigen::Vector3d direction = -compose_zxy({before.abduct, before.flexion, before.twisting}).col(1);
   Eigen::Vector3d forearm = direction;
-  // The clavicle moves the shoulder by a few centimetres at most: the map contracts by that over the arm's
-  // length.
-  constexpr int kMostSteps = 60;
+  // The clavicle moves the shoulder by a few centimetres: the way there may lead through places from which
+  // the wrist is out of reach, so only the place where it ends decides. Plain steps may circle; half steps do
+  // not.
+  constexpr int kPlainSteps = 30;
+  constexpr int kMostSteps = 120;
+  constexpr double kSlack = 1e-6;  // m, of an arm that is just straight
+  double beyond = 0.0;             // m out of reach
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::Vector3d shoulder = shoulder_in_chest(body, side, direction);
     const Eigen::Vector3d line = wrist - shoulder;
-    const double distance = line.norm();
-    if (distance > upper + fore || distance < std::abs(upper - fore) || distance < 1e-6) {
+    const double apart = line.norm();
+    if (apart < 1e-6) {
       return std::nullopt;
     }
-    const Eigen::Vector3d axis = line / distance;
+    const Eigen::Vector3d axis = line / apart;
+    const double distance = std::clamp(apart, std::max(1e-6, std::abs(upper - fore)), upper + fore);
+    beyond = std::abs(apart - distance);
     const double along = (upper * upper - fore * fore + distance * distance) / (2.0 * distance);
     const double across = std::sqrt(std::max(0.0, upper * upper - along * along));
     const SwivelFrame frame = swivel_frame(axis);
@@ -142,11 +148,14 @@ std::optional<ArmAngles> solve_arm(const Body& body, const Pose& pose, Side side
         along * axis + across * (std::cos(target.swivel) * frame.low + std::sin(target.swivel) * frame.side);
     const Eigen::Vector3d next = elbow.normalized();
     const double change = (next - direction).norm();
-    direction = next;
-    forearm = (line - elbow).normalized();
+    direction = step < kPlainSteps ? next : (next + direction).normalized();
+    forearm = (distance * axis - elbow).normalized();
     if (change < 1e-8) {
       break;
     }
+  }
+  if (beyond > kSlack) {
+    return std::nullopt;
   }
   return angles_from_directions(direction, forearm, pose, side, limits);
 }

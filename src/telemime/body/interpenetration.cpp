@@ -42,7 +42,8 @@ double interpenetration(const Body& body, const Kinematics& k) {
            Eigen::Vector3d(x * size * chest.width, y * size * chest.length, z * size * chest.height);
   };
   // Two upright capsules fill the broad chest better than one.
-  const double thick = 0.080 * size * chest.height;
+  // Of a deep and narrow chest they must not reach the hanging arms.
+  const double thick = 0.080 * size * std::min(chest.height, chest.width);
   const std::array<Capsule, 3> trunk = {{
       {inside(0.060, -0.05, 0.05), inside(0.060, 0.42, 0.03), thick},
       {inside(-0.060, -0.05, 0.05), inside(-0.060, 0.42, 0.03), thick},

@@ -82,6 +82,9 @@ JointLimits load_limits(const std::string& name_or_file) {
   if (!in) {
     throw fail("no such file and no set of that name");
   }
+  if (std::filesystem::is_directory(name_or_file)) {
+    throw fail("that is a folder");
+  }
   const auto json = nlohmann::json::parse(in, nullptr, false);
   if (!json.is_object() || !json.contains("limits") || !json["limits"].is_object()) {
     throw fail("it is not JSON with an object 'limits'");

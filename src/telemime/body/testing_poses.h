@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "telemime/body/body.h"
+#include "telemime/body/limits.h"
+#include "telemime/core/random.h"
+
+/// Poses for the tests of the rooms that know bodies. Not installed.
+namespace telemime::testing_poses {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+inline constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
+
+/// Every angle uniform inside the limits; the trunk's within `trunk` of its range; 1.0 to 1.6 m before the
+/// camera.
+inline Pose random_pose(const JointLimits& limits, Random& random, double trunk = 1.0) {
+  Pose pose;
+  pose.root = {random.uniform(-0.2, 0.2), random.uniform(0.2, 0.5), random.uniform(1.0, 1.6)};
+  for (std::size_t a = 0; a < kAngleCount; ++a) {
+    const double share = a <= static_cast<std::size_t>(Angle::neck_tilt) ? trunk : 1.0;
+    pose.angles[a] = share * random.uniform(limits.min[a], limits.max[a]);
+  }
+  return pose;
+}
+
+/// A body with other proportions, the same on both sides.
+inline Shape other_shape() {
+  Shape shape;
+  shape.stature = 1.82;
+  shape[Segment::chest] = {1.05, 1.1, 0.93};
+  shape[Segment::head] = {0.97, 1.02, 1.04};
+  shape[Segment::l_upper_arm] = shape[Segment::r_upper_arm] = {1.06, 0.9, 1.2};
+  shape[Segment::l_forearm] = shape[Segment::r_forearm] = {0.94, 1.1, 1.05};
+  shape[Segment::l_hand] = shape[Segment::r_hand] = {1.03, 0.95, 1.0};
+  shape.sleeve = 0.7;
+  return shape;
+}
+
+inline Joint elbow_of(Side side) {
+  return side == Side::left ? Joint::l_elbow : Joint::r_elbow;
+}
+inline Joint wrist_of(Side side) {
+  return side == Side::left ? Joint::l_wrist : Joint::r_wrist;
+}
+inline Joint shoulder_of(Side side) {
+  return side == Side::left ? Joint::l_shoulder : Joint::r_shoulder;
+}
+
+/// The same joint on the other side.
+inline Joint twin(Joint joint) {
+  switch (joint) {
+    case Joint::l_shoulder:
+      return Joint::r_shoulder;
+    case Joint::r_shoulder:
+      return Joint::l_shoulder;
+    case Joint::l_elbow:
+      return Joint::r_elbow;
+    case Joint::r_elbow:
+      return Joint::l_elbow;
+    case Joint::l_wrist:
+      return Joint::r_wrist;
+    case Joint::r_wrist:
+      return Joint::l_wrist;
+    case Joint::l_hand:
+      return Joint::r_hand;
+    case Joint::r_hand:
+      return Joint::l_hand;
+    default:
+      return joint;
+  }
+}
+
+}  // namespace telemime::testing_poses
