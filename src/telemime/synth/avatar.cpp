@@ -84,11 +84,11 @@ void add_arm(Avatar& avatar, const ActorKinematics& k, std::size_t side, const V
   const ArmPoints a = arm_points(k.joints, side == 0);
   const float g = std::sqrt(avatar.girth);
   const Chains chain{static_cast<std::uint8_t>(1 + side), Surface::arm, 0.028f};
-  const Vector3f belly = a.elbow + 0.28f * (a.wrist - a.elbow);
+  const Vector3f belly = a.elbow + 0.36f * (a.wrist - a.elbow);
   avatar.parts.push_back(limb(chain, {round_cone(a.shoulder, a.elbow, 0.0440f * g, 0.0345f * g)}, front));
   avatar.parts.push_back(limb(chain,
-                              {round_cone(a.elbow, belly, 0.0275f * g, 0.0318f * g),
-                               round_cone(belly, a.wrist, 0.0318f * g, 0.0220f * g)},
+                              {round_cone(a.elbow, belly, 0.0275f * g, 0.0305f * g),
+                               round_cone(belly, a.wrist, 0.0305f * g, 0.0220f * g)},
                               front));
   const auto scale = static_cast<float>(avatar.look.build.hand) / kHandKnuckle;
   BodyPart hand = framed(BodyPart::Kind::hand, chain, k.camera_from_hand[side].cast<float>(), a.wrist, scale,
@@ -114,7 +114,7 @@ void add_sleeve(Avatar& avatar, const ActorKinematics& k, std::size_t side, cons
   avatar.parts.push_back(upper);
   const auto lower_end = static_cast<float>(std::min(avatar.look.sleeve - 1.0, 0.98));
   const Vector3f hem = a.elbow + lower_end * (a.wrist - a.elbow);
-  const Vector3f belly = a.elbow + 0.28f * (a.wrist - a.elbow);
+  const Vector3f belly = a.elbow + 0.36f * (a.wrist - a.elbow);
   BodyPart lower = limb(chain,
                         {round_cone(a.elbow, belly, 0.0405f * g, 0.0425f * g),
                          round_cone(belly, hem, 0.0425f * g, 0.0325f * g)},

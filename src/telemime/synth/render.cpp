@@ -111,7 +111,7 @@ struct Shader {
       const Vector3f to = lights.lamp_at - hit.at;
       const float near =
           lights.lamp * (0.30f + 0.70f * std::max(n.dot(to.normalized()), 0.0f)) / (0.4f + to.squaredNorm());
-      light += near * Vector3f(0.46f, 0.38f, 0.26f);
+      light += near * Vector3f(0.92f, 0.76f, 0.50f);
     }
     const Vector3f half = (to_key - direction).normalized();
     const float shine = hit.part->surface == Surface::hair ? 0.10f : skin ? 0.045f : 0.006f;
@@ -127,7 +127,7 @@ Vector3f wall_light(const Lighting& lights, const Vector3f& p, float lit) {
       Vector3f::Constant(lights.ambient * 0.78f + lights.key * 0.68f * falloff * (0.30f + 0.70f * lit));
   if (lights.lamp > 0.0f) {
     const float distance2 = (lights.lamp_at - p).squaredNorm();
-    light += lights.lamp * (1.0f / (0.9f + 0.8f * distance2)) * Vector3f(0.62f, 0.52f, 0.36f);
+    light += lights.lamp * (1.0f / (0.9f + 0.8f * distance2)) * Vector3f(1.26f, 1.04f, 0.68f);
   }
   return light;
 }

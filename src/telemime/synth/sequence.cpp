@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/synth/sequence.h"
 
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -58,9 +60,9 @@ struct ClipWriter {
   Video small;
   cv::Size small_size;
 
-  ClipWriter(const fs::path& file, const cv::Size& size, bool with_small)
-      : video(open_video(file, size, false)) {
-    if (with_small) {
+  ClipWriter(const fs::path& file, const cv::Size& size, const SequenceOptions& options)
+      : video(open_video(file, size, !options.compact)) {
+    if (options.small_videos && size.width > 160) {
       small_size = {160, 160 * size.height / size.width};
       fs::path name = file;
       name += "_" + std::to_string(small_size.width) + "x" + std::to_string(small_size.height);
@@ -136,7 +138,8 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
   }
   const cv::Size size(filmed.width, filmed.height);
   SequenceFiles files;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const int cores = tbb::info::default_concurrency();
+  tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, cores) : cores);
 
   const fs::path truth = folder / "truth.json";
   std::ofstream(truth) << truth_json(scene) << '\n' << std::flush;
@@ -146,7 +149,7 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
   files.all.push_back(truth);
 
   const int all = filmed.frames + options.background_frames;
-  ClipWriter clip(folder / "video", size, options.small_videos);
+  ClipWriter clip(folder / "video", size, options);
   Preview preview(filmed.frames, size);
   for (int frame = 0; frame < filmed.frames; ++frame) {
     cv::Mat image;
@@ -161,7 +164,7 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
   clip.finish(files.all);
 
   if (options.background_frames > 0) {
-    ClipWriter background(folder / "background", size, options.small_videos);
+    ClipWriter background(folder / "background", size, options);
     for (int index = 0; index < options.background_frames; ++index) {
       cv::Mat image;
       arena.execute([&] { image = render_background(scene, index); });

@@ -61,8 +61,12 @@ struct SequenceOptions {
   SceneOptions scene;
   std::filesystem::path folder;  ///< DIR; the files go to DIR/<gesture>/
   int background_frames = 40;    ///< 0: no background clip
-  bool small_videos = true;      ///< also video_160x120.mkv and background_160x120.mkv, lossless
-  int threads = 0;               ///< 0: all cores
+  /// video.mp4 and background.mp4 (H.264 at rate factor 23, the only one that OpenCV 4.6 can write; it wipes
+  /// out most of the noise) instead of lossless video.mkv and background.mkv (FFV1).
+  bool compact = false;
+  bool small_videos = true;  ///< also video_160x120.mkv and background_160x120.mkv, always lossless;
+                             ///< not for images that are no larger
+  int threads = 0;           ///< 0: all cores, which is also the most
   /// Called on the calling thread after each frame with (frames done, frames in all); may be empty.
   std::function<void(int, int)> progress;
 };
@@ -72,9 +76,9 @@ struct SequenceFiles {
   std::vector<std::filesystem::path> all;
 };
 
-/// Films the gesture and writes video.mp4 (H.264 where OpenCV can write it, else MPEG-4; where it can write
-/// neither, video.mkv, lossless FFV1), background.mp4, their 160-pixel-wide lossless copies, truth.json and
-/// preview.png. Throws Error(output) that names the file which could not be written.
+/// Films the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// A compact clip of odd size, or where OpenCV can write neither H.264 nor MPEG-4, is lossless all the same.
+/// Throws Error(output) that names the file which could not be written.
 SequenceFiles make_sequence(const SequenceOptions& options);
 
 }  // namespace telemime
