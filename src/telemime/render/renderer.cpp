@@ -2,20 +2,26 @@
 #include "telemime/render/renderer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 
 namespace telemime {
 namespace {
 
 constexpr float kNearest = 0.05F;
+// Pixels that fill() tests at once.
+constexpr int kLanes = 4;
 
 void clear(Rendering& out, const Camera& camera, const BodyMesh& mesh) {
   const auto pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
   if (out.width != camera.width || out.height != camera.height) {
     out.width = camera.width;
     out.height = camera.height;
-    out.surface.assign(pixels, 0);
-    out.inverse_depth.assign(pixels, 0.0F);
+    // fill_lanes() touches up to three pixels beyond the last one.
+    out.surface.assign(pixels + kLanes - 1, 0);
+    out.inverse_depth.assign(pixels + kLanes - 1, 0.0F);
   } else {
     const int span = out.right - out.left;
     for (int y = out.top; y < out.bottom && span > 0; ++y) {
@@ -52,20 +58,76 @@ void project(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& c
   }
 }
 
-struct HalfPlane {
-  float slope;   // of the crossing x over y
-  float offset;  // crossing x at y = 0
-  int kind;      // +1: x must be at least the crossing, -1: at most, 0: horizontal edge, no bound
+// Roundings without a call into the C library: the program must run on processors that have no instruction
+// for them. Exact for |x| < 2^23; fill() and occluding_contour() leave larger ones out before.
+int floor_of(float x) {
+  const int whole = static_cast<int>(x);
+  return whole - (static_cast<float>(whole) > x ? 1 : 0);
+}
+int ceil_of(float x) {
+  const int whole = static_cast<int>(x);
+  return whole + (static_cast<float>(whole) < x ? 1 : 0);
+}
+// Half away from zero, as std::lround.
+int nearest_to(float x) {
+  const int whole = static_cast<int>(x);
+  const float rest = x - static_cast<float>(whole);
+  return whole + (rest >= 0.5F ? 1 : 0) - (rest <= -0.5F ? 1 : 0);
+}
+
+// Where the line of a triangle's edge crosses a row: x = slope * y + offset.
+struct Crossing {
+  float slope = 0.0F;
+  float offset = 0.0F;
 };
 
-// The inside of a front-facing triangle lies to one side of each of its edges.
-HalfPlane half_plane(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  const float dy = b.y() - a.y();
-  if (dy == 0.0F) {
-    return {0.0F, 0.0F, 0};
+// The inside of a front-facing triangle lies right of edges that go down and left of edges that go up. Of
+// three edges at most two bound the same side; the unused one bounds nothing. Horizontal edges bound no row.
+struct RowBounds {
+  Crossing left[2] = {{0.0F, -std::numeric_limits<float>::infinity()},
+                      {0.0F, -std::numeric_limits<float>::infinity()}};
+  Crossing right[2] = {{0.0F, std::numeric_limits<float>::infinity()},
+                       {0.0F, std::numeric_limits<float>::infinity()}};
+  int lefts = 0;
+  int rights = 0;
+
+  void add(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    const float dy = b.y() - a.y();
+    if (dy == 0.0F) {
+      return;
+    }
+    const float slope = (b.x() - a.x()) / dy;
+    (dy > 0.0F ? left[lefts++] : right[rights++]) = {slope, a.x() - slope * a.y()};
   }
-  const float slope = (b.x() - a.x()) / dy;
-  return {slope, a.x() - slope * a.y(), dy > 0.0F ? 1 : -1};
+};
+
+// Four pixels at once. Most rows of most triangles are shorter: a loop over single pixels would spend its
+// time on guessing wrongly where it ends.
+using Floats = float __attribute__((vector_size(16)));
+using Ints = std::int32_t __attribute__((vector_size(16)));
+
+// The bytes of `classes` lie in memory in the order of the pixels.
+static_assert(std::endian::native == std::endian::little);
+
+// The z-buffer test for the pixels x..x+3 up to `last`; 1/z = w_row + w_x * x.
+void fill_lanes(float* depth, std::uint8_t* plane, int x, int last, float w_row, float w_x,
+                std::uint8_t surface) {
+  const Ints at = Ints{0, 1, 2, 3} + x;
+  const Floats w = w_row + w_x * __builtin_convertvector(at, Floats);
+  Floats before;
+  std::memcpy(&before, depth, sizeof before);
+  const Ints nearer = (w > before) & (at <= last);
+  const Floats after = nearer ? w : before;
+  std::memcpy(depth, &after, sizeof after);
+  // The lanes' masks side by side in one word, a byte each.
+  Ints bytes = nearer & Ints{0x000000FF, 0x0000FF00, 0x00FF0000, ~0x00FFFFFF};
+  bytes |= __builtin_shufflevector(bytes, bytes, 2, 3, 0, 1);
+  bytes |= __builtin_shufflevector(bytes, bytes, 1, 0, 3, 2);
+  const auto changed = static_cast<std::uint32_t>(bytes[0]);
+  std::uint32_t classes = 0;
+  std::memcpy(&classes, plane, sizeof classes);
+  classes = (classes & ~changed) | (changed & (surface * 0x01010101U));
+  std::memcpy(plane, &classes, sizeof classes);
 }
 
 void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, float area,
@@ -80,49 +142,56 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
       high_x > limit) {
     return;
   }
-  const int y0 = std::max(0, static_cast<int>(std::ceil(low_y)));
-  const int y1 = std::min(out.height - 1, static_cast<int>(std::floor(high_y)));
+  const int y0 = std::max(0, ceil_of(low_y));
+  const int y1 = std::min(out.height - 1, floor_of(high_y));
   const float bound_low = std::max(0.0F, low_x);
   const float bound_high = std::min(static_cast<float>(out.width - 1), high_x);
-  if (y0 > y1 || std::ceil(bound_low) > std::floor(bound_high)) {
+  if (y0 > y1 || ceil_of(bound_low) > floor_of(bound_high)) {
     return;
   }
-  const HalfPlane sides[3] = {half_plane(a, b), half_plane(b, c), half_plane(c, a)};
+  RowBounds bounds;
+  bounds.add(a, b);
+  bounds.add(b, c);
+  bounds.add(c, a);
   // 1/z is linear in the image.
   const float inverse_area = 1.0F / area;
   const float w_x = ((b.z() - a.z()) * (c.y() - a.y()) - (c.z() - a.z()) * (b.y() - a.y())) * inverse_area;
   const float w_y = ((c.z() - a.z()) * (b.x() - a.x()) - (b.z() - a.z()) * (c.x() - a.x())) * inverse_area;
   const float w_0 = a.z() - w_x * a.x() - w_y * a.y();
 
-  for (int y = y0; y <= y1; ++y) {
+  int left = out.width;
+  int right = 0;
+  int top = out.height;
+  int bottom = 0;
+  const auto width = static_cast<std::size_t>(out.width);
+  float* depth = out.inverse_depth.data() + static_cast<std::size_t>(y0) * width;
+  std::uint8_t* plane = out.surface.data() + static_cast<std::size_t>(y0) * width;
+  for (int y = y0; y <= y1; ++y, depth += width, plane += width) {
     const auto fy = static_cast<float>(y);
-    float low = bound_low;
-    float high = bound_high;
-    for (const HalfPlane& side : sides) {
-      const float x = side.slope * fy + side.offset;
-      low = side.kind > 0 ? std::max(low, x) : low;
-      high = side.kind < 0 ? std::min(high, x) : high;
+    const auto at = [fy](const Crossing& edge) { return edge.slope * fy + edge.offset; };
+    const float low = std::max(std::max(bound_low, at(bounds.left[0])), at(bounds.left[1]));
+    const float high = std::min(std::min(bound_high, at(bounds.right[0])), at(bounds.right[1]));
+    if (low > high) {
+      continue;
     }
-    const int x0 = static_cast<int>(std::ceil(low));
-    const int x1 = static_cast<int>(std::floor(high));
+    const int x0 = ceil_of(low);
+    const int x1 = floor_of(high);
     if (x0 > x1) {
       continue;
     }
-    out.left = std::min(out.left, x0);
-    out.right = std::max(out.right, x1 + 1);
-    out.top = std::min(out.top, y);
-    out.bottom = std::max(out.bottom, y + 1);
-    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width);
-    float* depth = out.inverse_depth.data() + row;
-    std::uint8_t* plane = out.surface.data() + row;
+    left = std::min(left, x0);
+    right = std::max(right, x1 + 1);
+    top = std::min(top, y);
+    bottom = y + 1;
     const float w_row = w_0 + w_y * fy;
-    for (int x = x0; x <= x1; ++x) {
-      const float w = w_row + w_x * static_cast<float>(x);
-      const bool nearer = w > depth[x];
-      depth[x] = nearer ? w : depth[x];
-      plane[x] = nearer ? surface : plane[x];
+    for (int x = x0; x <= x1; x += kLanes) {
+      fill_lanes(depth + x, plane + x, x, x1, w_row, w_x, surface);
     }
   }
+  out.left = std::min(out.left, left);
+  out.right = std::max(out.right, right);
+  out.top = std::min(out.top, top);
+  out.bottom = std::max(out.bottom, bottom);
 }
 
 }  // namespace
@@ -154,6 +223,8 @@ void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::ve
   // The contour of a segment lies about half a limb's thickness behind its nearest surface: what is hidden by
   // less than this (m) is hidden by the segment itself or where two segments join.
   constexpr float kThickness = 0.015F;
+  const auto width = static_cast<float>(rendering.width);
+  const auto height = static_cast<float>(rendering.height);
   out.clear();
   for (const MeshEdge& edge : mesh.edges) {
     const int front = rendering.facing[edge.triangle[0]];
@@ -164,15 +235,18 @@ void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::ve
     const Eigen::Vector3f& a = rendering.projected[edge.vertex[0]];
     const Eigen::Vector3f& b = rendering.projected[edge.vertex[1]];
     const Eigen::Vector3f d = b - a;
-    const float length = std::hypot(d.x(), d.y());
+    const float length = d.head<2>().norm();
     if (!(length < 4096.0F)) {
       continue;
     }
-    const int steps = std::max(1, static_cast<int>(std::lround(length)));
+    const int steps = std::max(1, nearest_to(length));
     for (int i = 0; i < steps; ++i) {
       const Eigen::Vector3f p = a + d * ((static_cast<float>(i) + 0.5F) / static_cast<float>(steps));
-      const auto x = static_cast<int>(std::lround(p.x()));
-      const auto y = static_cast<int>(std::lround(p.y()));
+      if (!(p.x() > -1.0F && p.y() > -1.0F && p.x() < width && p.y() < height)) {
+        continue;
+      }
+      const int x = nearest_to(p.x());
+      const int y = nearest_to(p.y());
       if (x < 0 || y < 0 || x >= rendering.width || y >= rendering.height) {
         continue;
       }

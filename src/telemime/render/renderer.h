@@ -18,8 +18,8 @@ struct Rendering {
   int width = 0;
   int height = 0;
   int left = 0, top = 0, right = 0, bottom = 0;
-  std::vector<std::uint8_t> surface;  ///< SurfaceClass, 0: nothing
-  std::vector<float> inverse_depth;   ///< 1/m; 0: nothing
+  std::vector<std::uint8_t> surface;  ///< SurfaceClass, 0: nothing; a few bytes longer than the image
+  std::vector<float> inverse_depth;   ///< 1/m; 0: nothing; the same
 
   /// Working space: projected vertices (u, v, 1/z), facing of triangles.
   std::vector<Eigen::Vector3f> projected;

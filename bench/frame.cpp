@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one picture costs: features by working size, and the whole way from picture to pose. The clip is made
+// by telemime's own generator, so that the numbers need no data.
+#include <benchmark/benchmark.h>
+
+#include <opencv2/core.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "telemime/pipeline/tracker.h"
+#include "telemime/synth/sequence.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kFrames = 12;
+
+struct Clip {
+  Camera camera;
+  std::vector<Frame> background;
+  std::vector<Frame> frames;
+};
+
+Clip make_clip() {
+  SceneOptions options;
+  options.gesture = Gesture::joy;
+  options.width = 320;
+  options.height = 240;
+  const Scene scene = make_scene(options);
+  Clip clip{scene.camera, {}, {}};
+  for (int i = 0; i < 10; ++i) {
+    clip.background.push_back({render_background(scene, i), i, i / 25.0});
+  }
+  for (int i = 0; i < kFrames; ++i) {
+    clip.frames.push_back({render_frame(scene, i).image, i, i / 25.0});
+  }
+  return clip;
+}
+
+const Clip& clip() {
+  static const Clip made = make_clip();
+  return made;
+}
+
+ImageConfig image_config(const benchmark::State& state) {
+  ImageConfig config;
+  config.width = static_cast<int>(state.range(0));
+  config.height = static_cast<int>(state.range(1));
+  return config;
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"w", "h"})->Args({160, 120})->Args({320, 240})->Args({640, 480});
+  b->Unit(benchmark::kMillisecond);
+}
+
+void features(benchmark::State& state) {
+  cv::setNumThreads(1);
+  FeatureExtractor extractor(image_config(state));
+  extractor.learn_background(clip().background);
+  if (!extractor.begin_person(clip().frames[0]).accepted) {
+    state.SkipWithError("no face was found in the first picture");
+    return;
+  }
+  std::size_t i = 0;
+  for ([[maybe_unused]] const auto step : state) {
+    benchmark::DoNotOptimize(extractor.extract(clip().frames[++i % kFrames]));
+  }
+}
+BENCHMARK(features)->Apply(sizes);
+
+void whole_frame(benchmark::State& state) {
+  cv::setNumThreads(1);
+  Config config;
+  config.image = image_config(state);
+  config.registration = reference_registration();
+  config.registration.iterations = 500;
+  Tracker tracker(config, clip().camera);
+  tracker.learn_background(clip().background);
+  std::size_t i = 0;
+  while (!tracker.calibration() && i < kFrames) {
+    tracker.step(clip().frames[i++]);
+  }
+  if (!tracker.calibration()) {
+    state.SkipWithError("the person was not calibrated");
+    return;
+  }
+  for ([[maybe_unused]] const auto step : state) {
+    benchmark::DoNotOptimize(tracker.step(clip().frames[++i % kFrames]));
+  }
+}
+BENCHMARK(whole_frame)->Name("whole frame, 500 evaluations")->Apply(sizes);
+
+}  // namespace
+}  // namespace telemime
