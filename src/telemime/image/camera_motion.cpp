@@ -30,9 +30,9 @@ std::optional<double> scene_motion(const cv::Mat& before, const cv::Mat& after, 
   if (lengths.size() < kFewest) {
     return std::nullopt;
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+  std::nth_element(lengths.begin(), quarter, lengths.end());
+  return *quarter;
 }
 
 }  // namespace telemime

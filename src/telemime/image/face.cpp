@@ -22,13 +22,15 @@ cv::CascadeClassifier load_cascade(const std::filesystem::path& folder, const st
   return cascade;
 }
 
-std::optional<cv::Rect> largest_of(const std::vector<cv::Rect>& faces, const cv::Point& corner) {
-  if (faces.empty()) {
-    return std::nullopt;
+std::optional<cv::Rect> largest_of(std::vector<cv::Rect> faces, const cv::Point& corner,
+                                   const FaceTest& is_face) {
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.width > b.width; });
+  for (const cv::Rect& face : faces) {
+    if (is_face(face + corner)) {
+      return face + corner;
+    }
   }
-  const auto best = std::max_element(faces.begin(), faces.end(),
-                                     [](const auto& a, const auto& b) { return a.width < b.width; });
-  return *best + corner;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ FaceDetector::FaceDetector(const std::filesystem::path& folder)
       profile_(load_cascade(folder, "haarcascade_profileface.xml")) {}
 
 std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& region, int smallest,
-                                           int largest, bool profiles) {
+                                           int largest, bool profiles, const FaceTest& is_face) {
   const cv::Rect inside = region & cv::Rect(0, 0, grey.cols, grey.rows);
   if (inside.width < 20 || inside.height < 20) {
     return std::nullopt;
@@ -82,7 +84,7 @@ std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& 
       }
     }
   }
-  return largest_of(faces, inside.tl());
+  return largest_of(faces, inside.tl(), is_face);
 }
 
 }  // namespace telemime

@@ -14,6 +14,13 @@
 #include "telemime/image/person_shape.h"
 
 namespace telemime {
+namespace {
+
+cv::Rect whole_of(const cv::Mat& picture) {
+  return {0, 0, picture.cols, picture.rows};
+}
+
+}  // namespace
 
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
     : config_((config.validate(), config)), head_(config.head, config.cascades) {}
@@ -45,6 +52,52 @@ std::optional<HeadRegion> FeatureExtractor::region_of(const std::optional<Tracke
   }
   return head_region(*face, shape_, static_cast<double>(config_.width) / p.face.cols,
                      static_cast<double>(config_.height) / p.face.rows);
+}
+
+cv::Rect FeatureExtractor::search_area(const Pictures& p) const {
+  if (!all_valid_ || silhouette_.empty()) {
+    return whole_of(p.face);
+  }
+  // Where the scene is known a face is nowhere but in the silhouette of the frame before, or near it.
+  const cv::Rect box = cv::boundingRect(silhouette_);
+  if (box.empty()) {
+    return {};
+  }
+  const double sx = static_cast<double>(p.face.cols) / config_.width;
+  const double sy = static_cast<double>(p.face.rows) / config_.height;
+  const int margin = p.face.cols / 16;
+  return cv::Rect(static_cast<int>(box.x * sx) - margin, static_cast<int>(box.y * sy) - margin,
+                  static_cast<int>(box.width * sx) + 2 * margin,
+                  static_cast<int>(box.height * sy) + 2 * margin) &
+         whole_of(p.face);
+}
+
+FaceTest FeatureExtractor::face_test(const Pictures& p) const {
+  const double sx = static_cast<double>(config_.width) / p.face.cols;
+  const double sy = static_cast<double>(config_.height) / p.face.rows;
+  return [sx, sy, &colour = p.colour](const cv::Rect& face) {
+    constexpr double kLeastSkin = 0.2;
+    return possible_skin(colour, cv::Rect(static_cast<int>(face.x * sx), static_cast<int>(face.y * sy),
+                                          std::max(1, static_cast<int>(face.width * sx)),
+                                          std::max(1, static_cast<int>(face.height * sy)))) > kLeastSkin;
+  };
+}
+
+void FeatureExtractor::follow_outline(const Pictures& p, const cv::Mat& silhouette) {
+  if (head_.confirmed()) {
+    return;
+  }
+  if (const auto head = head_from_silhouette(silhouette)) {
+    const double sx = static_cast<double>(config_.width) / p.face.cols;
+    const double sy = static_cast<double>(config_.height) / p.face.rows;
+    const cv::Rect2d square = face_square(*head, shape_, sx, sy);
+    const auto& track = head_.current();
+    const cv::Point2d centre(square.x + 0.5 * square.width, square.y + 0.5 * square.height);
+    if (track && cv::norm(track->centre - centre) > 0.7 * track->side) {
+      head_.forget();
+    }
+    head_.adopt(p.face, square, 0.5);
+  }
 }
 
 BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures, const std::optional<HeadRegion>& head) {
@@ -118,11 +171,20 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
 
 PersonReport FeatureExtractor::begin_person(const Frame& frame) {
   Pictures p = pictures_of(frame);
-  const std::optional<TrackedFace> face = head_.restart(p.face);
+  shape_ = HeadShape{};
+  std::optional<TrackedFace> face = head_.restart(p.face, whole_of(p.face), face_test(p));
+  if (!face && all_valid_share() > 0.3) {
+    // A mask hides a face, but not the outline of a head.
+    Pictures copy = p;
+    copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};
+    const BackgroundEnergy scene = background_of(copy, std::nullopt);
+    follow_outline(
+        p, segment(copy.colour, scene, PersonColours{}, std::nullopt, config_.segmentation).silhouette);
+    face = head_.current();
+  }
   if (!face) {
     return {false, "no face was found: look at the camera, in enough light"};
   }
-  shape_ = HeadShape{};
   std::optional<HeadRegion> head = region_of(face, p);
   const BackgroundEnergy background = background_of(p, head);
   if (!stands_out(background, *head)) {
@@ -150,7 +212,7 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
 Observation FeatureExtractor::extract(const Frame& frame) {
   Pictures p = pictures_of(frame);
   Observation out;
-  const std::optional<TrackedFace> face = head_.update(p.face);
+  const std::optional<TrackedFace> face = head_.update(p.face, search_area(p), face_test(p));
   out.head = region_of(face, p);
   const BackgroundEnergy background = background_of(p, out.head);
   if (out.head && !stands_out(background, *out.head)) {
@@ -167,6 +229,7 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette;
+  follow_outline(p, out.silhouette);
   if (out.head) {
     shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
   }
@@ -182,7 +245,12 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   cv::dilate(grown, grown, square, cv::Point(-1, -1), 2);
   cv::bitwise_not(grown, believed_);
   silhouette_ = out.silhouette;
-  if (!calibration_.background.empty() && config_.background_rate > 0) {
+  // While the camera moves there is nothing to learn; after a knock everything is learned anew.
+  constexpr double kKnocked = 1.5;
+  if (status_.camera_motion > kKnocked && !calibration_.background.empty()) {
+    calibration_.background.valid.setTo(0);
+    calibration_.background.seen.setTo(0);
+  } else if (!calibration_.background.empty() && config_.background_rate > 0) {
     cv::Mat where = believed_.clone();
     where.setTo(0, background.shaded);
     adapt_background(calibration_.background, p.colour, where, config_.background_rate);

@@ -57,7 +57,11 @@ class FeatureExtractor {
   std::optional<HeadRegion> region_of(const std::optional<TrackedFace>& face, const Pictures& p) const;
   BackgroundEnergy background_of(Pictures& pictures, const std::optional<HeadRegion>& head);
   bool stands_out(const BackgroundEnergy& background, const HeadRegion& head) const;
+  cv::Rect search_area(const Pictures& p) const;
+  FaceTest face_test(const Pictures& p) const;
+  void follow_outline(const Pictures& p, const cv::Mat& silhouette);
   std::vector<SceneSample> samples_of(std::span<const Frame> clip);
+  double all_valid_share() const;
   void watch_camera(const cv::Mat& grey);
   void update_status(const Pictures& p, const Observation& seen);
 
@@ -70,6 +74,7 @@ class FeatureExtractor {
   cv::Mat believed_;       ///< background of the frame before
   cv::Mat silhouette_;     ///< of the frame before
   cv::Mat motion_grey_;    ///< picture of the last look at the camera's motion
+  cv::Mat motion_scene_;   ///< what was background at that look
   int since_motion_ = 0;
   int hollow_ = 0;  ///< frames in a row in which the head had neither skin nor hair
 };

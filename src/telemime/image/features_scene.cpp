@@ -9,6 +9,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/image/camera_motion.h"
 #include "telemime/image/features.h"
+#include "telemime/image/person_shape.h"
 
 namespace telemime {
 namespace {
@@ -42,12 +43,7 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
     const std::size_t at = i * (clip.size() - 1 - kApart) / std::max<std::size_t>(1, samples.size() - 1);
     cv::Mat scene(config.height, config.width, CV_8UC1, cv::Scalar(255));
     if (samples[i].head) {
-      // Person: a column three heads to both sides, from above the crown down.
-      const HeadRegion& h = *samples[i].head;
-      const cv::Rect column(cv::Point(static_cast<int>(h.centre.x() - 5 * h.radii.x()),
-                                      static_cast<int>(h.centre.y() - 2.5 * h.radii.y())),
-                            cv::Point(static_cast<int>(h.centre.x() + 5 * h.radii.x()), config.height));
-      scene(column & cv::Rect(0, 0, config.width, config.height)).setTo(0);
+      scene = body_prior(scene.size(), *samples[i].head) < 0;
     }
     const auto moved =
         scene_motion(grey_at_most(working_picture(clip[at], config), config.width),
@@ -60,19 +56,20 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
     return false;
   }
   std::sort(motions.begin(), motions.end());
-  return motions[motions.size() / 2] > 0.7;
+  return motions[motions.size() * 3 / 4] > 0.7;
 }
 
 }  // namespace
 
 std::vector<SceneSample> FeatureExtractor::samples_of(std::span<const Frame> clip) {
-  constexpr std::size_t kSamples = 16;
+  constexpr std::size_t kSamples = 20;
   std::vector<SceneSample> samples;
   const std::size_t count = std::min(kSamples, clip.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = clip[count == 1 ? 0 : i * (clip.size() - 1) / (count - 1)];
     const Pictures p = pictures_of(frame);
-    samples.push_back({p.bgr, region_of(head_.restart(p.face), p)});
+    samples.push_back(
+        {p.bgr, region_of(head_.restart(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), face_test(p)), p)});
   }
   head_.forget();
   return samples;
@@ -108,11 +105,19 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
         std::find_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
     LogColour colour = log_colour(head->bgr);
     subtract(colour, estimate_gain(candidate.background, colour, {}));
+    const auto has_face = [this](const cv::Mat& picture) {
+      const LogColour colours = log_colour(picture);
+      const bool found =
+          head_
+              .restart(grey_at_most(picture, picture.cols), cv::Rect(0, 0, picture.cols, picture.rows),
+                       [&](const cv::Rect& face) { return possible_skin(colours, face) > 0.2; })
+              .has_value();
+      head_.forget();
+      return found;
+    };
     const bool empty =
         stands_out(background_energy(candidate.background, colour, config_.shadow, {}), *head->head) &&
-        !head_.restart(grey_at_most(still.front(), config_.face_width)) &&
-        !head_.restart(grey_at_most(still[count / 2], config_.face_width));
-    head_.forget();
+        !has_face(still.front()) && !has_face(still[count / 2]);
     if (empty) {
       const std::size_t offset = whole || first < half ? 0 : clip.size() - 2 * half;
       report = {SceneSource::empty_stretch, first + offset, count, 1.0,
@@ -121,9 +126,9 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
       return report;
     }
   }
-  if (with_head == 0) {
+  if (with_head == 0 && samples.size() < 8) {
     set_calibration(fresh);
-    report.sentence = "no face was found in the clip: the scene could not be learned";
+    report.sentence = "no face was found: the scene could not be learned";
     return report;
   }
   fresh.background = learn_around_person(samples);
@@ -131,6 +136,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   report.source = SceneSource::moving_person;
   if (camera_moves(clip, samples, config_)) {
     fresh.background.valid.setTo(0);
+    status_.camera_motion = 2.0;
     report.source = SceneSource::colours_only;
     report.sentence = "the camera moves: only colours tell the person from the scene";
   }
@@ -145,19 +151,25 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   return report;
 }
 
+double FeatureExtractor::all_valid_share() const {
+  const cv::Mat& valid = calibration_.background.valid;
+  return valid.empty() ? 0.0 : cv::countNonZero(valid) / static_cast<double>(valid.total());
+}
+
 void FeatureExtractor::watch_camera(const cv::Mat& grey) {
   if (config_.motion_every == 0 || ++since_motion_ < config_.motion_every) {
     return;
   }
   since_motion_ = 0;
   if (!motion_grey_.empty()) {
-    if (const auto moved = scene_motion(motion_grey_, grey, believed_)) {
+    if (const auto moved = scene_motion(motion_grey_, grey, motion_scene_ & believed_)) {
       // One lively curtain is not a moving camera: averaged over a few looks, large steps cut.
       const double step = std::min(*moved * 160.0 / config_.width, 5.0);
       status_.camera_motion += 0.3 * (step - status_.camera_motion);
     }
   }
   motion_grey_ = grey;
+  motion_scene_ = believed_.clone();
 }
 
 void FeatureExtractor::update_status(const Pictures& p, const Observation& seen) {
@@ -168,8 +180,7 @@ void FeatureExtractor::update_status(const Pictures& p, const Observation& seen)
   status_.silhouette_share = cv::countNonZero(seen.silhouette) / total;
   status_.person = seen.head.has_value() || status_.silhouette_share > 0.02;
   status_.brightness = cv::mean(p.grey)[0];
-  const cv::Mat& valid = calibration_.background.valid;
-  status_.known_background = valid.empty() ? 0.0 : cv::countNonZero(valid) / total;
+  status_.known_background = all_valid_share();
   all_valid_ = status_.known_background >= 1.0;
   const double arms = share(Label::arms);
   const double clothes = share(Label::clothes);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
@@ -32,6 +33,85 @@ int run_length(const cv::Mat& silhouette, int row, int column, int dr, int dc, i
     ++steps;
   }
   return steps;
+}
+
+struct Run {
+  int left = 0;
+  int right = -1;
+  int width() const { return right - left + 1; }
+};
+
+/// The run of the silhouette in a row that holds the column, or the widest one when the column is outside.
+Run run_at(const cv::Mat& person, int row, int column) {
+  Run best;
+  const auto* p = person.ptr<unsigned char>(row);
+  for (int c = 0; c < person.cols; ++c) {
+    if (p[c] == 0) {
+      continue;
+    }
+    Run run{c, c};
+    while (run.right + 1 < person.cols && p[run.right + 1] != 0) {
+      ++run.right;
+    }
+    if (run.left <= column && column <= run.right) {
+      return run;
+    }
+    best = run.width() > best.width() ? run : best;
+    c = run.right;
+  }
+  return best;
+}
+
+/// Follows the person down from the top until the rows widen into shoulders.
+std::optional<HeadRegion> head_of_person(const cv::Mat& person, double thinnest, double widest) {
+  int top = 0;
+  while (top < person.rows && run_at(person, top, -1).width() <= 0) {
+    ++top;
+  }
+  const bool cut_by_picture = top <= 1;
+  // Widths of the rows so far. Shoulders slope, so a row is compared with those well above it.
+  std::vector<Run> runs;
+  const auto widest_of_upper = [&runs] {
+    const auto upper =
+        runs.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, runs.size() * 3 / 5));
+    return *std::max_element(runs.begin(), upper,
+                             [](const Run& a, const Run& b) { return a.width() < b.width(); });
+  };
+  Run head_run;
+  int column = -1;
+  bool shoulders = false;
+  for (int r = top; r < person.rows; ++r) {
+    const Run run = run_at(person, r, column);
+    if (run.width() <= 0) {
+      return std::nullopt;
+    }
+    if (runs.size() >= 3) {
+      head_run = widest_of_upper();
+      const double so_far = head_run.width();
+      const auto rows = static_cast<double>(runs.size());
+      if (so_far >= thinnest && (rows >= 0.7 * so_far || cut_by_picture) && run.width() > 1.5 * so_far) {
+        shoulders = true;
+        break;
+      }
+      if (rows > 2.4 * std::max(so_far, thinnest)) {
+        break;
+      }
+    }
+    runs.push_back(run);
+    column = (run.left + run.right) / 2;
+  }
+  const double width = head_run.width();
+  const auto rows = static_cast<double>(runs.size());
+  if (!shoulders || width > widest) {
+    return std::nullopt;
+  }
+  // From crown to shoulders there are about 1.25 heads, and a head is 1.2 to 1.7 times as high as wide.
+  const double height = cut_by_picture ? 1.4 * width : std::clamp(rows / 1.25, 1.2 * width, 1.7 * width);
+  HeadRegion head;
+  head.radii = {0.5 * width, 0.5 * height};
+  head.centre = {0.5 * (head_run.left + head_run.right),
+                 cut_by_picture ? top + rows / 1.25 - 0.5 * height : top - 0.5 + 0.5 * height};
+  return head;
 }
 
 }  // namespace
@@ -104,6 +184,39 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
     move(out.half_width, 0.5 * (*right - *left) / side_x, 0.34, 0.62);
   }
   return out;
+}
+
+std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
+  cv::Mat pieces;
+  cv::Mat stats;
+  cv::Mat centroids;
+  const int count = cv::connectedComponentsWithStats(silhouette, pieces, stats, centroids, 8, CV_32S);
+  int largest = 0;
+  for (int i = 1; i < count; ++i) {
+    if (largest == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(largest, cv::CC_STAT_AREA)) {
+      largest = i;
+    }
+  }
+  constexpr double kSmallestPerson = 0.01;
+  if (largest == 0 ||
+      stats.at<int>(largest, cv::CC_STAT_AREA) < kSmallestPerson * static_cast<double>(silhouette.total())) {
+    return std::nullopt;
+  }
+  // Ragged outlines have spikes: a head is never thinner than this share of the person.
+  const double scale = std::sqrt(static_cast<double>(stats.at<int>(largest, cv::CC_STAT_AREA)));
+  const double thinnest = 0.14 * scale;
+  const int brush = std::max(3, static_cast<int>(0.5 * thinnest) | 1);
+  cv::Mat person = pieces == largest;
+  cv::morphologyEx(person, person, cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(brush, brush)));
+  return head_of_person(person, thinnest, 0.5 * scale);
+}
+
+cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y) {
+  const double side = 2 * head.radii.y() / scale_y / (shape.crown + shape.chin);
+  const double x = (head.centre.x() + 0.5) / scale_x - 0.5 - shape.shift * side;
+  const double y = (head.centre.y() + 0.5) / scale_y - 0.5 - 0.5 * (shape.chin - shape.crown) * side;
+  return {x - 0.5 * (side - 1), y - 0.5 * (side - 1), side, side};
 }
 
 }  // namespace telemime

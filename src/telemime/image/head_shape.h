@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/observation.h"
@@ -23,5 +24,13 @@ HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double s
 /// The shape moved by `rate` (0 to 1) towards what the silhouette (CV_8UC1, working pixels) shows around
 /// `head`, the region that `shape` gave. Rows and columns where something else touches the head are left out.
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate);
+
+/// The head of an upright person whose face is not seen (turned away, a mask, too small), from the outline
+/// alone: the top of the largest piece of the silhouette, down to where it widens into shoulders. Working
+/// pixels, not `detected`. Nothing when no such shape is there.
+std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette);
+
+/// The detector's square that `shape` would have turned into `head`; inverse of head_region.
+cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y);
 
 }  // namespace telemime

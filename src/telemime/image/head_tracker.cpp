@@ -73,9 +73,23 @@ double HeadTracker::carry(const cv::Mat& grey) {
   return best;
 }
 
-std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey) {
+void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend) {
+  const cv::Point2d centre(square.x + 0.5 * (square.width - 1), square.y + 0.5 * (square.height - 1));
+  if (!face_) {
+    face_ = TrackedFace{centre, square.width, false, 1.0};
+    misses_ = 1;
+  } else {
+    face_->centre += blend * (centre - face_->centre);
+    face_->side += 0.3 * blend * (square.width - face_->side);
+  }
+  patch_ = square_at(grey, face_->centre, face_->side, kPatch);
+  since_sure_ = 0;
+}
+
+std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey, const cv::Rect& search,
+                                                const FaceTest& is_face) {
   const int smallest = std::max(20, static_cast<int>(config_.smallest_face * grey.rows));
-  const auto found = detector_.find(grey, cv::Rect(0, 0, grey.cols, grey.rows), smallest, grey.rows, false);
+  const auto found = detector_.find(grey, search, smallest, grey.rows, false, is_face);
   since_search_ = 0;
   misses_ = 0;
   face_.reset();
@@ -85,10 +99,11 @@ std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey) {
   return face_;
 }
 
-std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey) {
+std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey, const cv::Rect& search,
+                                               const FaceTest& is_face) {
   if (!face_) {
     ++since_search_;
-    return since_search_ >= config_.search_every ? restart(grey) : std::nullopt;
+    return since_search_ >= config_.search_every ? restart(grey, search, is_face) : std::nullopt;
   }
   face_->detected = false;
   face_->match = carry(grey);
@@ -103,7 +118,7 @@ std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey) {
         cv::Point(static_cast<int>(face_->centre.x - reach), static_cast<int>(face_->centre.y - reach)),
         cv::Point(static_cast<int>(face_->centre.x + reach), static_cast<int>(face_->centre.y + reach)));
     const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75 / growth),
-                                      static_cast<int>(face_->side * 1.3 * growth), false);
+                                      static_cast<int>(face_->side * 1.3 * growth), false, is_face);
     since_detected_ = 0;
     if (found) {
       anchor(grey, *found, misses_ >= 2);
@@ -113,7 +128,7 @@ std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey) {
     }
   }
   if (since_sure_ > config_.lost_after) {
-    return restart(grey);
+    return restart(grey, search, is_face);
   }
   return face_;
 }

@@ -29,11 +29,22 @@ class HeadTracker {
  public:
   HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades);
 
-  /// The face in the next picture (CV_8UC1; all pictures of one size), or nothing.
-  std::optional<TrackedFace> update(const cv::Mat& grey);
+  /// The face in the next picture (CV_8UC1; all pictures of one size), or nothing. Without a track it is
+  /// sought in `search` only.
+  std::optional<TrackedFace> update(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
 
-  /// Searches the whole picture at once and starts anew from what is found.
-  std::optional<TrackedFace> restart(const cv::Mat& grey);
+  /// Searches `search`, for faces that pass the test, at once and starts anew from what is found.
+  std::optional<TrackedFace> restart(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
+
+  /// Takes over a face square that was found by other means (the outline), and follows that. With `blend`
+  /// below 1 a track that exists moves only so far towards it.
+  void adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend);
+
+  /// The track, as of the last call.
+  const std::optional<TrackedFace>& current() const { return face_; }
+
+  /// The detector has confirmed the track at its last look.
+  bool confirmed() const { return face_.has_value() && misses_ == 0; }
 
   /// Forgets the track.
   void forget() { face_.reset(); }

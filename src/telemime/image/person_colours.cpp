@@ -73,6 +73,9 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
   Samples skin = keep_if(face, may_be_skin);
   // Coloured light can move skin out of the usual range; then the whole face must do.
   if (skin.size() < std::max(kFewest / 2, face.size() / 8)) {
+    if (!head.detected) {
+      return {false, "what looks like a head from its outline has no skin in it: show your face"};
+    }
     skin = face;
   }
   PersonColours learned;
@@ -110,6 +113,17 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
   }
   colours = learned;
   return {true, {}};
+}
+
+double possible_skin(const LogColour& picture, const cv::Rect& box) {
+  const cv::Rect inside = box & cv::Rect(0, 0, picture.u.cols, picture.u.rows);
+  int skin = 0;
+  for (int r = inside.y; r < inside.br().y; ++r) {
+    for (int c = inside.x; c < inside.br().x; ++c) {
+      skin += may_be_skin(at(picture, r, c)) ? 1 : 0;
+    }
+  }
+  return inside.area() > 0 ? static_cast<double>(skin) / inside.area() : 0.0;
 }
 
 }  // namespace telemime

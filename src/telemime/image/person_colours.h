@@ -31,4 +31,8 @@ struct PersonReport {
 PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
                           PersonColours& colours);
 
+/// Share of the pixels of a box in which the colour of any human skin would be possible. Coloured light can
+/// deceive it: a test against faces in wallpaper, not for skin.
+double possible_skin(const LogColour& picture, const cv::Rect& box);
+
 }  // namespace telemime

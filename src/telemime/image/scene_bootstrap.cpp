@@ -55,7 +55,7 @@ struct Series {
 
 Series series_of(std::span<const SceneSample> samples) {
   constexpr float kInside = 0.05F;
-  constexpr float kNoHead = 0.3F;
+  constexpr float kNoHead = 0.5F;
   Series series;
   for (const SceneSample& sample : samples) {
     series.colours.push_back(log_colour(sample.bgr));
@@ -90,11 +90,11 @@ std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> 
 
 BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
   const Series series = series_of(samples);
-  std::vector<cv::Mat> first{samples.front().bgr};
+  std::vector<cv::Mat> one{samples.front().bgr};
   // Starts from the noise of one picture; means and validity are replaced pixel by pixel.
-  BackgroundModel model = learn_background_model(first);
+  BackgroundModel model = learn_background_model(one);
   const std::size_t count = samples.size();
-  const float enough = count < 6 ? 1.0F : 2.0F;
+  const float enough = count < 6 ? 1.0F : 1.4F;
   std::vector<float> u(count);
   std::vector<float> v(count);
   std::vector<float> l(count);
@@ -108,27 +108,35 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
         trust[i] = series.trust[i].at<float>(r, c);
       }
       float best = -1;
+      float outside = 0;
       Eigen::Vector3f mean = Eigen::Vector3f::Zero();
       for (std::size_t i = 0; i < count; ++i) {
         float support = 0;
+        std::size_t first = i;
+        std::size_t last = i;
         Eigen::Vector3f sum = Eigen::Vector3f::Zero();
         for (std::size_t j = 0; j < count; ++j) {
           const bool same = std::abs(l[i] - l[j]) < kSameLuminance && std::abs(u[i] - u[j]) < kSameChroma &&
                             std::abs(v[i] - v[j]) < kSameChroma;
           if (same) {
             support += trust[j];
+            first = std::min(first, j);
+            last = std::max(last, j);
             sum += trust[j] * Eigen::Vector3f(u[j], v[j], l[j]);
           }
         }
-        if (support > best) {
-          best = support;
+        // The scene is there before, between and after what passes in front of it: a long span counts.
+        const float span = static_cast<float>(last - first) * trust[i];
+        if (support + 0.6F * span > best) {
+          best = support + 0.6F * span;
+          outside = support;
           mean = sum / support;
         }
       }
       model.mean.u.at<float>(r, c) = mean[0];
       model.mean.v.at<float>(r, c) = mean[1];
       model.mean.l.at<float>(r, c) = mean[2];
-      model.valid.at<unsigned char>(r, c) = best >= enough ? 255 : 0;
+      model.valid.at<unsigned char>(r, c) = outside >= enough ? 255 : 0;
     }
   }
   return model;

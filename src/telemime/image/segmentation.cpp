@@ -123,7 +123,9 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
   cv::Mat centroids;
   const int count = cv::connectedComponentsWithStats(silhouette, pieces, stats, centroids, 8, CV_32S);
   std::vector<int> own(static_cast<std::size_t>(count), 0);
+  std::vector<int> dressed(static_cast<std::size_t>(count), 0);
   std::vector<int> in_head(static_cast<std::size_t>(count), 0);
+  std::vector<int> in_body(static_cast<std::size_t>(count), 0);
   const std::optional<Ellipse> ellipse = head ? std::optional<Ellipse>(Ellipse(*head)) : std::nullopt;
   for (int r = 0; r < silhouette.rows; ++r) {
     const auto* p = pieces.ptr<int>(r);
@@ -131,6 +133,12 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
     for (int c = 0; c < silhouette.cols; ++c) {
       const auto i = static_cast<std::size_t>(p[c]);
       own[i] += colour[c] == kSkin ? 1 : 0;
+      dressed[i] += colour[c] == kSkin || colour[c] == kClothes ? 1 : 0;
+      if (ellipse) {
+        const float aside = std::abs(static_cast<float>(c) - ellipse->x) / ellipse->rx;
+        const float down = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
+        in_body[i] += aside < 3.5F && down > 1 && down < 8 ? 1 : 0;
+      }
       in_head[i] += ellipse && ellipse->at(r, c) < 1 ? 1 : 0;
     }
   }
@@ -139,7 +147,9 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
   for (int i = 1; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    const bool ours = in_head[k] > 0 || (colours_known ? own[k] * 2 > area : !head && area > 10 * least);
+    const bool ours =
+        in_head[k] > 0 || (!head && area > 10 * least) ||
+        (colours_known && (own[k] * 2 > area || (dressed[k] * 2 > area && in_body[k] * 4 > area)));
     keep[k] = area >= least && ours ? 255 : 0;
   }
   for (int r = 0; r < silhouette.rows; ++r) {
@@ -151,8 +161,9 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
   }
 }
 
-/// Fills holes of the silhouette of up to `most` pixels.
-void fill_small_holes(cv::Mat& silhouette, double most) {
+/// Fills holes of the silhouette of up to `most` pixels, and up to 30 times larger ones that only a shadow
+/// would explain, or that have the person's own colours: between arm and body the scene itself is seen.
+void fill_holes(cv::Mat& silhouette, const cv::Mat& shaded, const cv::Mat& colour, double most) {
   cv::Mat outside;
   cv::bitwise_not(silhouette, outside);
   cv::Mat pieces;
@@ -160,12 +171,17 @@ void fill_small_holes(cv::Mat& silhouette, double most) {
   cv::Mat centroids;
   const int count = cv::connectedComponentsWithStats(outside, pieces, stats, centroids, 4, CV_32S);
   for (int i = 1; i < count; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) > most) {
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (area > 30 * most) {
       continue;
     }
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    silhouette(box).setTo(255, pieces(box) == i);
+    const cv::Mat hole = pieces(box) == i;
+    const int own = cv::countNonZero((colour(box) != kOther) & hole);
+    if (area <= most || own * 10 > area * 7 || cv::countNonZero(hole & shaded(box)) * 10 > area * 6) {
+      silhouette(box).setTo(255, hole);
+    }
   }
 }
 
@@ -241,6 +257,10 @@ void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
   }
 }
 
+/// Half heads from the head's centre down to the hips (a trunk is 3.2 heads long): what has the shirt's
+/// colour below is trousers.
+constexpr float kHips = 6.6F;
+
 cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
               bool colours_known) {
   cv::Mat labels = cv::Mat::zeros(silhouette.size(), CV_8UC1);
@@ -261,10 +281,12 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
       if (ellipse) {
         const float t = ellipse->at(r, c);
         const float dy = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
-        const bool face = t < 1 && (dy < 0.6F || colour[c] != kClothes);
+        const bool face = t < 0.8F || (t < 1 && (dy < 0.6F || colour[c] != kClothes));
         const bool near = t < 1.45F && dy < 0.85F && (colour[c] == kSkin || colour[c] == kHair);
         if (face || near) {
           chosen = Label::head;
+        } else if (chosen == Label::clothes && dy > kHips) {
+          chosen = Label::ignore;
         }
       }
       out[c] = code(chosen);
@@ -302,7 +324,8 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
   out.head_share = head ? share_of_skin_and_hair(votes, *head) : 0.0;
   out.silhouette = silhouette_of(background, votes, head, config);
   drop_strangers(out.silhouette, votes, head, colours.known(), config);
-  fill_small_holes(out.silhouette, config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
+  fill_holes(out.silhouette, background.shaded, votes.colour,
+             config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
   give_scraps_to_neighbours(votes, out.silhouette,
                             4 * config.least_part * static_cast<double>(out.silhouette.total()));
   out.labels = label(out.silhouette, votes, head, colours.known());

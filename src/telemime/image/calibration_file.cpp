@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/calibration_file.h"
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <opencv2/core/persistence.hpp>
+#include <string>
+#include <utility>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kVersion = 1;
+
+/// One row per Gaussian: weight, mean (3), covariance (9).
+cv::Mat table_of(const ColourMixture& mixture) {
+  cv::Mat table(static_cast<int>(mixture.size()), 13, CV_32FC1);
+  for (int i = 0; i < table.rows; ++i) {
+    const ColourGaussian& g = mixture[static_cast<std::size_t>(i)];
+    auto* row = table.ptr<float>(i);
+    row[0] = g.weight;
+    for (int a = 0; a < 3; ++a) {
+      row[1 + a] = g.mean[a];
+      for (int b = 0; b < 3; ++b) {
+        row[4 + 3 * a + b] = g.covariance(a, b);
+      }
+    }
+  }
+  return table;
+}
+
+ColourMixture mixture_of(const cv::Mat& table, const std::string& name, const std::string& file) {
+  ColourMixture mixture;
+  if (table.empty()) {
+    return mixture;
+  }
+  if (table.cols != 13 || table.type() != CV_32FC1 || !cv::checkRange(table)) {
+    throw Error(ErrorKind::config,
+                "the calibration " + file + " is damaged: its colours '" + name +
+                    "' are not a table of 13 numbers a row",
+                "calibrate again");
+  }
+  for (int i = 0; i < table.rows; ++i) {
+    const auto* row = table.ptr<float>(i);
+    ColourGaussian g;
+    g.weight = row[0];
+    for (int a = 0; a < 3; ++a) {
+      g.mean[a] = row[1 + a];
+      for (int b = 0; b < 3; ++b) {
+        g.covariance(a, b) = row[4 + 3 * a + b];
+      }
+    }
+    mixture.push_back(g);
+  }
+  return mixture;
+}
+
+/// Every plane of a background by name: one list for writing and for reading.
+std::array<std::pair<const char*, cv::Mat*>, 7> planes_of(BackgroundModel& model) {
+  return {{{"mean_u", &model.mean.u},
+           {"mean_v", &model.mean.v},
+           {"mean_l", &model.mean.l},
+           {"chroma_variance", &model.chroma_variance},
+           {"luminance_variance", &model.luminance_variance},
+           {"valid", &model.valid},
+           {"seen", &model.seen}}};
+}
+
+std::array<std::pair<const char*, ColourMixture*>, 5> mixtures_of(ImageCalibration& calibration) {
+  return {{{"surroundings", &calibration.surroundings},
+           {"skin", &calibration.colours.skin},
+           {"clothes", &calibration.colours.clothes},
+           {"hair", &calibration.colours.hair},
+           {"lower", &calibration.colours.lower}}};
+}
+
+cv::FileStorage open(const std::filesystem::path& file, int mode) {
+  try {
+    return cv::FileStorage(file.string(), mode);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+void save_calibration(const ImageCalibration& calibration, const std::filesystem::path& file) {
+  cv::FileStorage storage = open(file, cv::FileStorage::WRITE | cv::FileStorage::BASE64);
+  if (!storage.isOpened()) {
+    throw Error(ErrorKind::output, "the calibration cannot be written to " + file.string(),
+                "name a folder that exists and may be written, and a file that ends in .yml.gz");
+  }
+  storage << "telemime_image_calibration" << kVersion;
+  ImageCalibration copy = calibration;  // shares the pictures; the lists below want non-const pointers
+  for (const auto& [name, plane] : planes_of(copy.background)) {
+    storage << name << *plane;
+  }
+  for (const auto& [name, mixture] : mixtures_of(copy)) {
+    storage << name << table_of(*mixture);
+  }
+  storage.release();
+}
+
+ImageCalibration load_calibration(const std::filesystem::path& file) {
+  cv::FileStorage storage = open(file, cv::FileStorage::READ);
+  if (!storage.isOpened()) {
+    throw Error(ErrorKind::config, "the calibration " + file.string() + " cannot be read",
+                "check the name, or calibrate again");
+  }
+  int version = 0;
+  storage["telemime_image_calibration"] >> version;
+  if (version != kVersion) {
+    throw Error(ErrorKind::config, file.string() + " is not an image calibration of this version",
+                "calibrate again with this program");
+  }
+  ImageCalibration out;
+  for (const auto& [name, plane] : planes_of(out.background)) {
+    storage[name] >> *plane;
+  }
+  const cv::Size size = out.background.valid.size();
+  for (const auto& [name, plane] : planes_of(out.background)) {
+    const int wanted = plane == &out.background.valid || plane == &out.background.seen ? CV_8UC1 : CV_32FC1;
+    if (plane->size() != size || (!plane->empty() && plane->type() != wanted)) {
+      throw Error(ErrorKind::config,
+                  "the calibration " + file.string() + " is damaged: '" + name + "' has a wrong size or type",
+                  "calibrate again");
+    }
+  }
+  for (const auto& [name, mixture] : mixtures_of(out)) {
+    cv::Mat table;
+    storage[name] >> table;
+    *mixture = mixture_of(table, name, file.string());
+  }
+  return out;
+}
+
+}  // namespace telemime
