@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Registration on frames that the model itself made.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/rendered_person.h"
+#include "telemime/registration/two_step.h"
+
+namespace telemime {
+namespace {
+
+using support::gestures;
+using support::observe;
+using testing_poses::kDegree;
+
+// Everything that one search needs; the true pose is the frame's.
+class Search {
+ public:
+  explicit Search(const Pose& truth)
+      : truth_(truth), frame_(prepare(observe(model_, truth, camera_), camera_)) {}
+
+  RegistrationResult from(const Pose& start, const RegistrationConfig& config, std::uint64_t seed = 1) {
+    Objective objective(*backend_, frame_, model_, limits_);
+    if (expect_) {
+      objective.expect(start);
+    }
+    Random random(seed);
+    const RegistrationResult result = register_pose(objective, start, config, random);
+    evaluations_ = objective.evaluations();
+    return result;
+  }
+
+  // Mean distance (m) of elbows and wrists from the truth: in space, or across the viewing ray only.
+  double error(const Pose& pose, bool across) const {
+    const JointPositions a = forward_kinematics(model_.body, pose).joints;
+    const JointPositions b = forward_kinematics(model_.body, truth_).joints;
+    double sum = 0.0;
+    for (const Joint j : {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist}) {
+      const Eigen::Vector3d there = across ? Eigen::Vector3d(a[j] * (b[j].z() / a[j].z())) : a[j];
+      sum += 0.25 * (there - b[j]).norm();
+    }
+    return sum;
+  }
+
+  int evaluations() const { return evaluations_; }
+  /// Without this, the start is what is expected.
+  void expect_nothing() { expect_ = false; }
+  void set_limits(const JointLimits& limits) { limits_ = limits; }
+  const JointLimits& limits() const { return limits_; }
+
+ private:
+  Model model_ = make_model(Shape{});
+  Camera camera_ = camera_from_field_of_view(160, 120, 60.0);
+  JointLimits limits_ = anatomical_limits();
+  Pose truth_;
+  PreparedFrame frame_;
+  std::unique_ptr<Backend> backend_ = make_scalar_backend();
+  int evaluations_ = 0;
+  bool expect_ = true;
+};
+
+// A pose some frames of motion away.
+Pose moved(const Pose& pose, double share, Random& random) {
+  Pose away = pose;
+  away.root +=
+      Eigen::Vector3d(random.normal(0, 0.01), random.normal(0, 0.01), random.normal(0, 0.02)) * share;
+  for (std::size_t i = 0; i < kAngleCount; ++i) {
+    const bool arm = i >= static_cast<std::size_t>(Angle::l_shoulder_flexion);
+    away.angles[i] += share * random.normal(0, arm ? 8 * kDegree : 2 * kDegree);
+  }
+  return anatomical_limits().clamp(away);
+}
+
+TEST(Registration, ComesBackToTheTruth) {
+  Random random(1);
+  double before = 0.0;
+  double across = 0.0;
+  double space = 0.0;
+  int searches = 0;
+  for (const Pose& truth : gestures()) {
+    Search search(truth);
+    for (int i = 0; i < 2; ++i, ++searches) {
+      const Pose start = moved(truth, 1.0, random);
+      const RegistrationResult found = search.from(start, RegistrationConfig{});
+      before += search.error(start, false);
+      across += search.error(found.pose, true);
+      space += search.error(found.pose, false);
+      EXPECT_LT(found.score.region, 0.15);
+      EXPECT_LT(found.score.contour, 2.0);
+    }
+  }
+  EXPECT_LT(across / searches, 0.030) << "m across the view";
+  EXPECT_LT(space / searches, 0.7 * before / searches) << "m in space";
+  RecordProperty("across_mm", std::to_string(1000 * across / searches));
+  RecordProperty("space_mm", std::to_string(1000 * space / searches));
+}
+
+TEST(Registration, StaysInsideTheLimits) {
+  Random random(2);
+  for (const JointLimits& limits : {anatomical_limits(), reference_limits()}) {
+    for (const Pose& truth : gestures()) {
+      Search search(truth);
+      search.set_limits(limits);
+      Pose start = moved(truth, 2.0, random);
+      start[Angle::l_elbow_flexion] = -3.0;  // beyond every limit
+      start[Angle::neck_roll] = 1.5;
+      for (const bool blocks : {true, false}) {
+        RegistrationConfig config;
+        config.iterations = 200;
+        config.blocks = blocks;
+        EXPECT_TRUE(limits.contains(search.from(start, config).pose)) << limits.name << " " << blocks;
+      }
+    }
+  }
+}
+
+TEST(Registration, SpendsNoMoreThanItsBudget) {
+  const Pose truth = gestures()[1];
+  Random random(3);
+  const Pose start = moved(truth, 1.0, random);
+  Search search(truth);
+  for (const Method method : {Method::regions, Method::edges, Method::two_step}) {
+    for (const bool blocks : {true, false}) {
+      for (const int iterations : {1, 2, 5, 30, 100, 400}) {
+        RegistrationConfig config;
+        config.method = method;
+        config.blocks = blocks;
+        config.iterations = iterations;
+        const RegistrationResult found = search.from(start, config);
+        const std::string what =
+            std::string(to_string(method)) + (blocks ? " blocks " : " whole ") + std::to_string(iterations);
+        // One evaluation scores the result; a budget of 1 still looks once at the start.
+        EXPECT_LE(search.evaluations(), std::max(2, iterations)) << what;
+        EXPECT_EQ(found.region_evaluations + found.edge_evaluations + 1, search.evaluations()) << what;
+        EXPECT_TRUE(iterations < 100 || found.converged || search.evaluations() > iterations / 2) << what;
+      }
+    }
+  }
+}
+
+TEST(Registration, MethodsTakeTheStepsOfTheirName) {
+  const Pose truth = gestures()[0];
+  Random random(4);
+  const Pose start = moved(truth, 1.0, random);
+  Search search(truth);
+  const auto run = [&](Method method) {
+    RegistrationConfig config;
+    config.method = method;
+    config.iterations = 300;
+    return search.from(start, config);
+  };
+  const RegistrationResult regions = run(Method::regions);
+  EXPECT_GT(regions.region_evaluations, 100);
+  EXPECT_EQ(regions.edge_evaluations, 0);
+  const RegistrationResult edges = run(Method::edges);
+  EXPECT_EQ(edges.region_evaluations, 0);
+  EXPECT_GT(edges.edge_evaluations, 100);
+  const RegistrationResult both = run(Method::two_step);
+  EXPECT_GT(both.region_evaluations, 100);
+  EXPECT_GT(both.edge_evaluations, 50);
+}
+
+TEST(Registration, EveryMethodGetsNearerToThePicture) {
+  const Pose truth = gestures()[2];
+  Random random(5);
+  const Pose start = moved(truth, 1.0, random);
+  Search search(truth);
+  for (RegistrationConfig config : {RegistrationConfig{}, reference_registration()}) {
+    for (const Method method : {Method::regions, Method::edges, Method::two_step}) {
+      config.method = method;
+      config.iterations = 600;
+      const RegistrationResult found = search.from(start, config);
+      RegistrationConfig none = config;
+      none.iterations = 1;
+      const RegistrationResult there = search.from(start, none);
+      if (method != Method::edges) {
+        EXPECT_LT(found.score.region, there.score.region) << to_string(method) << config.blocks;
+      }
+      EXPECT_LT(found.score.contour, there.score.contour) << to_string(method) << config.blocks;
+    }
+  }
+}
+
+TEST(Registration, SameSeedSameResult) {
+  const Pose truth = gestures()[3];
+  Random random(6);
+  const Pose start = moved(truth, 1.0, random);
+  Search search(truth);
+  const RegistrationResult a = search.from(start, RegistrationConfig{}, 11);
+  const RegistrationResult b = search.from(start, RegistrationConfig{}, 11);
+  EXPECT_EQ(a.pose.vector(), b.pose.vector());
+  EXPECT_EQ(a.score.region, b.score.region);
+  EXPECT_EQ(a.region_evaluations, b.region_evaluations);
+}
+
+TEST(Registration, FindsAnArmAgainThatIsFarAway) {
+  const Pose truth = gestures()[0];
+  Search search(truth);
+  Pose start = truth;
+  set_arm_angles(start, Side::left, {-130 * kDegree, 0, 10 * kDegree, -40 * kDegree});
+  ASSERT_GT(search.error(start, true), 0.1);
+  search.expect_nothing();
+  RegistrationConfig config;
+  config.proposals = 200;
+  config.iterations = 2000;
+  EXPECT_LT(search.error(search.from(start, config).pose, true), 0.04);
+}
+
+TEST(Registration, OnAnEmptyPictureGivesAPoseAllTheSame) {
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
+  Pose gone;
+  gone.root.x() = 50;
+  const PreparedFrame frame = prepare(observe(model, gone, camera), camera);
+  const auto backend = make_scalar_backend();
+  const JointLimits limits = anatomical_limits();
+  Objective objective(*backend, frame, model, limits);
+  Random random(7);
+  RegistrationConfig config;
+  config.iterations = 200;
+  const RegistrationResult found = register_pose(objective, gestures()[0], config, random);
+  EXPECT_TRUE(found.pose.vector().allFinite());
+  EXPECT_TRUE(limits.contains(found.pose));
+  EXPECT_GT(found.score.region, 0.3);
+}
+
+}  // namespace
+}  // namespace telemime
