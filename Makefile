@@ -52,9 +52,9 @@ tsan: deps ## all but the slow tests under the thread sanitizer
 
 fuzz: deps ## every fuzz target for FUZZ_SECONDS (20)
 	@scripts/deps.sh check
-	@cmake --preset fuzz
-	@cmake --build --preset fuzz -j $(JOBS)
-	@scripts/each.sh build/fuzz/fuzz -max_total_time=$(FUZZ_SECONDS)
+	@cmake --preset fuzz $(CCACHE)
+	@cmake --build --preset fuzz --target fuzz/all -j $(JOBS)
+	@scripts/fuzz.sh $(FUZZ_SECONDS)
 
 install: build ## install program, libraries, headers and data below PREFIX (/usr/local)
 	@cmake --build --preset release -j $(JOBS)
