@@ -83,12 +83,12 @@ ArmPoints arm_points(const JointPositions& joints, bool left) {
 void add_arm(Avatar& avatar, const ActorKinematics& k, std::size_t side, const Vector3f& front) {
   const ArmPoints a = arm_points(k.joints, side == 0);
   const float g = std::sqrt(avatar.girth);
-  const Chains chain{static_cast<std::uint8_t>(1 + side), Surface::arm, 0.028f};
+  const Chains chain{static_cast<std::uint8_t>(1 + side), Surface::arm, 0.012f};
   const Vector3f belly = a.elbow + 0.36f * (a.wrist - a.elbow);
-  avatar.parts.push_back(limb(chain, {round_cone(a.shoulder, a.elbow, 0.0440f * g, 0.0345f * g)}, front));
+  avatar.parts.push_back(limb(chain, {round_cone(a.shoulder, a.elbow, 0.0450f * g, 0.0375f * g)}, front));
   avatar.parts.push_back(limb(chain,
-                              {round_cone(a.elbow, belly, 0.0275f * g, 0.0305f * g),
-                               round_cone(belly, a.wrist, 0.0305f * g, 0.0220f * g)},
+                              {round_cone(a.elbow, belly, 0.0350f * g, 0.0355f * g),
+                               round_cone(belly, a.wrist, 0.0355f * g, 0.0240f * g)},
                               front));
   const auto scale = static_cast<float>(avatar.look.build.hand) / kHandKnuckle;
   BodyPart hand = framed(BodyPart::Kind::hand, chain, k.camera_from_hand[side].cast<float>(), a.wrist, scale,

@@ -204,7 +204,7 @@ Vector3f surface_colour(const Avatar& avatar, const BodyPart& part, const Vector
     case Surface::room:
       break;
   }
-  const Vector3f mottled = look.skin * (0.97f + 0.05f * value_noise(local * 70.0f, look.texture + 2));
+  Vector3f mottled = look.skin * (0.97f + 0.05f * value_noise(local * 70.0f, look.texture + 2));
   if (part.kind == BodyPart::Kind::hand) {
     // Palms are paler, fingertips and knuckles redder.
     const float palm = smooth_step(-0.002f, -0.012f, local.z());

@@ -85,8 +85,8 @@ Gesture gesture_named(std::string_view name) {
     for (const auto& known : kGestureNames) {
       names += (names.empty() ? "" : ", ") + std::string(known);
     }
-    throw Error(ErrorKind::usage, "There is no gesture \"" + std::string(name) + "\".",
-                "Use one of: " + names + ".");
+    throw Error(ErrorKind::usage, "there is no gesture \"" + std::string(name) + "\"",
+                "use one of: " + names);
   }
   return static_cast<Gesture>(found - kGestureNames.begin());
 }

@@ -107,7 +107,7 @@ std::span<const GestureKey> gesture_keys(Gesture gesture) {
     case Gesture::asking:
       return kAsking;
   }
-  throw Error(ErrorKind::usage, "unknown gesture", "Use one of the values of telemime::Gesture.");
+  throw Error(ErrorKind::usage, "unknown gesture", "use one of the values of telemime::Gesture");
 }
 
 std::string_view gesture_note(Gesture gesture) {
@@ -121,7 +121,7 @@ std::string_view gesture_note(Gesture gesture) {
     case Gesture::asking:
       return "palms up, forearms far forward and back, one fast retract and thrust";
   }
-  throw Error(ErrorKind::usage, "unknown gesture", "Use one of the values of telemime::Gesture.");
+  throw Error(ErrorKind::usage, "unknown gesture", "use one of the values of telemime::Gesture");
 }
 
 }  // namespace telemime

@@ -173,8 +173,8 @@ RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar*
                            const Lighting& lighting) {
   const cv::Size size(camera.width, camera.height);
   if (room.albedo.size() != size) {
-    throw Error(ErrorKind::usage, "The room was drawn for another image size.",
-                "Call make_room with this camera.");
+    throw Error(ErrorKind::usage, "the room was drawn for another image size",
+                "call make_room with this camera");
   }
   const Avatar nobody;
   const Shader shader{avatar != nullptr ? *avatar : nobody, lighting, lighting.to_key.normalized()};

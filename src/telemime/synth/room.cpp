@@ -138,8 +138,8 @@ Room make_room(const Camera& camera, int shirt_index, Random& random) {
   const std::array<cv::Scalar, 5> accents = {
       {{168, 112, 52}, {140, 128, 44}, {92, 132, 62}, {150, 74, 108}, {128, 92, 70}}};
   const auto shirt = static_cast<std::size_t>(shirt_index);
-  const cv::Scalar accent = accents[(shirt + 1 + random.below(3)) % accents.size()];
-  const cv::Scalar accent2 = accents[(shirt + 4) % accents.size()];
+  const cv::Scalar& accent = accents[(shirt + 1 + random.below(3)) % accents.size()];
+  const cv::Scalar& accent2 = accents[(shirt + 4) % accents.size()];
 
   // Drawn several times larger, so that the reduction makes clean edges.
   const int over = std::max(2, static_cast<int>(std::ceil(1280.0 / camera.width)));

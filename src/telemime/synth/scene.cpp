@@ -51,15 +51,15 @@ Lighting lighting_at(const SceneOptions& options, int frame) {
 Scene make_scene(const SceneOptions& options) {
   if (options.width < 16 || options.height < 12 || options.width > 4096 || options.height > 4096) {
     throw Error(ErrorKind::usage,
-                "The image size " + std::to_string(options.width) + "x" + std::to_string(options.height) +
-                    " cannot be rendered.",
-                "Choose a size from 16x12 to 4096x4096, for instance 640x480.");
+                "the image size " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                    " cannot be rendered",
+                "choose a size from 16x12 to 4096x4096, for instance 640x480");
   }
   if (options.frames < 1) {
-    throw Error(ErrorKind::usage, "A clip needs at least 1 frame.", "Choose a larger number of frames.");
+    throw Error(ErrorKind::usage, "a clip needs at least 1 frame", "choose a larger number of frames");
   }
   if (!(options.sensor.noise >= 0.0) || !(options.sensor.flicker >= 0.0)) {
-    throw Error(ErrorKind::usage, "Noise and flicker cannot be negative.", "Choose 0 for a clean picture.");
+    throw Error(ErrorKind::usage, "noise and flicker cannot be negative", "choose 0 for a clean picture");
   }
   Scene scene;
   scene.options = options;

@@ -30,8 +30,8 @@ TEST(RoundCone, IsTheHullOfItsBalls) {
   for (int i = 0; i < 40; ++i) {
     const Vector3f a = random_point(random, 1.0);
     const Vector3f b = random_point(random, 1.0);
-    const float ra = static_cast<float>(random.uniform(0.02, 0.3));
-    const float rb = static_cast<float>(random.uniform(0.02, 0.3));
+    const auto ra = static_cast<float>(random.uniform(0.02, 0.3));
+    const auto rb = static_cast<float>(random.uniform(0.02, 0.3));
     if ((a - b).norm() < 1.2f * std::abs(ra - rb)) {
       continue;
     }

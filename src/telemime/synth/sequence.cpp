@@ -19,8 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file) {
-  throw Error(ErrorKind::output, "Cannot write " + file.string() + ".",
-              "Check that the folder exists, may be written to and has free space.");
+  throw Error(ErrorKind::output, "cannot write " + file.string(),
+              "give --out a folder that you may write, on a disk with room");
 }
 
 struct Video {
@@ -124,8 +124,8 @@ struct Preview {
 
 SequenceFiles make_sequence(const SequenceOptions& options) {
   if (options.background_frames < 0 || options.threads < 0) {
-    throw Error(ErrorKind::usage, "The number of background frames or threads is negative.",
-                "Choose 0 or more.");
+    throw Error(ErrorKind::usage, "the number of background frames or threads is negative",
+                "choose 0 or more");
   }
   const Scene scene = make_scene(options.scene);
   const SceneOptions& filmed = scene.options;
@@ -133,8 +133,8 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw Error(ErrorKind::output, "Cannot make the folder " + folder.string() + ": " + error.message() + ".",
-                "Choose another folder with --out.");
+    throw Error(ErrorKind::output, "cannot make the folder " + folder.string() + ": " + error.message(),
+                "give --out a folder that you may write");
   }
   const cv::Size size(filmed.width, filmed.height);
   SequenceFiles files;
