@@ -89,8 +89,10 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
   BackgroundEnergy out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
   const float darkest = std::log(shadow.darkest);
   const float extra = shadow.chroma * shadow.chroma;
-  // Of the three dimensions only l is uniform in a shadow, -2 ln of 1 / |darkest|; ln 2 pi is shared by all.
-  const float uniform = 2 * std::log(-darkest) - std::log(2 * std::acos(-1.0F)) + shadow.prior_cost;
+  // In a shadow l falls off exponentially, mild shadows being the most; of the three ln 2 pi that all energies
+  // leave out, this density has only two.
+  const float constant = 2 * std::log(shadow.typical) - std::log(2 * std::acos(-1.0F)) + shadow.prior_cost;
+  const float slope = -2 / shadow.typical;
   cv::Mat logs(2, size.width, CV_32FC1);
   cv::Mat argument(2, size.width, CV_32FC1);
   for (int r = 0; r < size.height; ++r) {
@@ -123,7 +125,8 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
       const float above = dl > 0 ? dl : 0;
       const float below = dl < darkest ? darkest - dl : 0;
       const float outside = above + below;
-      const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] + uniform;
+      const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] + constant +
+                          slope * (dl < 0 ? (dl > darkest ? dl : darkest) : 0.0F);
       const float best = plain < shade ? plain : shade;
       e[c] = best;
       s[c] = shade < plain ? 255 : 0;

@@ -26,13 +26,15 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> pictures);
 
 /// Energies (-2 ln density over [u, v, l], without 3 ln 2 pi) of every pixel under the background.
 struct BackgroundEnergy {
-  cv::Mat energy;  ///< CV_32FC1: the better of unshaded and shaded
-  cv::Mat shaded;  ///< CV_8UC1, 255 where the shadow explains the pixel better
+  cv::Mat energy;         ///< CV_32FC1: the better of unshaded and shaded
+  cv::Mat shaded;         ///< CV_8UC1, 255 where the shadow explains the pixel better
+  bool doubtful = false;  ///< the model may hold parts of the person: holes in him are not to be believed
 };
 
 /// How a cast shadow may look.
 struct ShadowRange {
   float darkest = 0.55F;    ///< smallest ratio of luminance still taken for a shadow, in (0, 1)
+  float typical = 0.15F;    ///< mean darkening, on the scale of logarithms
   float chroma = 0.035F;    ///< deviation of u and v in a shadow (bounced light is coloured)
   float prior_cost = 1.0F;  ///< -2 ln of the share of shaded pixels
 };

@@ -94,6 +94,7 @@ void save_calibration(const ImageCalibration& calibration, const std::filesystem
   }
   storage << "telemime_image_calibration" << kVersion;
   ImageCalibration copy = calibration;  // shares the pictures; the lists below want non-const pointers
+  storage << "doubtful" << (calibration.doubtful ? 1 : 0);
   for (const auto& [name, plane] : planes_of(copy.background)) {
     storage << name << *plane;
   }
@@ -116,6 +117,9 @@ ImageCalibration load_calibration(const std::filesystem::path& file) {
                 "calibrate again with this program");
   }
   ImageCalibration out;
+  int doubtful = 0;
+  storage["doubtful"] >> doubtful;
+  out.doubtful = doubtful != 0;
   for (const auto& [name, plane] : planes_of(out.background)) {
     storage[name] >> *plane;
   }

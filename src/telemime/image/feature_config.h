@@ -39,6 +39,7 @@ struct ImageConfig {
 struct ImageCalibration {
   BackgroundModel background;
   ColourMixture surroundings;  ///< only when the scene was learned around a person
+  bool doubtful = false;       ///< ... and so may hold parts of that person
   PersonColours colours;
 };
 

@@ -118,12 +118,14 @@ BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures, const std::
     }
   }
   if (model.empty()) {
-    return {unknown, cv::Mat::zeros(size, CV_8UC1)};
+    return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
   }
   const LogColour gain = estimate_gain(model, pictures.colour, believed_);
   status_.light_change = cv::mean(gain.l)[0];
   subtract(pictures.colour, gain);
-  return background_energy(model, pictures.colour, config_.shadow, unknown);
+  BackgroundEnergy out = background_energy(model, pictures.colour, config_.shadow, unknown);
+  out.doubtful = calibration_.doubtful;
+  return out;
 }
 
 bool FeatureExtractor::stands_out(const BackgroundEnergy& background, const HeadRegion& head) const {
@@ -201,6 +203,10 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
     }
     shape_ = adapted(shape_, *head, rough.silhouette, 1.0);
     head = region_of(face, p);
+  }
+  if (!head->detected && !faces_camera(*head, rough.silhouette)) {
+    head_.forget();
+    return {false, "no face was found, and the outline is not that of somebody who faces the camera"};
   }
   PersonReport report = learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
   if (report.accepted) {

@@ -133,6 +133,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   }
   fresh.background = learn_around_person(samples);
   fresh.surroundings = learn_surroundings(samples);
+  fresh.doubtful = true;
   report.source = SceneSource::moving_person;
   if (camera_moves(clip, samples, config_)) {
     fresh.background.valid.setTo(0);

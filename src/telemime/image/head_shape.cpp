@@ -212,6 +212,17 @@ std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
   return head_of_person(person, thinnest, 0.5 * scale);
 }
 
+bool faces_camera(const HeadRegion& head, const cv::Mat& silhouette) {
+  const int row = static_cast<int>(head.centre.y() + 2.3 * head.radii.y());
+  const int column = static_cast<int>(head.centre.x());
+  if (row < 0 || row >= silhouette.rows || column < 0 || column >= silhouette.cols) {
+    return false;
+  }
+  const double left = run_length(silhouette, row, column, 0, -1, silhouette.cols);
+  const double right = run_length(silhouette, row, column, 0, 1, silhouette.cols);
+  return std::min(left, right) > 1.5 * head.radii.x() && std::max(left, right) < 1.7 * std::min(left, right);
+}
+
 cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y) {
   const double side = 2 * head.radii.y() / scale_y / (shape.crown + shape.chin);
   const double x = (head.centre.x() + 0.5) / scale_x - 0.5 - shape.shift * side;

@@ -30,6 +30,9 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
 /// pixels, not `detected`. Nothing when no such shape is there.
 std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette);
 
+/// Are there shoulders on both sides of the head, alike in width?
+bool faces_camera(const HeadRegion& head, const cv::Mat& silhouette);
+
 /// The detector's square that `shape` would have turned into `head`; inverse of head_region.
 cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y);
 

@@ -55,11 +55,14 @@ struct Series {
 
 Series series_of(std::span<const SceneSample> samples) {
   constexpr float kInside = 0.05F;
-  constexpr float kNoHead = 0.5F;
+  // A picture in which no head was found is of use only when that is so in all of them.
+  const bool any_head =
+      std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
+  const float no_head = any_head ? 0.0F : 0.5F;
   Series series;
   for (const SceneSample& sample : samples) {
     series.colours.push_back(log_colour(sample.bgr));
-    cv::Mat trust(sample.bgr.size(), CV_32FC1, cv::Scalar(kNoHead));
+    cv::Mat trust(sample.bgr.size(), CV_32FC1, cv::Scalar(no_head));
     if (sample.head) {
       trust.setTo(1.0F);
       trust.setTo(kInside, covered_by_person(sample));
@@ -94,7 +97,9 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
   // Starts from the noise of one picture; means and validity are replaced pixel by pixel.
   BackgroundModel model = learn_background_model(one);
   const std::size_t count = samples.size();
-  const float enough = count < 6 ? 1.0F : 1.4F;
+  const auto heads =
+      std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
+  const float enough = heads > 0 && heads < 6 ? 0.9F : 1.4F;
   std::vector<float> u(count);
   std::vector<float> v(count);
   std::vector<float> l(count);

@@ -96,7 +96,7 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
 
 cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& votes,
                       const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
-  cv::Mat margin = background.energy - votes.best;
+  cv::Mat margin = background.energy - votes.best - config.person_cost;
   if (head) {
     const Ellipse ellipse(*head);
     for (int r = 0; r < margin.rows; ++r) {
@@ -137,7 +137,7 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
       if (ellipse) {
         const float aside = std::abs(static_cast<float>(c) - ellipse->x) / ellipse->rx;
         const float down = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
-        in_body[i] += aside < 3.5F && down > 1 && down < 8 ? 1 : 0;
+        in_body[i] += aside < 2.5F && down > 1 && down < 8 ? 1 : 0;
       }
       in_head[i] += ellipse && ellipse->at(r, c) < 1 ? 1 : 0;
     }
@@ -149,7 +149,7 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
     const int area = stats.at<int>(i, cv::CC_STAT_AREA);
     const bool ours =
         in_head[k] > 0 || (!head && area > 10 * least) ||
-        (colours_known && (own[k] * 2 > area || (dressed[k] * 2 > area && in_body[k] * 4 > area)));
+        (colours_known && (own[k] * 2 > area || (dressed[k] * 2 > area && in_body[k] * 3 > area)));
     keep[k] = area >= least && ours ? 255 : 0;
   }
   for (int r = 0; r < silhouette.rows; ++r) {
@@ -162,8 +162,9 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
 }
 
 /// Fills holes of the silhouette of up to `most` pixels, and up to 30 times larger ones that only a shadow
-/// would explain, or that have the person's own colours: between arm and body the scene itself is seen.
-void fill_holes(cv::Mat& silhouette, const cv::Mat& shaded, const cv::Mat& colour, double most) {
+/// would explain, or - when the scene is doubtful - that have the person's own colours: between arm and body
+/// the scene itself is seen.
+void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const cv::Mat& colour, double most) {
   cv::Mat outside;
   cv::bitwise_not(silhouette, outside);
   cv::Mat pieces;
@@ -179,7 +180,8 @@ void fill_holes(cv::Mat& silhouette, const cv::Mat& shaded, const cv::Mat& colou
                        stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
     const cv::Mat hole = pieces(box) == i;
     const int own = cv::countNonZero((colour(box) != kOther) & hole);
-    if (area <= most || own * 10 > area * 7 || cv::countNonZero(hole & shaded(box)) * 10 > area * 6) {
+    if (area <= most || (background.doubtful && own * 10 > area * 7) ||
+        cv::countNonZero(hole & background.shaded(box)) * 10 > area * 6) {
       silhouette(box).setTo(255, hole);
     }
   }
@@ -324,7 +326,7 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
   out.head_share = head ? share_of_skin_and_hair(votes, *head) : 0.0;
   out.silhouette = silhouette_of(background, votes, head, config);
   drop_strangers(out.silhouette, votes, head, colours.known(), config);
-  fill_holes(out.silhouette, background.shaded, votes.colour,
+  fill_holes(out.silhouette, background, votes.colour,
              config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
   give_scraps_to_neighbours(votes, out.silhouette,
                             4 * config.least_part * static_cast<double>(out.silhouette.total()));

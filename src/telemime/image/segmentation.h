@@ -13,6 +13,7 @@ namespace telemime {
 struct SegmentationConfig {
   float unknown_cost = 3.0F;             ///< -2 ln density of a person's pixel of no learned colour
   float unknown_background_cost = 2.0F;  ///< -2 ln density of a scene pixel that was never seen
+  float person_cost = 1.5F;              ///< -2 ln of the prior odds of person against scene
   float vote_limit = 14.0F;              ///< one pixel's say in the 3x3 vote on person or background
   float head_bonus = 8.0F;               ///< in favour of the person inside the head's ellipse
   double least_part = 0.0015;            ///< of the picture: smaller pieces of silhouette are dropped
