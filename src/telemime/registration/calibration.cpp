@@ -92,6 +92,9 @@ void CalibrationConfig::validate() const {
           "arms: samples >= 0, kept >= 1, refine >= 1");
   require(shape.iterations >= 10, "shape.iterations must be at least 10");
   require(shape.length_spread > 0.0 && shape.girth_spread > 0.0, "shape spreads must be positive");
+  require(shape.prior_weight >= 0.0 && shape.contour_weight >= 0.0,
+          "shape.prior_weight and shape.contour_weight must not be negative");
+  require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
   require(worst_region > 0.0 && worst_region <= 1.0, "worst_region must be above 0, at most 1");
 }
 

@@ -133,7 +133,7 @@ void RegistrationConfig::validate() const {
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
     require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
-                w->temporal >= 0.0 && w->trunk >= 0.0,
+                w->temporal >= 0.0 && w->trunk >= 0.0 && w->fronto_parallel >= 0.0,
             "weights must not be negative");
     require(w->contour_scale > 0.0, "contour_scale must be positive");
   }
