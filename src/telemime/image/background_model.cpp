@@ -89,8 +89,8 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
   BackgroundEnergy out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
   const float darkest = std::log(shadow.darkest);
   const float extra = shadow.chroma * shadow.chroma;
-  // In a shadow l falls off exponentially, mild shadows being the most; of the three ln 2 pi that all energies
-  // leave out, this density has only two.
+  // In a shadow l falls off exponentially, mild shadows being the most; of the three ln 2 pi that all
+  // energies leave out, this density has only two.
   const float constant = 2 * std::log(shadow.typical) - std::log(2 * std::acos(-1.0F)) + shadow.prior_cost;
   const float slope = -2 / shadow.typical;
   cv::Mat logs(2, size.width, CV_32FC1);
@@ -125,8 +125,8 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
       const float above = dl > 0 ? dl : 0;
       const float below = dl < darkest ? darkest - dl : 0;
       const float outside = above + below;
-      const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] + constant +
-                          slope * (dl < 0 ? (dl > darkest ? dl : darkest) : 0.0F);
+      const float shade = chroma2 / (vc[c] + extra) + outside * outside / vl[c] + 2 * log_shadow[c] +
+                          constant + slope * (dl < 0 ? (dl > darkest ? dl : darkest) : 0.0F);
       const float best = plain < shade ? plain : shade;
       e[c] = best;
       s[c] = shade < plain ? 255 : 0;
@@ -143,6 +143,7 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
 LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed) {
   constexpr int kAcross = 8;
   constexpr int kDown = 6;
+  constexpr std::array<float, 3> kMostLocal{0.06F, 0.06F, 0.12F};
   const cv::Size size = model.valid.size();
   // About ten thousand pixels are plenty for 48 medians.
   const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) / 10000)));
@@ -176,12 +177,19 @@ LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, 
     if (count < 12) {
       continue;
     }
+    std::array<float, 3> own{};
+    float farthest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      own[i] = median_of(planes[i]);
+      farthest = std::max(farthest, std::abs(own[i] - whole[i]) / kMostLocal[i]);
+    }
+    // A cell that differs by more than lamps do was entered by something.
+    if (farthest > 1) {
+      continue;
+    }
     const auto weight = static_cast<float>(count);
     weights.at<float>(cell / kAcross, cell % kAcross) = weight;
-    auto& median = medians.at<cv::Vec3f>(cell / kAcross, cell % kAcross);
-    for (int i = 0; i < 3; ++i) {
-      median[i] = weight * median_of(planes[static_cast<std::size_t>(i)]);
-    }
+    medians.at<cv::Vec3f>(cell / kAcross, cell % kAcross) = weight * cv::Vec3f(own[0], own[1], own[2]);
   }
   // Two blurs of sums and weights: near cells decide where there are any, far ones where there are none.
   cv::Mat near;

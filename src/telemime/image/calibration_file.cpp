@@ -76,7 +76,16 @@ std::array<std::pair<const char*, ColourMixture*>, 5> mixtures_of(ImageCalibrati
            {"lower", &calibration.colours.lower}}};
 }
 
+/// Not opened when there is no such file or folder: OpenCV would say so on the terminal.
 cv::FileStorage open(const std::filesystem::path& file, int mode) {
+  std::error_code ignored;
+  const bool writes = (mode & cv::FileStorage::WRITE) != 0;
+  const std::filesystem::path folder = file.parent_path();
+  const bool there = writes ? folder.empty() || std::filesystem::is_directory(folder, ignored)
+                            : std::filesystem::is_regular_file(file, ignored);
+  if (!there) {
+    return {};
+  }
   try {
     return cv::FileStorage(file.string(), mode);
   } catch (const cv::Exception&) {

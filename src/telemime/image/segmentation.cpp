@@ -181,7 +181,8 @@ void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const c
     const cv::Mat hole = pieces(box) == i;
     const int own = cv::countNonZero((colour(box) != kOther) & hole);
     if (area <= most || (background.doubtful && own * 10 > area * 7) ||
-        cv::countNonZero(hole & background.shaded(box)) * 10 > area * 6) {
+        ((background.doubtful || area <= 3 * most) &&
+         cv::countNonZero(hole & background.shaded(box)) * 10 > area * 6)) {
       silhouette(box).setTo(255, hole);
     }
   }

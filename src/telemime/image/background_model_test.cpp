@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/background_model.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/random.h"
+
+namespace telemime {
+namespace {
+
+/// A wall with a darker and a coloured patch, and noise.
+cv::Mat scene(Random& random, double light = 1.0) {
+  cv::Mat image(120, 160, CV_8UC3, cv::Scalar(150, 155, 160));
+  image(cv::Rect(20, 20, 40, 30)).setTo(cv::Scalar(60, 90, 40));
+  image(cv::Rect(90, 60, 30, 40)).setTo(cv::Scalar(40, 45, 50));
+  cv::Mat out(image.size(), CV_8UC3);
+  for (int i = 0; i < static_cast<int>(image.total()) * 3; ++i) {
+    out.data[i] = cv::saturate_cast<unsigned char>(light * image.data[i] + random.normal(0, 1.5));
+  }
+  return out;
+}
+
+BackgroundModel learned(Random& random) {
+  std::vector<cv::Mat> pictures;
+  for (int i = 0; i < 20; ++i) {
+    pictures.push_back(scene(random));
+  }
+  return learn_background_model(pictures);
+}
+
+/// Energy that a colour nobody knows has: above it a pixel is somebody's.
+constexpr float kAnything = 3.0F;
+
+cv::Mat foreground(const BackgroundModel& model, const cv::Mat& picture) {
+  LogColour colour = log_colour(picture);
+  subtract(colour, estimate_gain(model, colour, {}));
+  return background_energy(model, colour, ShadowRange{}, {}).energy > kAnything;
+}
+
+double share(const cv::Mat& mask) {
+  return cv::countNonZero(mask) / static_cast<double>(mask.total());
+}
+
+TEST(BackgroundModel, TheEmptySceneIsBackground) {
+  Random random(1);
+  const BackgroundModel model = learned(random);
+  EXPECT_LT(share(foreground(model, scene(random))), 0.001);
+}
+
+TEST(BackgroundModel, ALampIsNotForeground) {
+  Random random(2);
+  const BackgroundModel model = learned(random);
+  EXPECT_LT(share(foreground(model, scene(random, 1.14))), 0.005);
+  EXPECT_LT(share(foreground(model, scene(random, 0.75))), 0.005);
+}
+
+TEST(BackgroundModel, AShadowIsNotForegroundButABlackThingIs) {
+  Random random(3);
+  const BackgroundModel model = learned(random);
+  cv::Mat picture = scene(random);
+  const cv::Rect place(60, 5, 25, 25);
+  cv::Mat(picture(place) * 0.75).copyTo(picture(place));
+  EXPECT_LT(share(foreground(model, picture)(place)), 0.02);
+  picture(place).setTo(cv::Scalar(20, 20, 22));
+  EXPECT_GT(share(foreground(model, picture)(place)), 0.99);
+}
+
+TEST(BackgroundModel, SkinBeforeAGreyWallIsForeground) {
+  Random random(4);
+  const BackgroundModel model = learned(random);
+  cv::Mat picture = scene(random);
+  const cv::Rect place(120, 10, 20, 40);
+  picture(place).setTo(cv::Scalar(120, 150, 200));
+  const cv::Mat mask = foreground(model, picture);
+  EXPECT_GT(share(mask(place)), 0.99);
+  EXPECT_LT(share(mask) - share(mask(place)) * place.area() / mask.total(), 0.002);
+}
+
+TEST(BackgroundModel, GainIsTheMedianDifferenceWhereBelieved) {
+  Random random(5);
+  const BackgroundModel model = learned(random);
+  LogColour colour = log_colour(scene(random, 1.2));
+  cv::Mat believed(120, 160, CV_8UC1, cv::Scalar(255));
+  const LogColour gain = estimate_gain(model, colour, believed);
+  EXPECT_NEAR(cv::mean(gain.l)[0], std::log(1.2), 0.02);
+  EXPECT_NEAR(cv::mean(gain.u)[0], 0.0, 0.01);
+  believed.setTo(0);
+  EXPECT_EQ(cv::norm(estimate_gain(model, colour, believed).l, cv::NORM_INF), 0.0);
+}
+
+TEST(BackgroundModel, UnknownPixelsTakeTheGivenEnergyAndAreLearnedWhenSteady) {
+  Random random(6);
+  BackgroundModel model = learned(random);
+  model.valid.colRange(0, 80).setTo(0);
+  const LogColour colour = log_colour(scene(random));
+  const cv::Mat unknown(120, 160, CV_32FC1, cv::Scalar(7));
+  EXPECT_EQ(background_energy(model, colour, ShadowRange{}, unknown).energy.at<float>(60, 10), 7.0F);
+  EXPECT_LT(background_energy(model, colour, ShadowRange{}, unknown).energy.at<float>(60, 100), 0.0F);
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  adapt_background(model, colour, everywhere, 0.0F);
+  EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 0);
+  for (int i = 0; i < 20; ++i) {
+    adapt_background(model, log_colour(scene(random)), everywhere, 0.0F);
+  }
+  EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 255);
+}
+
+TEST(BackgroundModel, AdaptationStaysWhereItMay) {
+  Random random(7);
+  BackgroundModel model = learned(random);
+  const float before = model.mean.l.at<float>(5, 5);
+  cv::Mat where = cv::Mat::zeros(120, 160, CV_8UC1);
+  where.colRange(80, 160).setTo(255);
+  const float other = model.mean.l.at<float>(5, 150);
+  adapt_background(model, log_colour(scene(random, 1.3)), where, 0.5F);
+  EXPECT_EQ(model.mean.l.at<float>(5, 5), before);
+  EXPECT_GT(model.mean.l.at<float>(5, 150), other + 0.05F);
+}
+
+TEST(BackgroundModel, RefusesNothingAndUnequalSizes) {
+  EXPECT_THROW(learn_background_model({}), Error);
+  const std::vector<cv::Mat> unequal{cv::Mat(4, 4, CV_8UC3, cv::Scalar(1)),
+                                     cv::Mat(5, 4, CV_8UC3, cv::Scalar(1))};
+  EXPECT_THROW(learn_background_model(unequal), Error);
+}
+
+}  // namespace
+}  // namespace telemime

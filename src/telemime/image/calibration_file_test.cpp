@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/calibration_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+class CalibrationFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              ("telemime_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+ImageCalibration some_calibration() {
+  ImageCalibration c;
+  cv::Mat picture(30, 40, CV_8UC3);
+  for (int i = 0; i < 30 * 40 * 3; ++i) {
+    picture.data[i] = static_cast<unsigned char>(i * 7 % 251);
+  }
+  const std::vector<cv::Mat> pictures{picture};
+  c.background = learn_background_model(pictures);
+  c.background.valid.at<unsigned char>(3, 4) = 0;
+  ColourGaussian g;
+  g.mean = {0.1F, -0.25F, 5.125F};
+  g.covariance << 0.01F, 0.001F, 0.002F, 0.001F, 0.02F, 0.003F, 0.002F, 0.003F, 0.3F;
+  g.weight = 0.75F;
+  c.colours.skin = {g};
+  c.colours.clothes = {g, g, g};
+  c.doubtful = true;
+  return c;
+}
+
+TEST_F(CalibrationFile, ReadsWhatWasWritten) {
+  const ImageCalibration before = some_calibration();
+  for (const char* name : {"calibration.yml.gz", "calibration.json"}) {
+    save_calibration(before, folder_ / name);
+    const ImageCalibration after = load_calibration(folder_ / name);
+    EXPECT_EQ(cv::norm(before.background.mean.u, after.background.mean.u, cv::NORM_INF), 0) << name;
+    EXPECT_EQ(
+        cv::norm(before.background.luminance_variance, after.background.luminance_variance, cv::NORM_INF), 0);
+    EXPECT_EQ(cv::countNonZero(before.background.valid != after.background.valid), 0);
+    ASSERT_EQ(after.colours.skin.size(), 1U);
+    EXPECT_EQ(after.colours.clothes.size(), 3U);
+    EXPECT_TRUE(after.colours.hair.empty());
+    EXPECT_EQ(after.colours.skin[0].mean, before.colours.skin[0].mean);
+    EXPECT_EQ(after.colours.skin[0].covariance, before.colours.skin[0].covariance);
+    EXPECT_EQ(after.colours.skin[0].weight, before.colours.skin[0].weight);
+    EXPECT_TRUE(after.doubtful);
+  }
+}
+
+TEST_F(CalibrationFile, SaysWhichFileCannotBeUsed) {
+  const auto message_of = [](const std::filesystem::path& file) {
+    try {
+      load_calibration(file);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message_of(folder_ / "missing.yml").find("missing.yml"), std::string::npos);
+  std::ofstream(folder_ / "noise.yml") << "not a calibration";
+  EXPECT_NE(message_of(folder_ / "noise.yml").find("noise.yml"), std::string::npos);
+  std::ofstream(folder_ / "other.yml") << "%YAML:1.0\n---\nsomething: 3\n";
+  EXPECT_NE(message_of(folder_ / "other.yml").find("other.yml"), std::string::npos);
+  EXPECT_THROW(save_calibration(some_calibration(), folder_ / "no_such_folder" / "a.yml.gz"), Error);
+}
+
+}  // namespace
+}  // namespace telemime

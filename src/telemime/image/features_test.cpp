@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/features.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <string>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+std::filesystem::path data_folder() {
+  const char* named = std::getenv("TELEMIME_DATA");
+  return named != nullptr ? std::filesystem::path(named)
+                          : std::filesystem::path(TELEMIME_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+std::vector<Frame> frames_of(const std::filesystem::path& file, int most) {
+  std::vector<Frame> frames;
+  cv::VideoCapture video(file.string());
+  cv::Mat image;
+  while (static_cast<int>(frames.size()) < most && video.read(image)) {
+    frames.push_back({image.clone(), static_cast<std::int64_t>(frames.size()), 0.04 * frames.size()});
+  }
+  return frames;
+}
+
+/// Share of (frame, joint) whose label at the joint's true pixel is `wanted`.
+double agreement(const std::vector<Observation>& seen, const nlohmann::json& truth,
+                 const std::vector<std::string>& joints, Label wanted) {
+  const auto names = truth["joints"].get<std::vector<std::string>>();
+  const auto& camera = truth["small"];
+  int good = 0;
+  int all = 0;
+  for (std::size_t f = 0; f < seen.size(); ++f) {
+    for (const std::string& joint : joints) {
+      const auto j = static_cast<std::size_t>(std::find(names.begin(), names.end(), joint) - names.begin());
+      const auto p = truth["positions"][f][j].get<std::vector<double>>();
+      const double u = camera["fx"].get<double>() * p[0] / p[2] + camera["cx"].get<double>();
+      const double v = camera["fy"].get<double>() * p[1] / p[2] + camera["cy"].get<double>();
+      if (u >= 1 && v >= 1 && u < 159 && v < 119) {
+        ++all;
+        const auto label = seen[f].labels.at<unsigned char>(static_cast<int>(std::lround(v)),
+                                                            static_cast<int>(std::lround(u)));
+        good += label == static_cast<unsigned char>(wanted) ? 1 : 0;
+      }
+    }
+  }
+  return all > 0 ? static_cast<double>(good) / all : 0.0;
+}
+
+TEST(ImageConfig, RefusesValuesThatCannotWorkAndNamesThem) {
+  ImageConfig config;
+  EXPECT_NO_THROW(config.validate());
+  config.width = 3;
+  EXPECT_THROW(config.validate(), Error);
+  config = {};
+  config.edges.low = 20;
+  EXPECT_THROW(config.validate(), Error);
+  config = {};
+  config.shadow.darkest = 1.5F;
+  EXPECT_THROW(config.validate(), Error);
+}
+
+TEST(ImageConfig, AMissingCascadeIsAnErrorThatNamesTheFolder) {
+  ImageConfig config;
+  config.cascades = "/no/such/folder";
+  try {
+    FeatureExtractor features(config);
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::config);
+    EXPECT_NE(std::string(e.what()).find("/no/such/folder"), std::string::npos);
+  }
+}
+
+TEST(ImageStatus, EachBrokenAssumptionHasItsSentence) {
+  ImageStatus status;
+  status.person = true;
+  status.brightness = 120;
+  status.skin_share = 0.3;
+  PersonColours colours;
+  colours.skin = {ColourGaussian{}};
+  EXPECT_TRUE(warnings_of(status, colours).empty());
+  const auto says = [&](const std::string& word) {
+    const auto warnings = warnings_of(status, colours);
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const auto& w) { return w.find(word) != std::string::npos; });
+  };
+  status.camera_motion = 2;
+  EXPECT_TRUE(says("camera moves"));
+  status.skin_share = 0.02;
+  EXPECT_TRUE(says("long sleeves"));
+  status.light_change = -0.3;
+  EXPECT_TRUE(says("light changed by -26 %"));
+  status.brightness = 3;
+  EXPECT_TRUE(says("lens"));
+  status.person = false;
+  EXPECT_TRUE(says("nobody"));
+  ColourGaussian white;
+  ColourGaussian blue;
+  white.weight = blue.weight = 0.5F;
+  blue.mean = {-0.4F, 0.5F, 4.0F};
+  colours.clothes = {white, blue};
+  EXPECT_TRUE(says("several colours"));
+}
+
+TEST(FeatureExtractor, ABlackPictureGivesAnEmptyObservationOfTheRightShape) {
+  FeatureExtractor features(ImageConfig{});
+  const Frame black{cv::Mat::zeros(480, 640, CV_8UC3), 0, 0.0};
+  const std::vector<Frame> empty(3, black);
+  features.learn_background(empty);
+  EXPECT_FALSE(features.begin_person(black).accepted);
+  const Observation seen = features.extract(black);
+  EXPECT_EQ(seen.labels.size(), cv::Size(160, 120));
+  EXPECT_EQ(seen.labels.type(), CV_8UC1);
+  EXPECT_EQ(seen.distance.type(), CV_32FC1);
+  EXPECT_EQ(cv::countNonZero(seen.silhouette), 0);
+  EXPECT_EQ(cv::norm(seen.distance - 10, cv::NORM_INF), 0);
+  EXPECT_FALSE(seen.head.has_value());
+  EXPECT_FALSE(features.status().person);
+  EXPECT_THROW(features.extract(Frame{}), Error);
+}
+
+class OnClip : public testing::TestWithParam<const char*> {};
+
+TEST_P(OnClip, LabelsAgreeWithTheTrueJointsAndAreRepeatable) {
+  const std::filesystem::path clip = data_folder() / GetParam();
+  if (!std::filesystem::exists(clip / "truth.json")) {
+    GTEST_SKIP() << "no test clip at " << clip;
+  }
+  const auto background = frames_of(clip / "background.mp4", 40);
+  const auto frames = frames_of(clip / "video.mp4", 60);
+  nlohmann::json truth;
+  std::ifstream(clip / "truth.json") >> truth;
+  FeatureExtractor features(ImageConfig{});
+  features.learn_background(background);
+  const Observation nobody = features.extract(background.front());
+  EXPECT_EQ(cv::countNonZero(nobody.silhouette), 0);
+  const PersonReport report = features.begin_person(frames.front());
+  ASSERT_TRUE(report.accepted) << report.reason;
+  FeatureExtractor again(ImageConfig{});
+  again.learn_background(background);
+  again.extract(background.front());
+  again.begin_person(frames.front());
+  std::vector<Observation> seen;
+  for (const Frame& frame : frames) {
+    seen.push_back(features.extract(frame));
+    const Observation second = again.extract(frame);
+    ASSERT_EQ(cv::countNonZero(seen.back().labels != second.labels), 0);
+    ASSERT_EQ(cv::countNonZero(seen.back().edges != second.edges), 0);
+    ASSERT_TRUE(seen.back().head.has_value());
+    EXPECT_GT(cv::countNonZero(seen.back().edges), 100);
+  }
+  EXPECT_GT(agreement(seen, truth, {"l_wrist", "r_wrist"}, Label::arms), 0.9);
+  EXPECT_GT(agreement(seen, truth, {"head"}, Label::head), 0.99);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dev, OnClip,
+                         testing::Values("dev/raising_arms", "dev/exclaiming", "dev/asking",
+                                         "dev_practical/desk_talk"));
+
+TEST(FeatureExtractor, FindsTheEmptyStartOfAClip) {
+  const std::filesystem::path clip = data_folder() / "dev_practical/enter_leave/video.mp4";
+  if (!std::filesystem::exists(clip)) {
+    GTEST_SKIP() << "no test clip at " << clip;
+  }
+  const auto frames = frames_of(clip, 100);
+  FeatureExtractor features(ImageConfig{});
+  const SceneReport report = features.bootstrap(frames);
+  EXPECT_EQ(report.source, SceneSource::empty_stretch);
+  EXPECT_EQ(report.first, 0U);
+  // The person walks in at frame 29.
+  EXPECT_LE(report.count, 29U);
+  EXPECT_GE(report.count, 20U);
+  features.extract(frames[10]);
+  EXPECT_FALSE(features.status().person);
+  features.extract(frames[90]);
+  EXPECT_TRUE(features.status().person);
+}
+
+}  // namespace
+}  // namespace telemime

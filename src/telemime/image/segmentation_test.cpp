@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/segmentation.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace telemime {
+namespace {
+
+const cv::Scalar kWall(150, 150, 145);
+const cv::Scalar kSkinColour(125, 155, 205);
+const cv::Scalar kShirt(150, 60, 40);
+const cv::Scalar kTrousers(40, 36, 33);
+
+/// Somebody with both forearms beside the trunk, trousers below.
+cv::Mat picture() {
+  cv::Mat image(120, 160, CV_8UC3, kWall);
+  cv::rectangle(image, cv::Rect(58, 50, 44, 50), kShirt, cv::FILLED);
+  cv::rectangle(image, cv::Rect(50, 100, 60, 20), kTrousers, cv::FILLED);
+  cv::rectangle(image, cv::Rect(75, 42, 10, 12), kSkinColour, cv::FILLED);
+  cv::ellipse(image, {80, 30}, {10, 14}, 0, 0, 360, kSkinColour, cv::FILLED);
+  cv::rectangle(image, cv::Rect(40, 60, 18, 8), kSkinColour, cv::FILLED);
+  cv::rectangle(image, cv::Rect(66, 76, 30, 8), kSkinColour, cv::FILLED);
+  return image;
+}
+
+struct Scene {
+  LogColour colour;
+  BackgroundEnergy background;
+  HeadRegion head;
+  PersonColours colours;
+};
+
+Scene scene() {
+  Scene s;
+  const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
+  const BackgroundModel model = learn_background_model(empty);
+  s.colour = log_colour(picture());
+  s.background = background_energy(model, s.colour, ShadowRange{}, {});
+  s.head.centre = {80, 30};
+  s.head.radii = {10.5, 14.5};
+  s.head.detected = true;
+  const Segmentation rough = segment(s.colour, s.background, {}, s.head, {});
+  const PersonReport report = learn_person(s.colour, rough.silhouette, s.head, s.colours);
+  EXPECT_TRUE(report.accepted) << report.reason;
+  return s;
+}
+
+Label at(const cv::Mat& labels, int x, int y) {
+  return static_cast<Label>(labels.at<unsigned char>(y, x));
+}
+
+TEST(Segmentation, EveryPartGetsItsLabel) {
+  const Scene s = scene();
+  const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
+  EXPECT_EQ(at(out.labels, 80, 30), Label::head);
+  EXPECT_EQ(at(out.labels, 80, 46), Label::head) << "the neck";
+  EXPECT_EQ(at(out.labels, 80, 60), Label::clothes);
+  EXPECT_EQ(at(out.labels, 48, 64), Label::arms) << "beside the trunk";
+  EXPECT_EQ(at(out.labels, 80, 80), Label::arms) << "before the trunk";
+  EXPECT_EQ(at(out.labels, 60, 112), Label::ignore) << "trousers";
+  EXPECT_EQ(at(out.labels, 10, 10), Label::background);
+  EXPECT_EQ(at(out.labels, 130, 90), Label::background);
+}
+
+TEST(Segmentation, BackgroundIsWhereTheSilhouetteIsNot) {
+  const Scene s = scene();
+  const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
+  EXPECT_EQ(cv::countNonZero((out.labels == 0) != (out.silhouette == 0)), 0);
+}
+
+TEST(Segmentation, WithoutColoursOnlyTheHeadIsNamed) {
+  const Scene s = scene();
+  const Segmentation out = segment(s.colour, s.background, {}, s.head, {});
+  EXPECT_EQ(cv::countNonZero(out.labels == static_cast<unsigned char>(Label::arms)), 0);
+  EXPECT_EQ(cv::countNonZero(out.labels == static_cast<unsigned char>(Label::clothes)), 0);
+  EXPECT_EQ(at(out.labels, 80, 70), Label::ignore);
+}
+
+TEST(Segmentation, ABoxThatIsNobodysIsDropped) {
+  Scene s = scene();
+  cv::Mat image = picture();
+  cv::rectangle(image, cv::Rect(125, 20, 25, 25), cv::Scalar(30, 160, 60), cv::FILLED);
+  const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
+  s.colour = log_colour(image);
+  s.background = background_energy(learn_background_model(empty), s.colour, ShadowRange{}, {});
+  const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
+  EXPECT_EQ(at(out.labels, 137, 32), Label::background);
+  EXPECT_EQ(at(out.labels, 48, 64), Label::arms);
+}
+
+TEST(PersonColours, RefusesATinyFaceAndAHiddenChestWithAReason) {
+  const Scene s = scene();
+  PersonColours colours;
+  HeadRegion tiny = s.head;
+  tiny.radii = {1, 1.5};
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  PersonReport report = learn_person(s.colour, everywhere, tiny, colours);
+  EXPECT_FALSE(report.accepted);
+  EXPECT_NE(report.reason.find("pixels"), std::string::npos);
+  const LogColour all_skin = log_colour(cv::Mat(120, 160, CV_8UC3, kSkinColour));
+  report = learn_person(all_skin, everywhere, s.head, colours);
+  EXPECT_FALSE(report.accepted);
+  EXPECT_FALSE(report.reason.empty());
+  EXPECT_FALSE(colours.known());
+}
+
+TEST(PersonColours, AMaskOnHalfTheFaceDoesNotBecomeSkin) {
+  cv::Mat image = picture();
+  cv::rectangle(image, cv::Rect(70, 33, 20, 9), cv::Scalar(225, 222, 220), cv::FILLED);
+  PersonColours colours;
+  const Scene s = scene();
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  ASSERT_TRUE(learn_person(log_colour(image), everywhere, s.head, colours).accepted);
+  EXPECT_LT(mahalanobis2(colours.skin, log_colour_of(125, 155, 205)), 4);
+  EXPECT_GT(mahalanobis2(colours.skin, log_colour_of(225, 222, 220)), 9);
+}
+
+}  // namespace
+}  // namespace telemime
