@@ -6,10 +6,13 @@
 #include <exception>
 #include <iostream>
 
+#include "bench_command.h"
 #include "evaluate_command.h"
 #include "exit_codes.h"
+#include "experiments_command.h"
 #include "telemime/capture/quiet.h"
 #include "track_command.h"
+#include "tune_command.h"
 
 int main(int argc, char** argv) {
   telemime::quiet_opencv();
@@ -18,6 +21,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", TELEMIME_VERSION);
   telemime::add_track_command(app);
   telemime::add_evaluate_command(app);
+  telemime::add_tune_command(app);
+  telemime::add_bench_command(app);
+  telemime::add_experiments_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "telemime/experiments/lab.h"
+#include "telemime/experiments/report.h"
+
+namespace telemime {
+
+// One function for each table or figure of the thesis; all.h lists them.
+
+Finding background_times(Lab& lab);      ///< T3-1
+Finding background_in_light(Lab& lab);   ///< F3-6
+Finding simplex_size(Lab& lab);          ///< F2-22
+Finding limited_regions(Lab& lab);       ///< F3-13
+Finding limited_edges(Lab& lab);         ///< F3-14
+Finding frame_times(Lab& lab);           ///< T3-2
+Finding size_times(Lab& lab);            ///< T3-3
+Finding region_residuals(Lab& lab);      ///< F3-16
+Finding contour_residuals(Lab& lab);     ///< F3-17
+Finding region_mistrackings(Lab& lab);   ///< F3-18
+Finding contour_mistrackings(Lab& lab);  ///< F3-19
+Finding steps_to_convergence(Lab& lab);  ///< F3-24
+Finding steps_sharing(Lab& lab);         ///< F3-25
+Finding surfaces_3d(Lab& lab);           ///< F3-26
+Finding surfaces_2d(Lab& lab);           ///< F3-27
+Finding quadratic(Lab& lab);             ///< F3-28
+Finding tangent_point(Lab& lab);         ///< F3-29
+Finding best_curve(Lab& lab);            ///< F3-30
+
+/// "Agrees", "Partly agrees" or "Differs", by how many of the statements hold, then the words.
+std::string verdict(std::initializer_list<bool> statements, const std::string& words);
+
+}  // namespace telemime

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/experiments/sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "telemime/capture/source.h"
+#include "telemime/core/errors.h"
+#include "telemime/evaluation/error_means.h"
+#include "telemime/pipeline/tracker.h"
+
+namespace telemime {
+namespace {
+
+std::filesystem::path video_in(const std::filesystem::path& folder, const std::string& stem) {
+  for (const char* ending : {".mp4", ".mkv", ".avi"}) {
+    if (std::filesystem::exists(folder / (stem + ending))) {
+      return folder / (stem + ending);
+    }
+  }
+  throw Error(ErrorKind::input, "there is no " + stem + ".mp4 or .mkv in " + folder.string(),
+              "`telemime synth all --out DIR` makes sequences; give DIR with --data.");
+}
+
+std::vector<Frame> read_all(const std::filesystem::path& file, std::size_t most) {
+  const auto source = open_source(file.string());
+  std::vector<Frame> frames;
+  while (most == 0 || frames.size() < most) {
+    auto frame = source->next();
+    if (!frame) {
+      break;
+    }
+    frames.push_back(std::move(*frame));
+  }
+  return frames;
+}
+
+// Mean over elbows and wrists; NaN when the truth knows none of them.
+struct FrameMeans {
+  double error_2d = std::numeric_limits<double>::quiet_NaN();
+  double error_3d = std::numeric_limits<double>::quiet_NaN();
+};
+
+FrameMeans mean_errors(const MotionFrame& motion, const Camera& camera, const Truth& truth, std::size_t t) {
+  constexpr double kMillimetres = 1e3;
+  const FrameErrors errors = measure_frame(motion, camera, truth.frames[t], truth.camera, 1.0);
+  Mean flat;
+  Mean deep;
+  for (const Joint joint : kScoredJoints) {
+    const auto& error = errors[static_cast<std::size_t>(joint)];
+    if (error) {
+      flat.add(error->pixels_at_depth);
+      deep.add(error->aligned ? std::optional<double>(error->aligned->norm()) : std::nullopt);
+    }
+  }
+  FrameMeans means;
+  means.error_2d = flat.value().value_or(means.error_2d) * kMillimetres;
+  means.error_3d = deep.value().value_or(means.error_3d) * kMillimetres;
+  return means;
+}
+
+}  // namespace
+
+Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames) {
+  Clip clip;
+  clip.name = folder.filename().string();
+  clip.truth = read_truth(folder / "truth.json");
+  clip.camera = clip.truth.camera;
+  clip.background = read_all(video_in(folder, "background"), 0);
+  clip.frames = read_all(video_in(folder, "video"), most_frames);
+  clip.frames.resize(std::min(clip.frames.size(), clip.truth.frames.size()));
+  return clip;
+}
+
+PreparedSequence prepare_sequence(const Clip& clip, const Config& config) {
+  PreparedSequence sequence;
+  sequence.name = clip.name;
+  sequence.camera = clip.camera;
+  sequence.truth = clip.truth;
+  sequence.limits = load_limits(config.limits);
+  const Camera working = clip.camera.scaled_to(config.image.width, config.image.height);
+  const auto backend = make_scalar_backend();
+  Random random(config.seed);
+  FeatureExtractor features(config.image);
+  features.learn_background(clip.background);
+  bool coloured = false;
+  bool calibrated = false;
+  std::string reason = "there is no frame";
+  for (std::size_t t = 0; t < clip.frames.size(); ++t) {
+    if (!coloured) {
+      const PersonReport person = features.begin_person(clip.frames[t]);
+      coloured = person.accepted;
+      reason = person.reason;
+    }
+    const Observation seen = features.extract(clip.frames[t]);
+    sequence.frames.push_back(prepare(seen, working));
+    if (calibrated || !coloured || !seen.head) {
+      continue;
+    }
+    const Calibration fit = calibrate(*backend, sequence.frames.back(), *seen.head, sequence.limits,
+                                      config.calibration, config.registration, random);
+    reason = fit.refusal;
+    calibrated = fit.refusal.empty();
+    sequence.first = t;
+    sequence.model = make_model(fit.shape);
+    sequence.start = fit.pose;
+  }
+  if (!calibrated) {
+    throw Error(ErrorKind::tracking, clip.name + ": no frame can be calibrated: " + reason,
+                "Use a clip that starts with a person who faces the camera, arms apart from the body.");
+  }
+  return sequence;
+}
+
+double mean_of(const std::vector<double>& values) {
+  Mean mean;
+  for (const double value : values) {
+    mean.add(std::isfinite(value) ? std::optional<double>(value) : std::nullopt);
+  }
+  return mean.value().value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::size_t count_above(const std::vector<double>& values, double threshold) {
+  return static_cast<std::size_t>(
+      std::count_if(values.begin(), values.end(), [&](double v) { return v > threshold; }));
+}
+
+Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed) {
+  const auto backend = make_scalar_backend();
+  Random random(seed);
+  Trace trace;
+  Pose pose = sequence.start;
+  for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
+    Objective objective(*backend, sequence.frames[t], sequence.model, sequence.limits);
+    objective.expect(pose);
+    const RegistrationResult found = register_pose(objective, pose, config, random);
+    pose = found.pose;
+    MotionFrame motion;
+    motion.pose = pose;
+    complete(motion, sequence.model.body, sequence.camera);
+    const FrameMeans errors = mean_errors(motion, sequence.camera, sequence.truth, t);
+    trace.frame.push_back(static_cast<double>(t));
+    trace.region.push_back(found.score.region);
+    trace.contour.push_back(found.score.contour);
+    trace.error_2d.push_back(errors.error_2d);
+    trace.error_3d.push_back(errors.error_3d);
+  }
+  return trace;
+}
+
+RegistrationConfig reference_with(int region, int edge) {
+  RegistrationConfig config = reference_registration();
+  const int both = region + edge;
+  config.iterations = both + 1;  // the last one scores the pose that is returned
+  config.region_share = both > 0 ? static_cast<double>(region) / both : 1.0;
+  return config;
+}
+
+}  // namespace telemime
