@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <stdexcept>
 #include <vector>
 
 #include "telemime/core/errors.h"
@@ -101,7 +102,7 @@ Json value_of(const Method& value) {
 void read(double& to, const Json& from) {
   to = from.get<double>();
   if (!std::isfinite(to)) {
-    throw bad("a number is not finite");
+    throw std::invalid_argument("a number is not finite");
   }
 }
 void read(float& to, const Json& from) {
@@ -111,13 +112,13 @@ void read(float& to, const Json& from) {
 }
 void read(int& to, const Json& from) {
   if (!from.is_number_integer() || std::abs(from.get<double>()) > 2e9) {
-    throw bad("a whole number is needed, not " + from.dump());
+    throw std::invalid_argument("a whole number is needed, not " + from.dump());
   }
   to = from.get<int>();
 }
 void read(std::uint64_t& to, const Json& from) {
-  if (!from.is_number_unsigned()) {
-    throw bad("a whole number from 0 is needed, not " + from.dump());
+  if (!from.is_number_unsigned() && !(from.is_number_integer() && from.get<std::int64_t>() >= 0)) {
+    throw std::invalid_argument("a whole number from 0 is needed, not " + from.dump());
   }
   to = from.get<std::uint64_t>();
 }
@@ -143,7 +144,9 @@ void read(std::optional<double>& to, const Json& from) {
 void collect_leaves(const Json& json, const std::string& path, std::vector<std::string>& leaves) {
   for (const auto& [key, value] : json.items()) {
     const std::string here = path.empty() ? key : path + "/" + key;
-    if (value.is_object()) {
+    if (value.is_object() && value.empty()) {
+      leaves.push_back(here + "/");  // a group from which nothing is set
+    } else if (value.is_object()) {
       collect_leaves(value, here, leaves);
     } else {
       leaves.push_back(here);
@@ -167,6 +170,7 @@ void Config::validate() const {
   image.validate();
   calibration.validate();
   registration.validate();
+  make_smoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
   require(field_of_view > 1.0 && field_of_view < 179.0,
           "camera.field_of_view must be between 1 and 179 degrees");
   require(!budget_ms || (*budget_ms > 0.0 && *budget_ms < 1e5), "budget_ms must be above 0 and below 100000");
@@ -196,6 +200,8 @@ void update_from_json(Config& config, const Json& json) {
   Config updated = config;
   each_setting(updated, [&](const std::string& path, auto& value) {
     const Json::json_pointer pointer("/" + path);
+    std::erase_if(leaves,
+                  [&](const std::string& leaf) { return leaf.ends_with('/') && path.starts_with(leaf); });
     if (!json.contains(pointer)) {
       return;
     }
@@ -203,13 +209,14 @@ void update_from_json(Config& config, const Json& json) {
       read(value, json.at(pointer));
     } catch (const Json::exception&) {
       throw bad("'" + path + "' cannot be " + json.at(pointer).dump());
-    } catch (const Error& e) {
+    } catch (const std::exception& e) {
       throw bad("'" + path + "': " + e.what());
     }
     std::erase(leaves, path);
   });
   if (!leaves.empty()) {
-    throw bad("there is no setting '" + leaves.front() + "'");
+    const std::string& name = leaves.front();
+    throw bad("there is no setting '" + name.substr(0, name.find_last_not_of('/') + 1) + "'");
   }
   updated.validate();
   config = updated;
@@ -217,7 +224,7 @@ void update_from_json(Config& config, const Json& json) {
 
 void update_from_file(Config& config, const std::filesystem::path& file) {
   std::ifstream in(file);
-  if (!in) {
+  if (!in || std::filesystem::is_directory(file)) {
     throw Error(ErrorKind::config, "configuration file " + file.string() + " cannot be opened",
                 "Check the path and its permissions.");
   }
