@@ -20,6 +20,17 @@ cv::Rect whole_of(const cv::Mat& picture) {
   return {0, 0, picture.cols, picture.rows};
 }
 
+/// An arm beside or before the head: its outline is not the head's.
+bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
+  const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(head.centre.x() - 1.6 * head.radii.x()),
+                                          static_cast<int>(head.centre.y() - 1.5 * head.radii.y())),
+                                cv::Point(static_cast<int>(head.centre.x() + 1.6 * head.radii.x()),
+                                          static_cast<int>(head.centre.y() + 0.8 * head.radii.y()))) &
+                       cv::Rect(cv::Point(0, 0), labels.size());
+  return !box.empty() &&
+         cv::countNonZero(labels(box) == static_cast<unsigned char>(Label::arms)) * 50 > box.area();
+}
+
 }  // namespace
 
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
@@ -210,6 +221,7 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
   }
   PersonReport report = learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
   if (report.accepted) {
+    face_memory_ = FaceMemory{};
     silhouette_ = rough.silhouette;
   }
   return report;
@@ -233,10 +245,15 @@ Observation FeatureExtractor::extract(const Frame& frame) {
     head_.forget();
     hollow_ = 0;
   }
+  // Only with the head well in place: a shifted look differs everywhere.
+  constexpr double kInPlace = 0.75;
+  if (out.head && calibration_.colours.known() && (face->detected || face->match > kInPlace)) {
+    uncover_hands(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels);
+  }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette;
   follow_outline(p, out.silhouette);
-  if (out.head) {
+  if (out.head && !arms_near(*out.head, out.labels)) {
     shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
   }
 

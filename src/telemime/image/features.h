@@ -5,6 +5,7 @@
 #include <span>
 
 #include "telemime/core/frame.h"
+#include "telemime/image/face_memory.h"
 #include "telemime/image/feature_config.h"
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
@@ -68,6 +69,7 @@ class FeatureExtractor {
   ImageConfig config_;
   HeadTracker head_;
   HeadShape shape_;
+  FaceMemory face_memory_;
   ImageCalibration calibration_;
   ImageStatus status_;
   bool all_valid_ = true;  ///< the background of every pixel was seen

@@ -7,92 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "telemime/image/colour_votes.h"
+
 namespace telemime {
 namespace {
-
-/// What colour says of a pixel, before its place is looked at.
-enum Colour : unsigned char { kSkin = 0, kClothes = 1, kHair = 2, kOther = 3 };
-
-struct ColourVotes {
-  cv::Mat best;     ///< CV_32FC1, energy of the best of the person's colours
-  cv::Mat colour;   ///< CV_8UC1, which
-  cv::Mat learned;  ///< CV_8UC1, which, `kOther` excluded
-};
-
-struct Ellipse {
-  explicit Ellipse(const HeadRegion& head)
-      : x(static_cast<float>(head.centre.x())),
-        y(static_cast<float>(head.centre.y())),
-        rx(static_cast<float>(head.radii.x())),
-        ry(static_cast<float>(head.radii.y())) {}
-  /// Below 1 inside.
-  float at(int row, int column) const {
-    const float dx = (static_cast<float>(column) - x) / rx;
-    const float dy = (static_cast<float>(row) - y) / ry;
-    return dx * dx + dy * dy;
-  }
-  float x, y, rx, ry;
-};
-
-void smooth(cv::Mat& energy, float limit) {
-  cv::min(energy, limit, energy);
-  cv::blur(energy, energy, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
-}
-
-ColourVotes vote(const LogColour& picture, const PersonColours& colours,
-                 const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
-  cv::Mat skin = energy(colours.skin, picture);
-  cv::Mat clothes = energy(colours.clothes, picture);
-  cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, picture);
-  cv::Mat lower = energy(colours.lower, picture);
-  cv::min(lower, config.unknown_cost, lower);
-  // A far colour must not outvote its neighbours by being very far.
-  const float limit = config.unknown_cost + config.vote_limit;
-  const cv::Size size = picture.u.size();
-  ColourVotes out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_8UC1)};
-  for (int r = 0; r < size.height; ++r) {
-    const auto* s = skin.ptr<float>(r);
-    const auto* c = clothes.ptr<float>(r);
-    const auto* h = hair.ptr<float>(r);
-    const auto* o = lower.ptr<float>(r);
-    auto* b = out.best.ptr<float>(r);
-    for (int i = 0; i < size.width; ++i) {
-      b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], o[i]));
-    }
-  }
-  smooth(skin, limit);
-  smooth(clothes, limit);
-  smooth(hair, limit);
-  smooth(lower, limit);
-  for (int r = 0; r < size.height; ++r) {
-    const auto* s = skin.ptr<float>(r);
-    const auto* c = clothes.ptr<float>(r);
-    const auto* h = hair.ptr<float>(r);
-    const auto* o = lower.ptr<float>(r);
-    auto* colour = out.colour.ptr<unsigned char>(r);
-    auto* learned = out.learned.ptr<unsigned char>(r);
-    for (int i = 0; i < size.width; ++i) {
-      const bool is_skin = s[i] < c[i];
-      unsigned char best = is_skin ? kSkin : kClothes;
-      const float least = is_skin ? s[i] : c[i];
-      learned[i] = best;
-      if (head && h[i] < least && h[i] < o[i]) {
-        const float dx = (static_cast<float>(i) - static_cast<float>(head->centre.x())) /
-                         static_cast<float>(head->radii.x());
-        const float dy = (static_cast<float>(r) - static_cast<float>(head->centre.y())) /
-                         static_cast<float>(head->radii.y());
-        if (dx > -2.2F && dx < 2.2F && dy < 3.2F) {
-          best = kHair;
-        }
-      }
-      if (best != kHair && least >= o[i]) {
-        best = kOther;
-      }
-      colour[i] = best;
-    }
-  }
-  return out;
-}
 
 cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& votes,
                       const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
@@ -331,6 +249,7 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
              config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
   give_scraps_to_neighbours(votes, out.silhouette,
                             4 * config.least_part * static_cast<double>(out.silhouette.total()));
+  cv::compare(votes.colour, static_cast<int>(kSkin), out.skin, cv::CMP_EQ);
   out.labels = label(out.silhouette, votes, head, colours.known());
   const double island = 0.5 * config.least_part * static_cast<double>(out.silhouette.total());
   drown_islands(out.labels, Label::clothes, Label::arms, 2 * island);

@@ -23,6 +23,7 @@ struct SegmentationConfig {
 struct Segmentation {
   cv::Mat labels;
   cv::Mat silhouette;
+  cv::Mat skin;             ///< CV_8UC1, 255 where the colour is skin's
   double head_share = 0.0;  ///< of the head's ellipse that has the colour of skin or hair
 };
 
