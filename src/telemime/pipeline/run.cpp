@@ -196,7 +196,7 @@ TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
   const auto source = open_source(request.input);
   const SourceInfo& info = source->info();
   Tracker tracker(request.config, camera_for(info, request.camera, request.config.field_of_view));
-  Scene scene = learn_scene(request, info, *source, tracker);
+  Footage scene = learn_scene(request, info, *source, tracker);
   if (hooks.message) {
     for (const std::string& words : scene.messages) {
       hooks.message(words);

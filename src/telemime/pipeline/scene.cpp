@@ -24,7 +24,7 @@ std::vector<Frame> read_frames(Source& source, std::size_t most) {
 
 }  // namespace
 
-std::optional<Frame> Scene::next(Source& source) {
+std::optional<Frame> Footage::next(Source& source) {
   if (ahead.empty()) {
     return source.next();
   }
@@ -33,8 +33,8 @@ std::optional<Frame> Scene::next(Source& source) {
   return frame;
 }
 
-Scene learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker) {
-  Scene scene;
+Footage learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker) {
+  Footage scene;
   if (!request.background.empty()) {
     const auto clip = open_source(request.background);
     const double aspect = static_cast<double>(clip->info().width) * info.height /

@@ -12,7 +12,7 @@
 namespace telemime {
 
 /// What was read ahead of the tracking to learn the scene.
-struct Scene {
+struct Footage {
   std::deque<Frame> ahead;            ///< frames of the input that were read and are still to be tracked
   std::vector<std::string> messages;  ///< how the background was learned, in words
 
@@ -23,6 +23,6 @@ struct Scene {
 /// Teaches the tracker the background: from the person-free clip, from a calibration, from the input's own
 /// person-free start, from what its pixels return to while the person moves, or not at all (then the messages
 /// say so). Throws Error(input) for a background clip that cannot be used.
-Scene learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker);
+Footage learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker);
 
 }  // namespace telemime
