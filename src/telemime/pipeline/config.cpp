@@ -48,6 +48,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("calibration/share_sides", c.calibration.shape.share_sides);
   visit("calibration/length_spread", c.calibration.shape.length_spread);
   visit("calibration/girth_spread", c.calibration.shape.girth_spread);
+  visit("calibration/ratio_spread", c.calibration.shape.ratio_spread);
   visit("calibration/prior_weight", c.calibration.shape.prior_weight);
   visit("calibration/contour_weight", c.calibration.shape.contour_weight);
   visit("registration/method", c.registration.method);

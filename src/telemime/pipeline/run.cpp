@@ -81,6 +81,9 @@ class Run {
   Wish step(const Frame& frame) {
     TrackedFrame result = tracker_.step(frame);
     tell(result.note);
+    for (const std::string& warning : result.warnings) {
+      tell(warning);
+    }
     if (tracker_.calibration() && !outputs_.begun()) {
       begin();
     }

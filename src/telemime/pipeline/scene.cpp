@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/pipeline/scene.h"
 
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -20,6 +22,28 @@ std::vector<Frame> read_frames(Source& source, std::size_t most) {
     frames.push_back(std::move(*frame));
   }
   return frames;
+}
+
+// Pictures of the clip itself at working size: the start in full, for an empty stretch, then ever fewer, for
+// what the background looks like where the person has gone. Reads the input once more.
+std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig& image) {
+  constexpr std::int64_t kDense = 150;
+  constexpr std::int64_t kStride = 10;
+  constexpr std::int64_t kMost = 4000;
+  const auto again = open_source(request.input);
+  std::vector<Frame> sample;
+  for (std::int64_t i = 0; i < kMost; ++i) {
+    auto frame = again->next();
+    if (!frame) {
+      break;
+    }
+    if (i < kDense || i % kStride == 0 || again->info().frames < 3 * kDense) {
+      Frame small = *frame;
+      cv::resize(frame->image, small.image, {image.width, image.height}, 0.0, 0.0, cv::INTER_AREA);
+      sample.push_back(std::move(small));
+    }
+  }
+  return sample;
 }
 
 }  // namespace
@@ -50,8 +74,15 @@ Footage learn_scene(const TrackRequest& request, const SourceInfo& info, Source&
                              request.background);
     return scene;
   }
-  (void)source;
-  scene.messages.emplace_back("background: none is known");
+  std::vector<Frame> sample;
+  if (info.live) {
+    sample = read_frames(source, static_cast<std::size_t>(std::max(8.0, info.fps)));
+    scene.ahead.assign(sample.begin(), sample.end());
+  } else {
+    sample = sample_of_clip(request, tracker.config().image);
+  }
+  const SceneReport report = tracker.bootstrap(sample);
+  scene.messages.push_back("background: " + report.sentence);
   return scene;
 }
 

@@ -62,6 +62,10 @@ void Tracker::learn_background(std::span<const Frame> frames) {
   features_.learn_background(frames);
 }
 
+SceneReport Tracker::bootstrap(std::span<const Frame> clip) {
+  return features_.bootstrap(clip);
+}
+
 void Tracker::set_calibration(const TrackerCalibration& calibration, ImageCalibration image) {
   calibration_ = calibration;
   model_ = make_model(calibration.shape);
@@ -83,6 +87,7 @@ bool Tracker::person_colours(const Frame& frame, std::string& note) {
   }
   const PersonReport report = features_.begin_person(frame);
   note = report.reason;
+  face_just_seen_ = report.accepted;
   return report.accepted;
 }
 
@@ -93,8 +98,10 @@ TrackedFrame Tracker::step(const Frame& frame) {
   motion.frame = frame.index;
   motion.time = frame.time;
   motion.pose = pose_;
+  face_just_seen_ = false;
   const bool coloured = person_colours(frame, result.note);
   result.observation = features_.extract(frame);
+  result.warnings = features_.status().warnings;
   motion.stage_ms.emplace_back("features", watch.lap());
 
   if (coloured) {
@@ -118,7 +125,7 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
     return;
   }
   if (!calibration_) {
-    if (!observation.head->detected) {
+    if (!observation.head->detected && !face_just_seen_) {
       lose("waiting for a face that looks at the camera", result);
       return;
     }
@@ -166,6 +173,10 @@ void Tracker::follow(const PreparedFrame& prepared, TrackedFrame& result) {
   previous_ = pose_;
   adopt(found.pose, found.score, result);
 
+  if (!features_.status().person) {
+    lose("nobody is in the picture", result);
+    return;
+  }
   const bool bad = found.score.region > config_.tracking.lost_region || !result.observation.head;
   bad_frames_ = bad ? bad_frames_ + 1 : 0;
   if (bad_frames_ >= config_.tracking.patience) {

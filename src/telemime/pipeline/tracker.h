@@ -30,6 +30,8 @@ struct TrackedFrame {
   MotionFrame motion;       ///< not smoothed
   Observation observation;  ///< of the working image
   std::string note;         ///< why the person is not tracked, in words; empty while tracking
+  std::vector<std::string>
+      warnings;  ///< what breaks the tracker's assumptions (light, sleeves, camera), in words
 };
 
 /// Follows one person from frame to frame: features, calibration on the first good frame, registration, lost
@@ -40,6 +42,8 @@ class Tracker {
   Tracker(const Config& config, const Camera& camera);
 
   void learn_background(std::span<const Frame> frames);
+  /// Learns what it can of the scene from frames of the input itself (FeatureExtractor::bootstrap).
+  SceneReport bootstrap(std::span<const Frame> clip);
   void set_calibration(const TrackerCalibration& calibration, ImageCalibration image);
 
   TrackedFrame step(const Frame& frame);
@@ -76,6 +80,7 @@ class Tracker {
   Phase phase_ = Phase::waiting;
   Pose pose_;
   Pose previous_;
+  bool face_just_seen_ = false;  ///< the person's colours were learned in this frame
   int bad_frames_ = 0;
   int frames_until_search_ = 0;
   int waited_ = 0;

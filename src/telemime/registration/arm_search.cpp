@@ -2,6 +2,7 @@
 #include "telemime/registration/arm_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -51,6 +52,33 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
         interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
       break;
     }
+  }
+  return limits.clamp(arm);
+}
+
+Pose random_forearm(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                    Random& random) {
+  const bool left = side == Side::left;
+  const Kinematics k = forward_kinematics(body, pose);
+  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Matrix3d& chest = k[Segment::chest].linear();
+  Pose arm = pose;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    const Eigen::Vector3d fore =
+        Eigen::Vector3d(random.normal(0.0, 0.7), random.normal(0.0, 0.7), random.normal(0.5, 0.5))
+            .normalized();
+    set_arm_angles(
+        arm, side,
+        arm_through(body, pose, side, elbow,
+                    elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)], limits));
+    if (limits.contains(arm, 0.05) &&
+        interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
+      break;
+    }
+  }
+  for (const Angle a : left ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot}
+                            : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot}) {
+    arm[a] = 0.0;
   }
   return limits.clamp(arm);
 }

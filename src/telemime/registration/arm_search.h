@@ -18,6 +18,9 @@ struct ArmSearchConfig {
 /// and swivel drawn so that hands before the body are likelier than behind it.
 Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random);
 
+/// The same arm with another forearm: the elbow stays, the forearm points anywhere before the body.
+Pose random_forearm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random);
+
 /// Looks for one arm everywhere, not only near where it was: random arms, the best refined by a simplex.
 /// Never worse than the arm that came in. For the first frame and for recovery.
 Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,

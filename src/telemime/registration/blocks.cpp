@@ -104,18 +104,85 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
   return block;
 }
 
-SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+namespace {
+
+std::array<Angle, 3> hand_angles(Side side) {
+  return side == Side::left
+             ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot, Angle::l_wrist_twisting}
+             : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot, Angle::r_wrist_twisting};
+}
+
+// A block of 7 numbers whose last three are the hand's angles; the first four are the caller's.
+SearchBlock with_hand(std::string_view name, const Pose& pose, Side side, const JointLimits& limits,
                       double factor) {
-  const bool left = side == Side::left;
-  const std::array<Angle, 3> hand = {left ? Angle::l_wrist_flexion : Angle::r_wrist_flexion,
-                                     left ? Angle::l_wrist_pivot : Angle::r_wrist_pivot,
-                                     left ? Angle::l_wrist_twisting : Angle::r_wrist_twisting};
-  const ArmTarget target = arm_target(body, pose, side);
   SearchBlock block;
-  block.name = left ? "left arm" : "right arm";
+  block.name = name;
   block.start.resize(7);
   block.steps.resize(7);
   block.bounds = {Eigen::VectorXd(7), Eigen::VectorXd(7)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = static_cast<Eigen::Index>(4 + i);
+    const Angle angle = hand_angles(side)[i];
+    const auto a = static_cast<std::size_t>(angle);
+    block.start[at] = pose[angle];
+    block.steps[at] = factor * kTypicalChange[3 + a];
+    block.bounds.low[at] = limits.min[a];
+    block.bounds.high[at] = limits.max[a];
+  }
+  return block;
+}
+
+void set_hand(Pose& pose, Side side, const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    pose[hand_angles(side)[i]] = x[static_cast<Eigen::Index>(4 + i)];
+  }
+}
+
+// Turns a direction within the image plane (about z) and out of it (about the axis in the plane across it).
+Eigen::Vector3d turned(const Eigen::Vector3d& direction, double in_plane, double in_depth) {
+  const Eigen::Vector3d flat = rotation_z(in_plane) * direction;
+  Eigen::Vector3d across(-flat.y(), flat.x(), 0.0);
+  if (across.norm() < 1e-6) {
+    across = Eigen::Vector3d::UnitX();
+  }
+  return Eigen::AngleAxisd(in_depth, across.normalized()) * flat;
+}
+
+}  // namespace
+
+SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                        double factor) {
+  const bool left = side == Side::left;
+  const auto i = static_cast<std::size_t>(side);
+  const Kinematics k = forward_kinematics(body, pose);
+  const Eigen::Vector3d shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Vector3d elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Vector3d wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const Eigen::Vector3d upper = elbow - shoulder;
+  const Eigen::Vector3d fore = wrist - elbow;
+  SearchBlock block = with_hand(left ? "left bones" : "right bones", pose, side, limits, factor);
+  constexpr double kMost = 1.2;
+  block.start.head<4>().setZero();
+  block.steps.head<4>() << factor * 4.0 * kDegree, factor * 6.0 * kDegree, factor * 6.0 * kDegree,
+      factor * 9.0 * kDegree;
+  block.bounds.low.head<4>().setConstant(-kMost);
+  block.bounds.high.head<4>().setConstant(kMost);
+  block.decode = [&body, pose, side, &limits, shoulder, upper, fore,
+                  fore_length = body.forearm_length[i]](const Eigen::VectorXd& x) {
+    const Eigen::Vector3d new_elbow = shoulder + turned(upper, x[0], x[1]);
+    const Eigen::Vector3d new_wrist = new_elbow + turned(fore, x[2], x[3]).normalized() * fore_length;
+    Pose moved = pose;
+    set_arm_angles(moved, side, arm_through(body, pose, side, new_elbow, new_wrist, limits));
+    set_hand(moved, side, x);
+    return moved;
+  };
+  return block;
+}
+
+SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                      double factor) {
+  const ArmTarget target = arm_target(body, pose, side);
+  SearchBlock block = with_hand(side == Side::left ? "left arm" : "right arm", pose, side, limits, factor);
   const double z = std::max(kNearest, target.wrist.z());
   constexpr double kAcross = 0.025;  // m, typical change of a wrist from frame to frame
   constexpr double kAlong = 0.030;
@@ -124,20 +191,10 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
       factor * 8.0 * kDegree;
   block.bounds.low.head<4>() << -4.0, -4.0, kNearest, target.swivel - std::numbers::pi;
   block.bounds.high.head<4>() << 4.0, 4.0, kFarthest, target.swivel + std::numbers::pi;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto at = static_cast<Eigen::Index>(4 + i);
-    const auto a = static_cast<std::size_t>(hand[i]);
-    block.start[at] = pose[hand[i]];
-    block.steps[at] = factor * kTypicalChange[3 + a];
-    block.bounds.low[at] = limits.min[a];
-    block.bounds.high[at] = limits.max[a];
-  }
-  block.decode = [&body, pose, side, &limits, hand](const Eigen::VectorXd& x) {
+  block.decode = [&body, pose, side, &limits](const Eigen::VectorXd& x) {
     const ArmTarget wanted = {Eigen::Vector3d(x[0] * x[2], x[1] * x[2], x[2]), wrap_angle(x[3])};
     Pose moved = with_wrist(body, pose, side, wanted, limits);
-    for (std::size_t i = 0; i < 3; ++i) {
-      moved[hand[i]] = x[static_cast<Eigen::Index>(4 + i)];
-    }
+    set_hand(moved, side, x);
     return moved;
   };
   return block;

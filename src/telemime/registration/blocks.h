@@ -33,6 +33,12 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor);
 
+/// One arm by the directions of its bones: upper arm and forearm each turned within the image plane and in
+/// depth (rad), and the hand's flexion, pivot and twisting (7 numbers). The forearm keeps its direction when
+/// the upper arm turns.
+SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                        double factor);
+
 /// The pose with one wrist moved there and the swivel set; out of reach: as near as the arm comes.
 Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
                 const JointLimits& limits);

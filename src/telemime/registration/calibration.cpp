@@ -91,7 +91,8 @@ void CalibrationConfig::validate() const {
   require(arms.samples >= 0 && arms.kept >= 1 && arms.refine >= 1,
           "arms: samples >= 0, kept >= 1, refine >= 1");
   require(shape.iterations >= 10, "shape.iterations must be at least 10");
-  require(shape.length_spread > 0.0 && shape.girth_spread > 0.0, "shape spreads must be positive");
+  require(shape.length_spread > 0.0 && shape.girth_spread > 0.0 && shape.ratio_spread > 0.0,
+          "shape spreads must be positive");
   require(shape.prior_weight >= 0.0 && shape.contour_weight >= 0.0,
           "shape.prior_weight and shape.contour_weight must not be negative");
   require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
@@ -160,7 +161,7 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
   }
   const RegistrationConfig align = alignment(registration, config.pose_iterations, config.fronto_parallel);
   for (int round = 0; round < config.rounds; ++round) {
-    const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, config.shape);
+    const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, limits, config.shape);
     result.evaluations += fit.evaluations;
     result.shape = fit.shape;
     model = make_model(result.shape);

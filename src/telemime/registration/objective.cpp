@@ -62,14 +62,17 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
     const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
     sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
     sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
+    // A forearm that points away from the camera is rare: people gesture toward whom they talk to.
+    sum +=
+        2.0 * square(std::min(0.0, (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1] - 0.1) / 0.3);
     sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
   }
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
   sum += 0.3 * (bend(Angle::root_torsion, 0.5) + bend(Angle::root_roll, 0.25) + bend(Angle::root_tilt, 0.3));
   sum += 0.3 * (bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3));
-  sum += 0.1 * (bend(Angle::l_wrist_flexion, 0.6) + bend(Angle::r_wrist_flexion, 0.6) +
-                bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25) +
-                bend(Angle::l_wrist_twisting, 1.0) + bend(Angle::r_wrist_twisting, 1.0));
+  sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +
+                bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25));
+  sum += 0.1 * (bend(Angle::l_wrist_twisting, 1.0) + bend(Angle::r_wrist_twisting, 1.0));
   return sum / 4.0;
 }
 

@@ -22,17 +22,18 @@ struct StepResult {
   bool converged = true;
 };
 
-SearchBlock make_block(std::size_t part, const Objective& objective, const Pose& pose, double factor) {
+// Arms are searched by their bones in even rounds and by their wrist in odd ones: the first moves the forearm
+// without the elbow, the second slides the wrist along its viewing ray.
+SearchBlock make_block(std::size_t part, int round, const Objective& objective, const Pose& pose,
+                       double factor) {
   const Body& body = objective.model().body;
   const JointLimits& limits = objective.limits();
-  switch (part) {
-    case 0:
-      return trunk_block(body, pose, limits, factor);
-    case 1:
-      return arm_block(body, pose, Side::left, limits, factor);
-    default:
-      return arm_block(body, pose, Side::right, limits, factor);
+  if (part == 0) {
+    return trunk_block(body, pose, limits, factor);
   }
+  const Side side = part == 1 ? Side::left : Side::right;
+  return round % 2 == 0 ? bones_block(body, pose, side, limits, factor)
+                        : arm_block(body, pose, side, limits, factor);
 }
 
 std::vector<Eigen::VectorXd> first_simplex(const SearchBlock& block, const std::vector<Vertex>* last,
@@ -80,7 +81,7 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
     for (std::size_t part = 0; part < kParts; ++part) {
       const int left = budget - (objective.evaluations() - first);
       const int planned = static_cast<int>(std::lround(budget * kShare[part] / config.rounds));
-      search(make_block(part, objective, result.pose, factor), part, std::min(left, planned));
+      search(make_block(part, round, objective, result.pose, factor), part, std::min(left, planned));
     }
   }
   return result;
@@ -99,7 +100,8 @@ Pose propose_arms(Objective& objective, const Pose& start, const RegistrationCon
       arms = depth_flips(body, from, side, objective.limits());
     }
     for (int i = 0; i < config.proposals; ++i) {
-      arms.push_back(random_arm(body, from, side, objective.limits(), random));
+      arms.push_back(i % 2 == 0 ? random_forearm(body, from, side, objective.limits(), random)
+                                : random_arm(body, from, side, objective.limits(), random));
     }
     for (const Pose& arm : arms) {
       const double cost = objective(arm, config.region);
