@@ -19,9 +19,9 @@ void clear(Rendering& out, const Camera& camera, const BodyMesh& mesh) {
   if (out.width != camera.width || out.height != camera.height) {
     out.width = camera.width;
     out.height = camera.height;
-    // fill_lanes() touches up to three pixels beyond the last one.
-    out.surface.assign(pixels + kLanes - 1, 0);
-    out.inverse_depth.assign(pixels + kLanes - 1, 0.0F);
+    // fill_lanes() touches, without changing them, up to four pixels beyond the last one.
+    out.surface.assign(pixels + kLanes, 0);
+    out.inverse_depth.assign(pixels + kLanes, 0.0F);
   } else {
     const int span = out.right - out.left;
     for (int y = out.top; y < out.bottom && span > 0; ++y) {
@@ -75,10 +75,36 @@ int nearest_to(float x) {
   return whole + (rest >= 0.5F ? 1 : 0) - (rest <= -0.5F ? 1 : 0);
 }
 
+// Four rows or pixels at once. Most triangles are only a few pixels large: loops over single ones would spend
+// their time on guessing wrongly where they end.
+using Floats = float __attribute__((vector_size(16)));
+using Ints = std::int32_t __attribute__((vector_size(16)));
+
+Floats floats(Ints x) {
+  return __builtin_convertvector(x, Floats);
+}
+// Roundings of four numbers; a comparison gives -1 where it holds.
+Ints floors(Floats x) {
+  const Ints whole = __builtin_convertvector(x, Ints);
+  return whole + (floats(whole) > x);
+}
+Ints ceils(Floats x) {
+  const Ints whole = __builtin_convertvector(x, Ints);
+  return whole - (floats(whole) < x);
+}
+// As std::max and std::min: the first one where the second is not a number.
+Floats larger(Floats a, Floats b) {
+  return a < b ? b : a;
+}
+Floats smaller(Floats a, Floats b) {
+  return b < a ? b : a;
+}
+
 // Where the line of a triangle's edge crosses a row: x = slope * y + offset.
 struct Crossing {
   float slope = 0.0F;
   float offset = 0.0F;
+  Floats at(Floats y) const { return slope * y + offset; }
 };
 
 // The inside of a front-facing triangle lies right of edges that go down and left of edges that go up. Of
@@ -101,11 +127,6 @@ struct RowBounds {
   }
 };
 
-// Four pixels at once. Most rows of most triangles are shorter: a loop over single pixels would spend its
-// time on guessing wrongly where it ends.
-using Floats = float __attribute__((vector_size(16)));
-using Ints = std::int32_t __attribute__((vector_size(16)));
-
 // The bytes of `classes` lie in memory in the order of the pixels.
 static_assert(std::endian::native == std::endian::little);
 
@@ -113,7 +134,7 @@ static_assert(std::endian::native == std::endian::little);
 void fill_lanes(float* depth, std::uint8_t* plane, int x, int last, float w_row, float w_x,
                 std::uint8_t surface) {
   const Ints at = Ints{0, 1, 2, 3} + x;
-  const Floats w = w_row + w_x * __builtin_convertvector(at, Floats);
+  const Floats w = w_row + w_x * floats(at);
   Floats before;
   std::memcpy(&before, depth, sizeof before);
   const Ints nearer = (w > before) & (at <= last);
@@ -146,7 +167,9 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
   const int y1 = std::min(out.height - 1, floor_of(high_y));
   const float bound_low = std::max(0.0F, low_x);
   const float bound_high = std::min(static_cast<float>(out.width - 1), high_x);
-  if (y0 > y1 || ceil_of(bound_low) > floor_of(bound_high)) {
+  const int first_x = ceil_of(bound_low);
+  const int last_x = floor_of(bound_high);
+  if (y0 > y1 || first_x > last_x) {
     return;
   }
   RowBounds bounds;
@@ -159,39 +182,34 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
   const float w_y = ((c.z() - a.z()) * (b.x() - a.x()) - (b.z() - a.z()) * (c.x() - a.x())) * inverse_area;
   const float w_0 = a.z() - w_x * a.x() - w_y * a.y();
 
-  int left = out.width;
-  int right = 0;
-  int top = out.height;
-  int bottom = 0;
+  out.left = std::min(out.left, first_x);
+  out.right = std::max(out.right, last_x + 1);
+  out.top = std::min(out.top, y0);
+  out.bottom = std::max(out.bottom, y1 + 1);
+
   const auto width = static_cast<std::size_t>(out.width);
-  float* depth = out.inverse_depth.data() + static_cast<std::size_t>(y0) * width;
-  std::uint8_t* plane = out.surface.data() + static_cast<std::size_t>(y0) * width;
-  for (int y = y0; y <= y1; ++y, depth += width, plane += width) {
-    const auto fy = static_cast<float>(y);
-    const auto at = [fy](const Crossing& edge) { return edge.slope * fy + edge.offset; };
-    const float low = std::max(std::max(bound_low, at(bounds.left[0])), at(bounds.left[1]));
-    const float high = std::min(std::min(bound_high, at(bounds.right[0])), at(bounds.right[1]));
-    if (low > high) {
-      continue;
-    }
-    const int x0 = ceil_of(low);
-    const int x1 = floor_of(high);
-    if (x0 > x1) {
-      continue;
-    }
-    left = std::min(left, x0);
-    right = std::max(right, x1 + 1);
-    top = std::min(top, y);
-    bottom = y + 1;
-    const float w_row = w_0 + w_y * fy;
-    for (int x = x0; x <= x1; x += kLanes) {
-      fill_lanes(depth + x, plane + x, x, x1, w_row, w_x, surface);
+  const std::size_t first = static_cast<std::size_t>(y0) * width;
+  float* depth = out.inverse_depth.data() + first;
+  std::uint8_t* plane = out.surface.data() + first;
+  for (int y = y0; y <= y1; y += kLanes) {
+    const Floats fy = floats(Ints{0, 1, 2, 3} + y);
+    Floats low = larger(larger(Floats{} + bound_low, bounds.left[0].at(fy)), bounds.left[1].at(fy));
+    Floats high = smaller(smaller(Floats{} + bound_high, bounds.right[0].at(fy)), bounds.right[1].at(fy));
+    // Rows that miss the triangle stay empty, and near enough to be rounded.
+    low = smaller(low, Floats{} + (bound_high + 1.0F));
+    high = larger(high, Floats{} + (bound_low - 1.0F));
+    const Ints x0 = ceils(low);
+    const Ints x1 = floors(high);
+    const Floats w_row = w_0 + w_y * fy;
+    const int rows = std::min(kLanes, y1 + 1 - y);
+    for (int k = 0; k < rows; ++k, depth += width, plane += width) {
+      int x = x0[k];
+      do {  // at least once, because an empty row is rare and harmless
+        fill_lanes(depth + x, plane + x, x, x1[k], w_row[k], w_x, surface);
+        x += kLanes;
+      } while (x <= x1[k]);
     }
   }
-  out.left = std::min(out.left, left);
-  out.right = std::max(out.right, right);
-  out.top = std::min(out.top, top);
-  out.bottom = std::max(out.bottom, bottom);
 }
 
 }  // namespace
