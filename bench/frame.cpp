@@ -4,44 +4,17 @@
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>
-#include <stdexcept>
-#include <vector>
 
+#include "synthetic_clip.h"
 #include "telemime/pipeline/tracker.h"
-#include "telemime/synth/sequence.h"
 
 namespace telemime {
 namespace {
 
-constexpr int kFrames = 12;
-
-struct Clip {
-  Camera camera;
-  std::vector<Frame> background;
-  std::vector<Frame> frames;
-};
-
-Clip make_clip() {
-  SceneOptions options;
-  options.gesture = Gesture::joy;
-  options.width = 320;
-  options.height = 240;
-  const Scene scene = make_scene(options);
-  Clip clip{scene.camera, {}, {}};
-  for (int i = 0; i < 10; ++i) {
-    clip.background.push_back({render_background(scene, i), i, i / 25.0});
-  }
-  for (int i = 0; i < kFrames; ++i) {
-    clip.frames.push_back({render_frame(scene, i).image, i, i / 25.0});
-  }
-  return clip;
-}
-
-const Clip& clip() {
-  static const Clip made = make_clip();
+const SyntheticClip& clip() {
+  static const SyntheticClip made = make_synthetic_clip();
   return made;
 }
-
 ImageConfig image_config(const benchmark::State& state) {
   ImageConfig config;
   config.width = static_cast<int>(state.range(0));
@@ -64,7 +37,7 @@ void features(benchmark::State& state) {
   }
   std::size_t i = 0;
   for ([[maybe_unused]] const auto step : state) {
-    benchmark::DoNotOptimize(extractor.extract(clip().frames[++i % kFrames]));
+    benchmark::DoNotOptimize(extractor.extract(clip().frames[++i % clip().frames.size()]));
   }
 }
 BENCHMARK(features)->Apply(sizes);
@@ -78,7 +51,7 @@ void whole_frame(benchmark::State& state) {
   Tracker tracker(config, clip().camera);
   tracker.learn_background(clip().background);
   std::size_t i = 0;
-  while (!tracker.calibration() && i < kFrames) {
+  while (!tracker.calibration() && i < clip().frames.size()) {
     tracker.step(clip().frames[i++]);
   }
   if (!tracker.calibration()) {
@@ -86,7 +59,7 @@ void whole_frame(benchmark::State& state) {
     return;
   }
   for ([[maybe_unused]] const auto step : state) {
-    benchmark::DoNotOptimize(tracker.step(clip().frames[++i % kFrames]));
+    benchmark::DoNotOptimize(tracker.step(clip().frames[++i % clip().frames.size()]));
   }
 }
 BENCHMARK(whole_frame)->Name("whole frame, 500 evaluations")->Apply(sizes);
