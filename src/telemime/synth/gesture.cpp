@@ -98,7 +98,7 @@ ActorPose gesture_pose(Gesture gesture, double frame, std::uint64_t seed) {
   const double place = std::fmod(frame, static_cast<double>(kGestureFrames));
 
   ActorPose pose;
-  pose.root = {random.uniform(-0.02, 0.02), random.uniform(0.40, 0.425), random.uniform(1.32, 1.40)};
+  pose.root = {random.uniform(-0.02, 0.02), random.uniform(0.39, 0.41), random.uniform(1.36, 1.42)};
   // Both arms leave the rest late and come back early, never before the pose of rest is due.
   const std::array<double, 2> lag = {random.uniform(0.0, 2.0), random.uniform(0.0, 2.0)};
   const auto small = [&](double size) { return size * Drift(random).at(time); };

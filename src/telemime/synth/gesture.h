@@ -52,7 +52,7 @@ std::span<const GestureKey> gesture_keys(Gesture gesture);
 /// The pose at a (fractional) frame of the 25-fps clip; beyond its end the gesture starts again. Between the
 /// keys each number follows a monotone cubic (Fritsch & Carlson, SIAM J. Numer. Anal. 17, 1980), so that
 /// nothing swings over. `seed` varies it as people do: one arm a little behind the other, small slow drifts
-/// of every joint, where the person sits (within some centimetres of the middle, 1.32 to 1.40 m away).
+/// of every joint, where the person sits (within some centimetres of the middle, 1.36 to 1.42 m away).
 ActorPose gesture_pose(Gesture gesture, double frame, std::uint64_t seed);
 
 }  // namespace telemime

@@ -6,7 +6,7 @@ namespace telemime {
 namespace {
 
 // Directions: outward, up, forward. Then pronation and extension in degrees, curl.
-constexpr GestureArmKey kRest = {{0.41, -0.89, 0.12}, {0.59, -0.26, 0.75}, 55, 0, 0.25};
+constexpr GestureArmKey kRest = {{0.42, -0.90, 0.03}, {0.74, -0.41, 0.38}, 55, 0, 0.32};
 
 constexpr GestureKey both(double frame, const GestureArmKey& arm, double lean, double nod) {
   return {frame, arm, arm, lean, nod};
