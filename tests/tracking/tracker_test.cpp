@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/pipeline/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "support/synthetic_clip.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kPersonFrames = 6;
+
+// Rendered once for all tests of this program.
+const support::SyntheticClip& clip() {
+  static const support::SyntheticClip the_clip = support::synthetic_clip(12, kPersonFrames);
+  return the_clip;
+}
+
+Config quick_config() {
+  Config config;
+  config.image.width = 160;
+  config.image.height = 120;
+  config.registration.iterations = 300;
+  config.calibration.pose_iterations = 300;
+  config.calibration.arms.samples = 150;
+  config.calibration.shape.iterations = 120;
+  config.calibration.rounds = 1;
+  config.tracking.calibration_patience = 0;
+  config.tracking.patience = 2;
+  config.tracking.retry_every = 1;
+  config.tracking.lost_region = 0.6;
+  return config;
+}
+
+Tracker make_tracker(const Config& config) {
+  return {config, clip().camera};
+}
+
+std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& frames) {
+  Tracker tracker = make_tracker(config);
+  tracker.learn_background(clip().background);
+  std::vector<MotionFrame> motion;
+  for (const Frame& frame : frames) {
+    motion.push_back(tracker.step(frame).motion);
+  }
+  return motion;
+}
+
+// The person, then nobody, then the person again; numbered through.
+std::vector<Frame> coming_and_going(int away) {
+  std::vector<Frame> frames = clip().person;
+  for (int i = 0; i < away; ++i) {
+    frames.push_back(clip().background[static_cast<std::size_t>(i) % clip().background.size()]);
+  }
+  for (int i = 0; i < 4; ++i) {
+    frames.push_back(clip().person.back());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].index = static_cast<std::int64_t>(i);
+    frames[i].time = static_cast<double>(i) / support::kClipFps;
+  }
+  return frames;
+}
+
+TEST(Tracker, FollowsThePerson) {
+  const auto motion = track(quick_config(), clip().person);
+  ASSERT_EQ(motion.size(), clip().person.size());
+  const Camera& camera = clip().camera;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const MotionFrame& m = motion[i];
+    EXPECT_EQ(m.state, TrackState::tracking) << i;
+    EXPECT_EQ(m.frame, static_cast<std::int64_t>(i));
+    EXPECT_TRUE(m.pose.vector().allFinite());
+    EXPECT_TRUE(anatomical_limits().contains(m.pose, 1e-6)) << i;
+    EXPECT_GT(m.region_score, 0.0);
+    EXPECT_LT(m.region_score, 0.5);
+    EXPECT_GT(m.evaluations, 50);
+    const JointPositions truth = clip().truth[i];
+    for (const Joint j : {Joint::neck, Joint::head, Joint::l_shoulder, Joint::r_shoulder}) {
+      const auto at = static_cast<std::size_t>(j);
+      EXPECT_LT((m.pixels[at] - camera.project(truth[j])).norm(), 25.0) << kJointNames[at] << " " << i;
+    }
+  }
+}
+
+TEST(Tracker, SpendsItsIterationsAndLittleMore) {
+  const Config config = quick_config();
+  const auto motion = track(config, clip().person);
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    // Two more look at where to start.
+    EXPECT_LE(motion[i].evaluations, config.registration.iterations + 2) << i;
+  }
+}
+
+TEST(Tracker, SameSeedSameMotion) {
+  const std::vector<Frame> frames(clip().person.begin(), clip().person.begin() + 4);
+  const auto a = track(quick_config(), frames);
+  const auto b = track(quick_config(), frames);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a[i].pose.vector(), b[i].pose.vector()) << i;
+    ASSERT_EQ(a[i].region_score, b[i].region_score);
+    ASSERT_EQ(a[i].evaluations, b[i].evaluations);
+    ASSERT_EQ(a[i].state, b[i].state);
+  }
+  Config other = quick_config();
+  other.seed = 2;
+  EXPECT_NE(track(other, frames).back().pose.vector(), a.back().pose.vector()) << "the seed is used";
+}
+
+TEST(Tracker, LosesThePersonAndFindsThemAgain) {
+  const auto frames = coming_and_going(8);
+  Tracker tracker = make_tracker(quick_config());
+  tracker.learn_background(clip().background);
+  std::vector<TrackedFrame> results;
+  for (const Frame& frame : frames) {
+    results.push_back(tracker.step(frame));
+  }
+  const std::size_t gone = kPersonFrames + 7;  // the last frame without the person
+  EXPECT_EQ(results[kPersonFrames - 1].motion.state, TrackState::tracking);
+  EXPECT_EQ(results[gone].motion.state, TrackState::lost);
+  EXPECT_FALSE(results[gone].note.empty()) << "a reason is given";
+  EXPECT_EQ(results.back().motion.state, TrackState::tracking);
+  EXPECT_TRUE(results.back().note.empty());
+  for (const TrackedFrame& r : results) {
+    EXPECT_TRUE(r.motion.pose.vector().allFinite());
+  }
+}
+
+TEST(Tracker, NobodyIsNotTracked) {
+  const std::vector<Frame> empty(clip().background.begin(), clip().background.begin() + 4);
+  for (const MotionFrame& m : track(quick_config(), empty)) {
+    EXPECT_EQ(m.state, TrackState::lost);
+    EXPECT_TRUE(m.pose.vector().allFinite());
+  }
+}
+
+TEST(Tracker, BlackFramesAreNotTracked) {
+  Tracker tracker = make_tracker(quick_config());  // without a background, too
+  for (int i = 0; i < 4; ++i) {
+    const Frame black = {cv::Mat::zeros(240, 320, CV_8UC3), i, i / support::kClipFps};
+    const TrackedFrame result = tracker.step(black);
+    EXPECT_EQ(result.motion.state, TrackState::lost);
+    EXPECT_FALSE(result.note.empty());
+  }
+}
+
+TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
+  Tracker first = make_tracker(quick_config());
+  first.learn_background(clip().background);
+  first.step(clip().person.front());
+  ASSERT_TRUE(first.calibration());
+  Tracker second = make_tracker(quick_config());
+  second.set_calibration(*first.calibration(), first.features().calibration());
+  const TrackedFrame found = second.step(clip().person[1]);
+  EXPECT_EQ(found.motion.state, TrackState::tracking) << found.note;
+  EXPECT_EQ(second.model().body.shape[Segment::l_forearm].length,
+            first.calibration()->shape[Segment::l_forearm].length);
+}
+
+TEST(Tracker, RecalibratesWhenAsked) {
+  Tracker tracker = make_tracker(quick_config());
+  tracker.learn_background(clip().background);
+  tracker.step(clip().person[0]);
+  ASSERT_TRUE(tracker.calibration());
+  tracker.recalibrate();
+  EXPECT_FALSE(tracker.calibration());
+  for (int i = 1; i < kPersonFrames; ++i) {  // it waits for a frame in which the face is looked for
+    tracker.step(clip().person[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_TRUE(tracker.calibration());
+}
+
+}  // namespace
+}  // namespace telemime
