@@ -143,11 +143,13 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
 LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed) {
   constexpr int kAcross = 8;
   constexpr int kDown = 6;
+  constexpr std::size_t kCells = 48;
+  static_assert(kCells == std::size_t{kAcross} * std::size_t{kDown});
   constexpr std::array<float, 3> kMostLocal{0.06F, 0.06F, 0.12F};
   const cv::Size size = model.valid.size();
   // About ten thousand pixels are plenty for 48 medians.
   const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) / 10000)));
-  std::array<std::array<std::vector<float>, 3>, static_cast<std::size_t>(kAcross * kDown)> differences;
+  std::array<std::array<std::vector<float>, 3>, kCells> differences;
   for (int r = step / 2; r < size.height; r += step) {
     for (int c = step / 2; c < size.width; c += step) {
       if (model.valid.at<unsigned char>(r, c) == 0 ||

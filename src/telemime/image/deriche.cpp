@@ -45,7 +45,7 @@ cv::Mat filter_columns(const cv::Mat& in, const Recursion& f) {
   const float feedback = 1 - f.b1 - f.b2;
 
   const float down_gain = (f.a0 + f.a1) / feedback;
-  float* before = state.ptr<float>(0);
+  auto* before = state.ptr<float>(0);
   const auto* first = in.ptr<float>(0);
   for (int c = 0; c < columns; ++c) {
     before[c] = down_gain * first[c];

@@ -174,7 +174,7 @@ void FeatureExtractor::watch_camera(const cv::Mat& grey) {
 }
 
 void FeatureExtractor::update_status(const Pictures& p, const Observation& seen) {
-  const double total = static_cast<double>(seen.labels.total());
+  const auto total = static_cast<double>(seen.labels.total());
   const auto share = [&](Label label) {
     return cv::countNonZero(seen.labels == static_cast<unsigned char>(label)) / total;
   };

@@ -48,6 +48,7 @@ void HeadTracker::anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh)
     face_->match = 1.0;
   }
   patch_ = square_at(grey, face_->centre, face_->side, kPatch);
+  anchored_ = true;
   since_detected_ = 0;
   since_sure_ = 0;
 }
@@ -78,6 +79,7 @@ void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double bl
   if (!face_) {
     face_ = TrackedFace{centre, square.width, false, 1.0};
     misses_ = 1;
+    anchored_ = false;
   } else {
     face_->centre += blend * (centre - face_->centre);
     face_->side += 0.3 * blend * (square.width - face_->side);

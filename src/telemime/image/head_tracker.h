@@ -43,8 +43,10 @@ class HeadTracker {
   /// The track, as of the last call.
   const std::optional<TrackedFace>& current() const { return face_; }
 
-  /// The detector has confirmed the track at its last look.
-  bool confirmed() const { return face_.has_value() && misses_ == 0; }
+  /// The detector has seen this face, at its last look or earlier with a good correlation since.
+  bool confirmed() const {
+    return face_.has_value() && (misses_ == 0 || (anchored_ && face_->match >= config_.lost_match));
+  }
 
   /// Forgets the track.
   void forget() { face_.reset(); }
@@ -57,6 +59,7 @@ class HeadTracker {
   FaceDetector detector_;
   std::optional<TrackedFace> face_;
   cv::Mat patch_;
+  bool anchored_ = false;  ///< the detector has fired on this track
   int since_detected_ = 0;
   int misses_ = 0;  ///< looks of the detector in a row that found nothing
   int since_sure_ = 0;

@@ -90,7 +90,7 @@ class Robust : public Subtractor {
     constexpr float kAnything = 3.0F;
     LogColour colour = log_colour(bgr);
     subtract(colour, estimate_gain(model_, colour, believed_));
-    const cv::Mat mask = cleaned(background_energy(model_, colour, ShadowRange{}, {}).energy > kAnything);
+    cv::Mat mask = cleaned(background_energy(model_, colour, ShadowRange{}, {}).energy > kAnything);
     cv::Mat grown;
     cv::dilate(mask, grown, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(7, 7)));
     cv::bitwise_not(grown, believed_);
