@@ -245,9 +245,7 @@ void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::ve
   const auto height = static_cast<float>(rendering.height);
   out.clear();
   for (const MeshEdge& edge : mesh.edges) {
-    const int front = rendering.facing[edge.triangle[0]];
-    const int back = rendering.facing[edge.triangle[1]];
-    if (front * back != -1) {
+    if (rendering.facing[edge.triangle[0]] * rendering.facing[edge.triangle[1]] != -1) {
       continue;
     }
     const Eigen::Vector3f& a = rendering.projected[edge.vertex[0]];

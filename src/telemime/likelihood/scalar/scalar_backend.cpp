@@ -37,7 +37,7 @@ ByteCounts count_bytes(const std::uint8_t* surface, const std::uint8_t* label, i
 void count_overlap(const PreparedFrame& frame, const Rendering& rendering, Reductions& r) {
   r.observed = frame.observed;
   for (int y = rendering.top; y < rendering.bottom; ++y) {
-    const std::uint8_t* label = frame.labels.ptr<std::uint8_t>(y);
+    const auto* label = frame.labels.ptr<std::uint8_t>(y);
     const std::uint8_t* surface =
         rendering.surface.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(rendering.width);
     constexpr int kMost = 255;
