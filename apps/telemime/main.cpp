@@ -7,9 +7,12 @@
 #include <iostream>
 
 #include "bench_command.h"
+#include "calibrate_command.h"
+#include "config_command.h"
 #include "evaluate_command.h"
 #include "exit_codes.h"
 #include "experiments_command.h"
+#include "synth_command.h"
 #include "telemime/capture/quiet.h"
 #include "track_command.h"
 #include "tune_command.h"
@@ -20,10 +23,13 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", TELEMIME_VERSION);
   telemime::add_track_command(app);
+  telemime::add_calibrate_command(app);
   telemime::add_evaluate_command(app);
+  telemime::add_synth_command(app);
   telemime::add_tune_command(app);
   telemime::add_bench_command(app);
   telemime::add_experiments_command(app);
+  telemime::add_config_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -4,12 +4,10 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <array>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include "telemime/core/errors.h"
 #include "telemime/experiments/report.h"
 #include "telemime/registration/budget.h"
 #include "thread_clock.h"
@@ -23,27 +21,9 @@ struct TuneArguments {
   double budget_ms = 10.0;
 };
 
-// The fitted coefficients: given, or beside the sources, or installed beside the program.
-std::filesystem::path fit_file(const std::string& given) {
-  if (!given.empty()) {
-    return given;
-  }
-  std::error_code failure;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe", failure).parent_path();
-  const std::array<std::filesystem::path, 4> places = {
-      "data/budget.json", program / "../share/telemime/budget.json", program / "../data/budget.json",
-      program / "../../data/budget.json"};
-  for (const auto& place : places) {
-    if (std::filesystem::exists(place)) {
-      return place;
-    }
-  }
-  throw Error(ErrorKind::config, "data/budget.json was not found", "Give it with --fit FILE.");
-}
-
 void run_tune(const TuneArguments& arguments) {
-  Tuning tuning = read_tuning(fit_file(arguments.fit));
-  tuning.costs.clear();
+  Tuning tuning;
+  tuning.fit = arguments.fit.empty() ? default_fit() : read_tuning(arguments.fit).fit;
   const Model model = make_model(Shape{});
   const auto backend = make_scalar_backend();
   Table table{"", {"size", "F us", "D_C us", "region iterations", "edge iterations"}, {}};
@@ -76,7 +56,7 @@ void add_tune_command(CLI::App& app) {
   command->add_option("--budget", arguments->budget_ms, "search time a frame, ms")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e5));
-  command->add_option("--fit", arguments->fit, "file of fitted coefficients [data/budget.json]");
+  command->add_option("--fit", arguments->fit, "file of fitted coefficients [those of data/budget.json]");
   command->callback([arguments] { run_tune(*arguments); });
 }
 

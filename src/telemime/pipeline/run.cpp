@@ -9,6 +9,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/pipeline/overlay.h"
+#include "telemime/pipeline/person_file.h"
 #include "telemime/pipeline/run_outputs.h"
 #include "telemime/pipeline/scene.h"
 
@@ -176,40 +177,91 @@ class Run {
   nlohmann::json notes_ = nlohmann::json::array();
 };
 
-}  // namespace
-
-Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view) {
-  if (file.empty()) {
-    return camera_from_field_of_view(info.width, info.height, field_of_view);
-  }
-  const Camera camera = load_camera(file);
+// The camera scaled to the input's size; another aspect ratio cannot be the same camera's.
+Camera fitting(const Camera& camera, const SourceInfo& info) {
   const double aspect =
       static_cast<double>(camera.width) * info.height / (static_cast<double>(camera.height) * info.width);
   if (std::abs(aspect - 1.0) > 0.02) {
     throw Error(ErrorKind::config,
-                "the camera file is for " + std::to_string(camera.width) + "x" +
-                    std::to_string(camera.height) + " and the input has " + std::to_string(info.width) + "x" +
-                    std::to_string(info.height) + " pixels",
-                "Calibrate the camera at the input's aspect ratio, or use --fov.");
+                "the camera is for " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
+                    " and the input has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
+                    " pixels",
+                "Calibrate at the input's aspect ratio, or use --fov.");
   }
   return camera.scaled_to(info.width, info.height);
 }
 
-TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
-  const auto source = open_source(request.input);
-  const SourceInfo& info = source->info();
-  Tracker tracker(request.config, camera_for(info, request.camera, request.config.field_of_view));
-  Footage scene = learn_scene(request, info, *source, tracker);
+}  // namespace
+
+Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view) {
+  return file.empty() ? camera_from_field_of_view(info.width, info.height, field_of_view)
+                      : fitting(load_camera(file), info);
+}
+
+namespace {
+
+// The tracker of an input, with what the scene or a calibration file teaches it.
+struct Prepared {
+  std::unique_ptr<Source> source;
+  std::unique_ptr<Tracker> tracker;
+  Footage scene;
+};
+
+Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
+  Prepared p;
+  p.source = open_source(request.input);
+  const SourceInfo& info = p.source->info();
+  if (request.calibration.empty()) {
+    p.tracker = std::make_unique<Tracker>(request.config,
+                                          camera_for(info, request.camera, request.config.field_of_view));
+    p.scene = learn_scene(request, info, *p.source, *p.tracker);
+  } else {
+    const PersonFile person = load_person(request.calibration);
+    p.tracker = std::make_unique<Tracker>(request.config, fitting(person.camera, info));
+    p.tracker->set_calibration(person.person, person.image);
+    p.scene.messages.push_back("person and background: " + request.calibration);
+  }
   if (hooks.message) {
-    for (const std::string& words : scene.messages) {
+    for (const std::string& words : p.scene.messages) {
       hooks.message(words);
     }
   }
-  Run run(request, hooks, info, tracker);
+  return p;
+}
+
+}  // namespace
+
+TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& hooks,
+                                 const std::filesystem::path& file) {
+  Prepared p = prepare_run(request, hooks);
+  std::string reason = "the input holds no frame that can be read";
+  std::int64_t frames = 0;
+  while (request.most_frames == 0 || frames < request.most_frames) {
+    const auto frame = p.scene.next(*p.source);
+    if (!frame) {
+      break;
+    }
+    ++frames;
+    const TrackedFrame result = p.tracker->step(*frame);
+    if (p.tracker->calibration()) {
+      save_person({*p.tracker->calibration(), p.tracker->camera(), p.tracker->features().calibration()},
+                  file);
+      return *p.tracker->calibration();
+    }
+    reason = result.note.empty() ? reason : result.note;
+  }
+  throw Error(ErrorKind::tracking, "no frame of " + request.input + " could be used to calibrate: " + reason,
+              "Face the camera with the arms a little apart from the body.");
+}
+
+TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
+  Prepared prepared = prepare_run(request, hooks);
+  Tracker& tracker = *prepared.tracker;
+  Run run(request, hooks, prepared.source->info(), tracker);
   bool interrupted = false;
   std::int64_t frames = 0;
   while (request.most_frames == 0 || frames < request.most_frames) {
-    const std::optional<Frame> frame = scene.next(*source);
+    const std::optional<Frame> frame = prepared.scene.next(*prepared.source);
     if (!frame) {
       break;
     }
@@ -224,9 +276,10 @@ TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
     }
   }
   if (frames == 0) {
-    throw Error(ErrorKind::input, request.input + " holds no frame that can be read", source->complaint());
+    throw Error(ErrorKind::input, request.input + " holds no frame that can be read",
+                prepared.source->complaint());
   }
-  return run.finish(interrupted, source->complaint(), scene.messages);
+  return run.finish(interrupted, prepared.source->complaint(), prepared.scene.messages);
 }
 
 }  // namespace telemime

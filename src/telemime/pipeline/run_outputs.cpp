@@ -42,6 +42,12 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
 
 RunOutputs::RunOutputs(const TrackRequest& request, double fps)
     : folder_(request.out), formats_(request.formats), options_(request.output_options), fps_(fps) {
+  for (const std::string& name : formats_) {
+    output_format(name);  // throws for one that there is not
+  }
+  for (const OutputFormat& format : kOutputFormats) {
+    format.make(options_);  // and for options that it cannot use
+  }
   std::error_code failure;
   std::filesystem::create_directories(folder_, failure);
   if (failure) {

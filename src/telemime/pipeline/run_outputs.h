@@ -15,7 +15,7 @@ namespace telemime {
 /// The files of one run: the encoders' and the overlay video.
 class RunOutputs {
  public:
-  /// Makes the folder. Throws Error(output).
+  /// Makes the folder. Throws Error(usage) for a format or an option that there is not, Error(output).
   RunOutputs(const TrackRequest& request, double fps);
 
   /// Opens the encoders' files: the head of each holds the person's shape, so this waits until it is known.

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace telemime {
+
+/// Adds `telemime config`: prints every setting with its default.
+void add_config_command(CLI::App& app);
+
+}  // namespace telemime
