@@ -13,9 +13,9 @@
 namespace telemime {
 
 /// A frame counts as mistracked with F or D_C above these (thesis 3.6.1: a "peak"); fixed for the dev
-/// sequences at 160x120, where a pose that a person would accept has F about 0.25 and D_C about 1.5.
+/// sequences at 160x120, where a pose that a person would accept has F of 0.1 to 0.2 and D_C of 1 to 2.
 struct PeakThresholds {
-  double region = 0.40;
+  double region = 0.30;
   double contour = 2.5;  ///< px at 160x120
 };
 

@@ -145,6 +145,7 @@ Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig&
     trace.contour.push_back(found.score.contour);
     trace.error_2d.push_back(errors.error_2d);
     trace.error_3d.push_back(errors.error_3d);
+    trace.evaluations.push_back(found.region_evaluations + found.edge_evaluations);
   }
   return trace;
 }

@@ -47,6 +47,7 @@ struct Trace {
   std::vector<double> contour;   ///< D_C, px of the working image
   std::vector<double> error_2d;  ///< mm at the person's depth, elbows and wrists (thesis 3.18)
   std::vector<double> error_3d;  ///< mm, mid-shoulders coincide, elbows and wrists (thesis 3.16)
+  std::vector<double> evaluations;
 };
 
 /// Mean of the finite values; NaN of none.

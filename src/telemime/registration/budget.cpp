@@ -56,6 +56,12 @@ QuadraticFit fit_from_json(const Json& json) {
 
 }  // namespace
 
+QuadraticFit default_fit() {
+  return {
+#include "budget_fit.inc"
+  };
+}
+
 QuadraticFit fit_quadratic(std::span<const ErrorSample> samples) {
   QuadraticFit fit;
   fit.limit = 0.0;

@@ -24,6 +24,9 @@ struct QuadraticFit {
   }
 };
 
+/// The fit to the 2-D errors of the four gestures (data/budget.json, thesis Figure 3-28).
+QuadraticFit default_fit();
+
 /// One measurement: the error after x region and y edge evaluations.
 struct ErrorSample {
   double x = 0.0;
@@ -77,7 +80,7 @@ struct Tuning {
   EvaluationCost cost_at(int width, int height) const;
 };
 
-/// Reads a file of write_tuning(), or data/budget.json, which has a fit only. Throws Error(config) that names
+/// Reads the text of tuning_json() or data/budget.json, which has a fit only. Throws Error(config) that names
 /// the file and what is wrong.
 Tuning read_tuning(const std::filesystem::path& file);
 

@@ -178,6 +178,16 @@ TEST_F(TuningFile, SaysWhatIsWrong) {
   EXPECT_THROW(Tuning{}.cost_at(160, 120), Error);
 }
 
+TEST(DefaultFit, IsTheOneInTheDataFolder) {
+  const Tuning file = read_tuning(std::string(TELEMIME_SOURCE_DIR) + "/data/budget.json");
+  const QuadraticFit fit = default_fit();
+  EXPECT_EQ(fit.a, file.fit.a);
+  EXPECT_EQ(fit.g, file.fit.g);
+  EXPECT_EQ(fit.limit, file.fit.limit);
+  // More search must pay, or there would be nothing to split.
+  EXPECT_LT(fit(200.0, 0.0), fit(0.0, 0.0));
+}
+
 TEST(MeasureCost, DividesTheClockByTheEvaluations) {
   const Model model = make_model(Shape{});
   const auto backend = make_scalar_backend();
