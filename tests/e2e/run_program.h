@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace telemime::e2e {
+
+/// How a run of the program ended.
+struct Ended {
+  int code = -1;       ///< exit code; -1 when a signal ended it
+  std::string output;  ///< standard output
+  std::string words;   ///< standard error
+};
+
+/// The program, started and not yet waited for.
+class Program {
+ public:
+  explicit Program(const std::vector<std::string>& arguments);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  void signal(int number) const;
+  bool running();
+  Ended wait();
+
+ private:
+  std::filesystem::path folder_;  ///< of its standard output and error
+  pid_t process_ = -1;
+  int status_ = 0;
+};
+
+Ended run(const std::vector<std::string>& arguments);
+
+/// A new empty folder that goes away with its content.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string bytes_of(const std::filesystem::path& file);
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+
+/// A folder of numbered PNG pictures of a person who gestures before a wall, and one of the wall alone; made
+/// once.
+const std::string& person_clip();
+const std::string& wall_clip();
+inline constexpr int kPersonFrames = 10;
+
+/// A Motion JPEG video of grey pictures.
+void write_grey_video(const std::string& file, int frames, int level);
+
+}  // namespace telemime::e2e
