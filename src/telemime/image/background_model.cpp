@@ -147,8 +147,9 @@ LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, 
   static_assert(kCells == std::size_t{kAcross} * std::size_t{kDown});
   constexpr std::array<float, 3> kMostLocal{0.06F, 0.06F, 0.12F};
   const cv::Size size = model.valid.size();
-  // About ten thousand pixels are plenty for 48 medians.
-  const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) / 10000)));
+  // About five thousand pixels are plenty for 48 medians.
+  const int step =
+      std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(size.area()) / 5000))));
   std::array<std::array<std::vector<float>, 3>, kCells> differences;
   for (int r = step / 2; r < size.height; r += step) {
     for (int c = step / 2; c < size.width; c += step) {
