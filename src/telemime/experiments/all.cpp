@@ -25,21 +25,25 @@ Section run_experiment(const Experiment& experiment, Lab& lab) {
 }
 
 std::vector<std::string> conditions(const LabOptions& options) {
-  std::vector<std::string> lines = {
-      "Sequences: raising_arms, joy, exclaiming, asking from " + options.data.filename().string() +
-          ", working image 160x120, seed " + std::to_string(options.seed) + ".",
+  std::vector<std::string> lines;
+  lines.push_back("Sequences: raising_arms, joy, exclaiming, asking from " +
+                  options.data.filename().string() + ", working image 160x120, seed " +
+                  std::to_string(options.seed) + ".");
+  lines.emplace_back(
       "The search is the thesis's own (one downhill simplex over all 23 numbers, F then D_C, no prior, each "
       "frame from the pose of the one before), unless a line says 'ours'. Features, joint limits (the "
-      "anatomical set), calibration of build and first pose are ours in both.",
+      "anatomical set), calibration of build and first pose are ours in both.");
+  lines.emplace_back(
       "3-D errors are of elbows and wrists with the mid-shoulders made to coincide; 2-D errors are of the "
       "same "
       "joints in the image, in mm at the person's depth. The scale is that of an average head: no height is "
-      "given.",
-      "A frame is mistracked above F " + number(options.peaks.region) + " or D_C " +
-          number(options.peaks.contour) + " px.",
+      "given.");
+  lines.push_back("A frame is mistracked above F " + number(options.peaks.region) + " or D_C " +
+                  number(options.peaks.contour) + " px.");
+  lines.emplace_back(
       "The thesis's robustness figures are of six films of real people, ours of the four gestures: shapes of "
-      "curves can be compared, heights cannot.",
-      "Times are computing time of one thread, median of several repeats."};
+      "curves can be compared, heights cannot.");
+  lines.emplace_back("Times are computing time of one thread, median of several repeats.");
   if (options.quick) {
     lines.emplace_back(
         "QUICK RUN: 24 frames of each sequence, coarse grids. It shows that everything works; the numbers "

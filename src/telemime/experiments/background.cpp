@@ -69,7 +69,7 @@ Finding background_in_light(Lab& lab) {
   for (int row = 0; row < 2; ++row) {
     svg += mask_svg(clip.truth[static_cast<std::size_t>(shown[row])], 8, 24 + 136 * row);
   }
-  svg += words_at(8, 16, "truth; above: before, below: after");
+  svg += words_at(8, 16, "truth, before and after");
   double after[4] = {};
   double before[4] = {};
   for (std::size_t m = 0; m < kMethods.size(); ++m) {

@@ -87,6 +87,11 @@ struct Extent {
   }
 };
 
+std::string stroke_of(std::size_t i) {
+  return "stroke-width=\"1.6\" stroke=\"" + std::string(kColours[i % kColours.size()]) +
+         "\" stroke-dasharray=\"" + kDashes[i % kDashes.size()] + "\"";
+}
+
 void require_sizes(bool match) {
   if (!match) {
     throw Error(ErrorKind::usage, "a plot's x and y must have as many numbers as its values");
@@ -95,15 +100,13 @@ void require_sizes(bool match) {
 
 // Where each point of a series is; runs of finite points become one line each.
 template <typename AtX, typename AtY>
-std::string polyline(const Series& series, std::size_t style, const AtX& at_x, const AtY& at_y) {
+std::string polyline(const Series& series, const std::string& stroke, const AtX& at_x, const AtY& at_y) {
   require_sizes(series.x.size() == series.y.size());
   std::string lines;
   std::string points;
   const auto flush = [&] {
     if (!points.empty()) {
-      lines += "<polyline fill=\"none\" stroke-width=\"1.6\" stroke=\"" +
-               std::string(kColours[style % kColours.size()]) + "\" stroke-dasharray=\"" +
-               kDashes[style % kDashes.size()] + "\" points=\"" + points + "\"/>\n";
+      lines += "<polyline fill=\"none\" " + stroke + " points=\"" + points + "\"/>\n";
       points.clear();
     }
   };
@@ -126,7 +129,7 @@ std::string legend(const std::vector<Series>& series, double x, double y) {
     const double row = y + 16.0 * static_cast<double>(i);
     const Series sample{"", {0.0, 1.0}, {0.0, 0.0}};
     svg += polyline(
-        sample, i, [x](double t) { return x + 26.0 * t; }, [row](double) { return row - 4.0; });
+        sample, stroke_of(i), [x](double t) { return x + 26.0 * t; }, [row](double) { return row - 4.0; });
     svg += text_at(x + 32.0, row, series[i].name);
   }
   return svg;
@@ -174,7 +177,7 @@ std::vector<double> round_ticks(double low, double high, int most) {
   }
   std::vector<double> ticks;
   for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1.0) {
-    ticks.push_back(k * step);
+    ticks.push_back(k * step + 0.0);  // no -0
   }
   return ticks;
 }
@@ -208,7 +211,7 @@ std::string to_svg(const LinePlot& plot) {
   svg += rule(kLeft, kBottom, kRight, kBottom, "#444444") + rule(kLeft, kTop, kLeft, kBottom, "#444444");
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     svg += polyline(
-        plot.series[i], i, [&](double v) { return x.at(v); }, [&](double v) { return y.at(v); });
+        plot.series[i], stroke_of(i), [&](double v) { return x.at(v); }, [&](double v) { return y.at(v); });
   }
   return svg + legend(plot.series, kLeft + 12, kTop + 14) + "</svg>\n";
 }
@@ -247,9 +250,10 @@ std::string to_svg(const HeatMap& map) {
     svg += text_at(kLeft - 6, kBottom - h * (static_cast<double>(r) + 0.5) + 4, number(map.y[r]),
                    "text-anchor=\"end\"");
   }
-  for (std::size_t i = 0; i < map.lines.size(); ++i) {
+  for (const Series& line : map.lines) {
     svg += polyline(
-        map.lines[i], i + 4, [&](double v) { return kLeft + w * cell_position(map.x, v); },
+        line, "stroke-width=\"2\" stroke=\"black\"",
+        [&](double v) { return kLeft + w * cell_position(map.x, v); },
         [&](double v) { return kBottom - h * cell_position(map.y, v); });
   }
   for (int i = 0; i < 32; ++i) {

@@ -34,6 +34,7 @@ TEST(LinePlotSvg, DrawsOneLineForEachRunOfFinitePoints) {
   // Two pieces of a, one of b, and a sample of each in the legend.
   EXPECT_EQ(count(svg, "<polyline"), 5U);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find(">-0<"), std::string::npos);
   EXPECT_EQ(svg.rfind("<svg", 0), 0U);
 }
 
