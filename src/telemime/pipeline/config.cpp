@@ -144,7 +144,8 @@ void read(std::optional<double>& to, const Json& from) {
 
 void collect_leaves(const Json& json, const std::string& path, std::vector<std::string>& leaves) {
   for (const auto& [key, value] : json.items()) {
-    const std::string here = path.empty() ? key : path + "/" + key;
+    std::string here = path;
+    here.append(path.empty() ? "" : "/").append(key);
     if (value.is_object() && value.empty()) {
       leaves.push_back(here + "/");  // a group from which nothing is set
     } else if (value.is_object()) {

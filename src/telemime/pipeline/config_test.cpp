@@ -28,7 +28,7 @@ std::string refusal(Action action) {
 
 std::string refusal_of(const Json& json) {
   Config config;
-  const std::string words = refusal([&] { update_from_json(config, json); });
+  std::string words = refusal([&] { update_from_json(config, json); });
   EXPECT_EQ(to_json(config), to_json(Config{})) << "unchanged after a refusal";
   return words;
 }
@@ -206,7 +206,7 @@ class ConfigFile : public ::testing::Test {
   }
   ~ConfigFile() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& bytes) const {
-    const auto file = folder_ / "config.json";
+    auto file = folder_ / "config.json";
     std::ofstream(file) << bytes;
     return file;
   }

@@ -153,9 +153,11 @@ class Run {
     waiting_.clear();
   }
 
-  // Each reason once, with the frame at which it came up first.
+  // Each reason once, whatever its numbers, with the frame at which it came up first.
   void tell(const std::string& note) {
-    if (note.empty() || !told_.insert(note).second) {
+    std::string kind = note;
+    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+    if (note.empty() || !told_.insert(kind).second) {
       return;
     }
     notes_.push_back({{"frame", statistics_.frames}, {"note", note}});

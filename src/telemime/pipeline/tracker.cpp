@@ -108,7 +108,7 @@ TrackedFrame Tracker::step(const Frame& frame) {
     const PreparedFrame prepared = prepare(result.observation, working_camera_);
     if (phase_ == Phase::tracking) {
       follow(prepared, result);
-    } else if (--frames_until_search_ <= 0) {
+    } else if (++waited_; --frames_until_search_ <= 0) {
       search(prepared, result.observation, result);
     }
   }
@@ -121,21 +121,23 @@ TrackedFrame Tracker::step(const Frame& frame) {
 
 void Tracker::search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result) {
   if (!observation.head) {
+    waited_ = 0;
     lose("no head is seen", result);
     return;
   }
   if (!calibration_) {
+    // Somebody in profile has a head, too, but no shape that could be fitted.
     if (!observation.head->detected && !face_just_seen_) {
       lose("waiting for a face that looks at the camera", result);
+      frames_until_search_ = 1;
       return;
     }
     const Calibration fit = calibrate(*backend_, prepared, *observation.head, limits_, config_.calibration,
                                       config_.registration, random_);
     result.motion.evaluations += fit.evaluations;
-    if (!fit.refusal.empty() && waited_ < config_.tracking.calibration_patience) {
-      ++waited_;
+    const bool patient = waited_ < config_.tracking.calibration_patience;
+    if (fit.score.region > config_.tracking.found_region || (!fit.refusal.empty() && patient)) {
       lose("waiting for a better first frame: " + fit.refusal, result);
-      frames_until_search_ = 1;
       return;
     }
     calibration_ = TrackerCalibration{fit.shape, scale_words(config_.calibration), fit.refusal, fit.score};

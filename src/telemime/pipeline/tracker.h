@@ -83,7 +83,7 @@ class Tracker {
   bool face_just_seen_ = false;  ///< the person's colours were learned in this frame
   int bad_frames_ = 0;
   int frames_until_search_ = 0;
-  int waited_ = 0;
+  int waited_ = 0;  ///< frames since a head came into the picture
 };
 
 /// Fills joints and pixels of a frame from its pose.
