@@ -56,6 +56,7 @@ Program::Program(const std::vector<std::string>& arguments) : folder_(new_folder
   std::vector<std::string> words = {TELEMIME_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) {
     argv.push_back(word.data());
   }

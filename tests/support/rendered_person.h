@@ -23,7 +23,9 @@ inline constexpr double kDistanceCap = 20.0;  ///< px at 160 columns
 inline cv::Mat edges_of(const Rendering& r) {
   constexpr float kJump = 0.015F;
   cv::Mat edges = cv::Mat::zeros(r.height, r.width, CV_8UC1);
-  const auto at = [&](int x, int y) { return static_cast<std::size_t>(y * r.width + x); };
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(r.width) + static_cast<std::size_t>(x);
+  };
   const auto differ = [&](std::size_t a, std::size_t b) {
     if (r.surface[a] != r.surface[b]) {
       return true;

@@ -33,7 +33,8 @@ double depth_step_near(const Rendering& r, int x, int y, int reach) {
   float high = 0.0F;
   for (int v = std::max(0, y - reach); v <= std::min(r.height - 1, y + reach); ++v) {
     for (int u = std::max(0, x - reach); u <= std::min(r.width - 1, x + reach); ++u) {
-      const float w = r.inverse_depth[static_cast<std::size_t>(v * r.width + u)];
+      const float w = r.inverse_depth[static_cast<std::size_t>(v) * static_cast<std::size_t>(r.width) +
+                                      static_cast<std::size_t>(u)];
       if (w == 0.0F) {
         return 99.0;
       }
@@ -73,7 +74,8 @@ TEST(Contour, RunsAlongTheWholeOutline) {
   const Seen seen = see(body, pose, camera);
   const Rendering& r = seen.rendering;
   const auto covered = [&](int x, int y) {
-    return r.surface[static_cast<std::size_t>(y * r.width + x)] != 0;
+    return r.surface[static_cast<std::size_t>(y) * static_cast<std::size_t>(r.width) +
+                     static_cast<std::size_t>(x)] != 0;
   };
   int outline = 0;
   int missed = 0;

@@ -170,7 +170,7 @@ TEST(Renderer, AgreesWithTheDefinition) {
           }
         }
         seen += surface != 0 ? 1 : 0;
-        const float depth = out.inverse_depth[static_cast<std::size_t>(y * 80 + x)];
+        const float depth = out.inverse_depth[static_cast<std::size_t>(y) * 80 + static_cast<std::size_t>(x)];
         different += surface != at(out, x, y) || std::abs(depth - nearest) > 1e-4 ? 1 : 0;
       }
     }
@@ -207,7 +207,7 @@ TEST(Renderer, BackOfASurfaceIsNotSeen) {
   scene.kinematics.camera_from_segment[0].linear() = Eigen::Vector3d(-1, 1, -1).asDiagonal();
   Rendering out;
   render(scene.mesh, scene.kinematics, small_camera(), out);
-  EXPECT_EQ(count(out, 0), 160 * 120);
+  EXPECT_EQ(count(out, 0), pixels_of(out));
 }
 
 TEST(Renderer, BodyOutOfSightLeavesThePlanesEmpty) {
@@ -220,7 +220,7 @@ TEST(Renderer, BodyOutOfSightLeavesThePlanesEmpty) {
     Rendering out;
     const BodyMesh mesh = make_mesh(body);
     render(mesh, forward_kinematics(body, pose), small_camera(), out);
-    EXPECT_EQ(count(out, 0), 160 * 120) << place.transpose();
+    EXPECT_EQ(count(out, 0), pixels_of(out)) << place.transpose();
     std::vector<Eigen::Vector2f> contour = {{1, 1}};
     occluding_contour(mesh, out, contour);
     EXPECT_TRUE(contour.empty()) << place.transpose();
@@ -238,7 +238,7 @@ TEST(Renderer, BodyAtTheBorderIsCutAndStaysInThePlanes) {
     pose.root = place;
     render(mesh, forward_kinematics(body, pose), small_camera(), out);
     // Around the camera itself all that is seen may be too near.
-    EXPECT_TRUE(place.z() < 0.2 || count(out, 0) < 160 * 120) << place.transpose();
+    EXPECT_TRUE(place.z() < 0.2 || count(out, 0) < pixels_of(out)) << place.transpose();
     EXPECT_GE(out.left, 0);
     EXPECT_GE(out.top, 0);
     EXPECT_LE(out.right, 160);
