@@ -152,13 +152,13 @@ LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, 
       std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(size.area()) / 5000))));
   std::array<std::array<std::vector<float>, 3>, kCells> differences;
   for (int r = step / 2; r < size.height; r += step) {
+    const int row_of_cell = r * kDown / size.height * kAcross;
     for (int c = step / 2; c < size.width; c += step) {
       if (model.valid.at<unsigned char>(r, c) == 0 ||
           (!believed.empty() && believed.at<unsigned char>(r, c) == 0)) {
         continue;
       }
-      auto& cell =
-          differences[static_cast<std::size_t>(r * kDown / size.height * kAcross + c * kAcross / size.width)];
+      auto& cell = differences[static_cast<std::size_t>(row_of_cell + c * kAcross / size.width)];
       cell[0].push_back(picture.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
       cell[1].push_back(picture.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
       cell[2].push_back(picture.l.at<float>(r, c) - model.mean.l.at<float>(r, c));

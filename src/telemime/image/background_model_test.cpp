@@ -27,6 +27,7 @@ cv::Mat scene(Random& random, double light = 1.0) {
 
 BackgroundModel learned(Random& random) {
   std::vector<cv::Mat> pictures;
+  pictures.reserve(64);
   for (int i = 0; i < 20; ++i) {
     pictures.push_back(scene(random));
   }

@@ -43,6 +43,7 @@ cv::Mat with_person(cv::Mat image, int x) {
 TEST(StillStretch, IsTheEmptyStartWithoutItsLastFrames) {
   Random random(1);
   std::vector<cv::Mat> clip;
+  clip.reserve(64);
   for (int i = 0; i < 20; ++i) {
     clip.push_back(room(random));
   }
@@ -57,6 +58,7 @@ TEST(StillStretch, IsTheEmptyStartWithoutItsLastFrames) {
 TEST(StillStretch, IsFoundAtTheEndToo) {
   Random random(2);
   std::vector<cv::Mat> clip;
+  clip.reserve(64);
   for (int i = 0; i < 15; ++i) {
     clip.push_back(with_person(room(random), 40 + 5 * i));
   }
@@ -71,6 +73,7 @@ TEST(StillStretch, IsFoundAtTheEndToo) {
 TEST(StillStretch, NoneInAMovingClip) {
   Random random(3);
   std::vector<cv::Mat> clip;
+  clip.reserve(64);
   for (int i = 0; i < 30; ++i) {
     clip.push_back(with_person(room(random), 20 + 4 * i));
   }
@@ -80,6 +83,7 @@ TEST(StillStretch, NoneInAMovingClip) {
 TEST(AroundPerson, APersonWhoMovesUncoversTheRoom) {
   Random random(4);
   std::vector<SceneSample> samples;
+  samples.reserve(64);
   for (int i = 0; i < 12; ++i) {
     const int x = 30 + 9 * i;
     samples.push_back({with_person(room(random), x), head_at(x)});
@@ -94,6 +98,7 @@ TEST(AroundPerson, APersonWhoMovesUncoversTheRoom) {
 TEST(AroundPerson, WhatIsAlwaysCoveredStaysUnknown) {
   Random random(5);
   std::vector<SceneSample> samples;
+  samples.reserve(64);
   for (int i = 0; i < 8; ++i) {
     samples.push_back({with_person(room(random), 80), head_at(80)});
   }

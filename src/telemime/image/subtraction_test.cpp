@@ -31,6 +31,7 @@ cv::Mat scene(Random& random, double light) {
 
 std::vector<cv::Mat> empty_scenes(Random& random) {
   std::vector<cv::Mat> pictures;
+  pictures.reserve(64);
   for (int i = 0; i < 20; ++i) {
     pictures.push_back(scene(random, 1.0));
   }
