@@ -158,7 +158,8 @@ LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, 
           (!believed.empty() && believed.at<unsigned char>(r, c) == 0)) {
         continue;
       }
-      auto& cell = differences[static_cast<std::size_t>(row_of_cell + c * kAcross / size.width)];
+      const int index = row_of_cell + c * kAcross / size.width;
+      auto& cell = differences[static_cast<std::size_t>(index)];
       cell[0].push_back(picture.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
       cell[1].push_back(picture.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
       cell[2].push_back(picture.l.at<float>(r, c) - model.mean.l.at<float>(r, c));
