@@ -11,11 +11,11 @@ std::filesystem::path measurement_data(const std::filesystem::path& given, const
   if (!given.empty()) {
     return given;
   }
-  const std::filesystem::path development = "../shared/data/dev";
+  std::filesystem::path development = "../shared/data/dev";
   if (std::filesystem::exists(development / "joy" / "truth.json")) {
     return development;
   }
-  const std::filesystem::path made = out / "clips";
+  std::filesystem::path made = out / "clips";
   for (const std::string_view name : kGestureNames) {
     if (std::filesystem::exists(made / name / "truth.json")) {
       continue;

@@ -113,7 +113,7 @@ Finding simplex_size(Lab& lab) {
       "The first simplex reaches the factor times each number's typical change from frame to frame. A small "
       "one stays where it is when the arm moves fast; a large one jumps between minima, and needs more "
       "evaluations."};
-  const std::size_t best = static_cast<std::size_t>(std::min_element(mean, mean + 3) - mean);
+  const auto best = static_cast<std::size_t>(std::min_element(mean, mean + 3) - mean);
   finding.verdict =
       verdict({best == 1, mean[0] > mean[1]},
               "the smallest mean F is that of factor " + number(kFactors[best]) + " (" + number(mean[0]) +

@@ -93,7 +93,9 @@ Finding per_gesture(Lab& lab, Measure measure, const std::string& title) {
   finding.tables = {grid_table(lab)};
   for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
     const std::string& name = lab.gestures()[s].name;
-    finding.plots.push_back(heat(lab.grid(), name, title + ", " + name, plane_of(lab.grid(), s, measure)));
+    std::string words = title;
+    words.append(", ").append(name);
+    finding.plots.push_back(heat(lab.grid(), name, words, plane_of(lab.grid(), s, measure)));
   }
   return finding;
 }

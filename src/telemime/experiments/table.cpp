@@ -166,7 +166,8 @@ std::string to_html(const Table& table) {
   const auto line = [&](const std::vector<std::string>& fields, const std::string& tag) {
     html += "<tr>";
     for (const std::string& field : fields) {
-      html += "<" + tag + ">" + escaped(field) + "</" + tag + ">";
+      html.append("<").append(tag).append(">").append(escaped(field));
+      html.append("</").append(tag).append(">");
     }
     html += "</tr>\n";
   };

@@ -87,6 +87,7 @@ std::vector<SizeTime> measure_sizes(Lab& lab) {
   constexpr std::array<std::array<int, 2>, 6> kSizes = {
       {{160, 120}, {256, 256}, {320, 240}, {480, 480}, {512, 512}, {640, 480}}};
   std::vector<SizeTime> times;
+  times.reserve(kSizes.size());
   for (const auto& size : kSizes) {
     times.push_back(measure_size(lab, size[0], size[1]));
   }
