@@ -46,7 +46,7 @@ struct BodyPart {
 /// Parts of a chain follow each other.
 struct Avatar {
   Look look;
-  HeadShape head;
+  AvatarHead head;
   float girth = 1.0f;
   std::vector<BodyPart> parts;
 };

@@ -21,7 +21,7 @@ float bump(float x, float y, float width, float height) {
   return std::exp(-(x * x) / (width * width) - (y * y) / (height * height));
 }
 
-float skull(const HeadShape& head, const Vector3f& p) {
+float skull(const AvatarHead& head, const Vector3f& p) {
   const float cranium = ellipsoid(p - Vector3f(0.0f, 0.060f, 0.004f), {0.0735f * head.width, 0.087f, 0.093f});
   const float jaw = ellipsoid(p - Vector3f(0.0f, -0.008f, 0.036f), {0.0575f * head.width, 0.076f, 0.064f});
   return smooth_union(cranium, jaw, 0.045f);
@@ -29,7 +29,7 @@ float skull(const HeadShape& head, const Vector3f& p) {
 
 }  // namespace
 
-float face_distance(const HeadShape& head, const Vector3f& at) {
+float face_distance(const AvatarHead& head, const Vector3f& at) {
   const Vector3f p(std::abs(at.x()), at.y(), at.z());  // the two halves are alike
   float d = skull(head, p);
   if (d > 0.070f) {
@@ -64,7 +64,7 @@ float face_distance(const HeadShape& head, const Vector3f& at) {
   return smooth_union(d, smooth_intersection(shell, -bowl, 0.004f), 0.006f);
 }
 
-float hair_distance(const HeadShape& head, const Vector3f& at) {
+float hair_distance(const AvatarHead& head, const Vector3f& at) {
   const Vector3f p(std::abs(at.x()), at.y(), at.z());
   const float thick = head.style == HairStyle::cap ? 0.004f : 0.011f;
   float d = ellipsoid(p - Vector3f(0.0f, 0.060f + 0.3f * thick, 0.002f),
