@@ -86,7 +86,9 @@ void draw_top_view(cv::Mat& panel, const MotionFrame& motion, double unit) {
   const auto at = [&](const Eigen::Vector3d& p) {
     return fixed(middle + p.x() * pixels_a_metre, panel.rows * 0.95 - p.z() * pixels_a_metre);
   };
-  for (double ring = 0.5; ring < range + 0.01; ring += 0.5) {
+  const int rings = static_cast<int>(std::floor(range / 0.5 + 0.02));
+  for (int i = 1; i <= rings; ++i) {
+    const double ring = 0.5 * i;
     cv::circle(panel, at(Eigen::Vector3d::Zero()),
                static_cast<int>(ring * pixels_a_metre * (1 << kFractionBits)), kFaint, 1, cv::LINE_AA,
                kFractionBits);

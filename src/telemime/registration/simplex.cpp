@@ -40,6 +40,7 @@ std::vector<Eigen::VectorXd> restart_simplex(const std::vector<Vertex>& simplex,
     return axis_simplex(best, extent.cwiseMax(least), bounds);
   }
   std::vector<Eigen::VectorXd> points;
+  points.reserve(simplex.size());
   for (const Vertex& v : simplex) {
     points.push_back(project(v.point, bounds));
   }

@@ -20,8 +20,8 @@ struct OneEuroOptions {
 struct SmoothingOptions {
   std::string name = "one-euro";            ///< none, recursive, one-euro
   double recursive_coefficient = 0.6;       ///< share of the past, in [0, 1) (thesis 4.30)
-  OneEuroOptions angles = {1.0, 1.5, 1.0};  ///< of joint rotations, speeds in rad/s
-  OneEuroOptions root = {1.0, 5.0, 1.0};    ///< of the translation, speeds in m/s
+  OneEuroOptions angles = {1.0, 4.0, 1.0};  ///< of joint rotations, speeds in rad/s
+  OneEuroOptions root = {1.0, 10.0, 1.0};   ///< of the translation, speeds in m/s
 };
 
 /// Steadies a stream of frames. Rotations are smoothed, not angles, so that nothing happens where angles
