@@ -12,6 +12,7 @@
 #include "telemime/pipeline/person_file.h"
 #include "telemime/pipeline/run_outputs.h"
 #include "telemime/pipeline/scene.h"
+#include "telemime/registration/budget.h"
 
 namespace telemime {
 namespace {
@@ -58,13 +59,13 @@ struct Statistics {
   }
 };
 
-StreamHeader header_of(const TrackRequest& request, const SourceInfo& info, const Tracker& tracker) {
+StreamHeader header_of(const SourceInfo& info, const Tracker& tracker) {
   StreamHeader header;
   header.body = tracker.model().body;
   header.camera = tracker.camera();
   header.fps = info.fps;
   header.limits = tracker.limits();
-  header.config = to_json(request.config);
+  header.config = to_json(tracker.config());
   header.extra = {{"input", info.name}};
   if (tracker.calibration()) {
     header.extra["scale_from"] = tracker.calibration()->scale_from;
@@ -144,7 +145,7 @@ class Run {
 
  private:
   void begin() {
-    const StreamHeader header = header_of(request_, info_, tracker_);
+    const StreamHeader header = header_of(info_, tracker_);
     outputs_.begin(header);
     smoother_ = make_smoother(request_.config.smoothing, header.body, header.camera);
     for (const MotionFrame& motion : waiting_) {
@@ -209,17 +210,39 @@ struct Prepared {
   Footage scene;
 };
 
+// A time budget becomes a number of evaluations by what one costs here and now (thesis 3.6).
+Config with_budget(const Config& config, const Camera& camera) {
+  if (!config.budget_ms) {
+    return config;
+  }
+  const auto backend = make_scalar_backend();
+  Random random(config.seed);
+  const auto seconds = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
+  constexpr int kRepeats = 5;
+  const EvaluationCost cost =
+      measure_cost(*backend, make_model(Shape{}), camera.scaled_to(config.image.width, config.image.height),
+                   kRepeats, random, seconds);
+  const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());
+  Config fixed = config;
+  fixed.registration.iterations = split.total() + 1;  // the last evaluation scores the pose
+  if (!config.registration.blocks) {
+    fixed.registration.region_share = split.region_share();
+  }
+  return fixed;
+}
+
 Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
   Prepared p;
   p.source = open_source(request.input);
   const SourceInfo& info = p.source->info();
   if (request.calibration.empty()) {
-    p.tracker = std::make_unique<Tracker>(request.config,
-                                          camera_for(info, request.camera, request.config.field_of_view));
+    const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
+    p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
     p.scene = learn_scene(request, info, *p.source, *p.tracker);
   } else {
     const PersonFile person = load_person(request.calibration);
-    p.tracker = std::make_unique<Tracker>(request.config, fitting(person.camera, info));
+    const Camera camera = fitting(person.camera, info);
+    p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
     p.tracker->set_calibration(person.person, person.image);
     p.scene.messages.push_back("person and background: " + request.calibration);
   }
