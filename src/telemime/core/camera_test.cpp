@@ -37,7 +37,7 @@ TEST(Camera, RefusesImpossibleFieldsOfView) {
 class CameraFile : public testing::Test {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& text) {
-    const auto file = std::filesystem::path(testing::TempDir()) / ("telemime_camera_" + name);
+    auto file = std::filesystem::path(testing::TempDir()) / ("telemime_camera_" + name);
     std::ofstream(file) << text;
     return file;
   }

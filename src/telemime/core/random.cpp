@@ -18,7 +18,7 @@ std::uint64_t splitmix(std::uint64_t& x) {
 
 }  // namespace
 
-Random::Random(std::uint64_t seed, std::uint64_t stream) : state_{} {
+Random::Random(std::uint64_t seed, std::uint64_t stream) {
   std::uint64_t s = seed;
   std::uint64_t t = stream ^ 0xd1b54a32d192ed03ULL;
   for (auto& word : state_) {
