@@ -40,12 +40,15 @@ function(telemime_room name)
     add_library(telemime_${name} INTERFACE)  # headers only
     add_library(telemime::${name} ALIAS telemime_${name})
     set_target_properties(telemime_${name} PROPERTIES EXPORT_NAME ${name})
+    target_compile_features(telemime_${name} INTERFACE cxx_std_20)
     set_property(GLOBAL APPEND PROPERTY TELEMIME_ROOMS telemime_${name})
     return()
   endif()
   add_library(telemime_${name} STATIC ${sources})
   add_library(telemime::${name} ALIAS telemime_${name})
   set_target_properties(telemime_${name} PROPERTIES EXPORT_NAME ${name})
+  # Public: a user's compiler must take the headers as C++20, too.
+  target_compile_features(telemime_${name} PUBLIC cxx_std_20)
   target_include_directories(telemime_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
                                                      $<INSTALL_INTERFACE:include>)
   target_include_directories(telemime_${name} SYSTEM PUBLIC $<BUILD_INTERFACE:${OpenCV_INCLUDE_DIRS}>)
