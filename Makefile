@@ -36,8 +36,9 @@ bench: deps configure ## run the benchmarks
 experiments: deps build ## run every experiments/*/run: the tables and figures
 	@scripts/experiments.sh
 
-lint: configure ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
-	@scripts/deps.sh check
+lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
+	@scripts/deps.sh build check
+	@cmake --preset lint > /dev/null
 	@scripts/lint.sh $(FILES)
 
 asan: deps ## all but the slow tests under the address and undefined-behaviour sanitizers

@@ -29,6 +29,29 @@ if(TELEMIME_SANITIZE)
   target_compile_options(telemime_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 
+# Precompiled headers are for builds that are made whole; without them the compiler sees missing includes.
+if(TELEMIME_PCH AND TELEMIME_TESTS)
+  set(pch_headers <algorithm> <array> <functional> <memory> <optional> <span> <string> <vector> <Eigen/Dense>
+                  <nlohmann/json.hpp> <opencv2/core.hpp>)
+  file(WRITE "${PROJECT_BINARY_DIR}/pch.cpp" "int main() {}\n")
+  # A library for the rooms, a program for the tests: their code is made for different positions in memory.
+  add_library(telemime_pch_flags STATIC "${PROJECT_BINARY_DIR}/pch.cpp")
+  add_executable(telemime_pch_test_flags "${PROJECT_BINARY_DIR}/pch.cpp")
+  foreach(kind IN ITEMS flags test_flags)
+    target_link_libraries(telemime_pch_${kind} PRIVATE telemime_${kind} Eigen3::Eigen nlohmann_json::nlohmann_json
+                                                       ${OpenCV_LIBS})
+    target_include_directories(telemime_pch_${kind} SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
+  endforeach()
+  target_precompile_headers(telemime_pch_flags PRIVATE ${pch_headers})
+  target_link_libraries(telemime_pch_test_flags PRIVATE GTest::gtest)
+  target_precompile_headers(telemime_pch_test_flags PRIVATE ${pch_headers} <gtest/gtest.h>)
+endif()
+function(telemime_pch target kind)
+  if(TELEMIME_PCH AND TELEMIME_TESTS)
+    target_precompile_headers(${target} REUSE_FROM telemime_pch_${kind})
+  endif()
+endfunction()
+
 function(telemime_room name)
   cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
@@ -56,11 +79,13 @@ function(telemime_room name)
     target_link_libraries(telemime_${name} PUBLIC telemime_${room})
   endforeach()
   target_link_libraries(telemime_${name} PUBLIC ${ROOM_LIBRARIES} PRIVATE $<BUILD_INTERFACE:telemime_flags>)
+  telemime_pch(telemime_${name} flags)
   set_property(GLOBAL APPEND PROPERTY TELEMIME_ROOMS telemime_${name})
 
   if(TELEMIME_TESTS AND tests)
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE telemime_${name} telemime_test_flags GTest::gtest GTest::gtest_main)
+    telemime_pch(${name}_test test_flags)
     target_compile_definitions(${name}_test PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                          PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]")
@@ -79,6 +104,7 @@ function(telemime_test name)
   list(TRANSFORM TEST_ROOMS PREPEND telemime::)
   target_link_libraries(${name}_test PRIVATE ${TEST_ROOMS} ${TEST_LIBRARIES} telemime_test_flags GTest::gtest
                                              GTest::gtest_main)
+  telemime_pch(${name}_test test_flags)
   target_compile_definitions(${name}_test PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "\\[  SKIPPED \\]" ${labels})

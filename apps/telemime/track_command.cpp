@@ -22,7 +22,9 @@ void on_interrupt(int) {
 
 Wish show_window(const Progress& progress) {
   constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
-  cv::imshow(kTitle, *progress.overlay);
+  if (progress.overlay != nullptr) {
+    cv::imshow(kTitle, *progress.overlay);
+  }
   int key = cv::waitKey(1);
   if (key == ' ') {
     do {
@@ -58,6 +60,9 @@ void run(const TrackOptions& options) {
     }
   };
   hooks.progress = [&](const Progress& progress) {
+    if (progress.frame == nullptr) {
+      return interrupt_requested != 0 ? Wish::stop : Wish::go_on;
+    }
     bar.show(progress.frames, progress.total, progress.seconds);
     const Wish wish = options.show ? show_window(progress) : Wish::go_on;
     return interrupt_requested != 0 ? Wish::stop : wish;

@@ -170,6 +170,12 @@ void FeatureExtractor::learn_background(std::span<const Frame> frames) {
 
 void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   calibration_ = std::move(calibration);
+  // The model follows the light: in planes of its own, not in those of whoever gave them.
+  BackgroundModel& scene = calibration_.background;
+  for (cv::Mat* plane : {&scene.mean.u, &scene.mean.v, &scene.mean.l, &scene.chroma_variance,
+                         &scene.luminance_variance, &scene.valid, &scene.seen}) {
+    *plane = plane->clone();
+  }
   if (!calibration_.background.empty() &&
       calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
     throw Error(ErrorKind::config, "the background was learned at another working size",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/smoothing/two_way_smoother.h"
 
 namespace telemime {
 namespace {
@@ -45,6 +46,13 @@ void each_setting(C& c, Visit&& visit) {
   visit("calibration/arm_kept", c.calibration.arms.kept);
   visit("calibration/arm_refine", c.calibration.arms.refine);
   visit("calibration/shape_iterations", c.calibration.shape.iterations);
+  visit("calibration/look_ahead", c.calibration.look_ahead);
+  visit("calibration/keyframes", c.calibration.refine.keyframes);
+  visit("calibration/refine_iterations", c.calibration.refine.pose_iterations);
+  visit("calibration/refine_rounds", c.calibration.refine.rounds);
+  visit("calibration/refine_shapes", c.calibration.refine.shapes);
+  visit("calibration/refine_prior_weight", c.calibration.refine.prior_weight);
+  visit("calibration/refine_natural_weight", c.calibration.refine.natural_weight);
   visit("calibration/share_sides", c.calibration.shape.share_sides);
   visit("calibration/length_spread", c.calibration.shape.length_spread);
   visit("calibration/girth_spread", c.calibration.shape.girth_spread);
@@ -59,6 +67,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("registration/blocks", c.registration.blocks);
   visit("registration/rounds", c.registration.rounds);
   visit("registration/proposals", c.registration.proposals);
+  visit("registration/proposal_refine", c.registration.proposal_refine);
   visit("registration/flips", c.registration.flips);
   visit("registration/tolerance", c.registration.tolerance);
   const auto weights = [&](const std::string& step, auto& w) {
@@ -80,6 +89,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("tracking/calibration_patience", c.tracking.calibration_patience);
   visit("tracking/velocity", c.tracking.velocity);
   visit("smoothing/name", c.smoothing.name);
+  visit("smoothing/look_ahead", c.smoothing.look_ahead);
   visit("smoothing/recursive_coefficient", c.smoothing.recursive_coefficient);
   visit("smoothing/angles/minimum_cutoff", c.smoothing.angles.minimum_cutoff);
   visit("smoothing/angles/slope", c.smoothing.angles.slope);
@@ -172,7 +182,7 @@ void Config::validate() const {
   image.validate();
   calibration.validate();
   registration.validate();
-  make_smoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
+  TwoWaySmoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
   require(field_of_view > 1.0 && field_of_view < 179.0,
           "camera.field_of_view must be between 1 and 179 degrees");
   require(!budget_ms || (*budget_ms > 0.0 && *budget_ms < 1e5), "budget_ms must be above 0 and below 100000");

@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <set>
 
 #include "telemime/core/errors.h"
+#include "telemime/pipeline/look_ahead.h"
 #include "telemime/pipeline/overlay.h"
 #include "telemime/pipeline/person_file.h"
 #include "telemime/pipeline/run_outputs.h"
 #include "telemime/pipeline/scene.h"
 #include "telemime/registration/budget.h"
+#include "telemime/smoothing/two_way_smoother.h"
 
 namespace telemime {
 namespace {
@@ -74,6 +77,12 @@ StreamHeader header_of(const SourceInfo& info, const Tracker& tracker) {
   return header;
 }
 
+// A tracked frame until it is smoothed and can be written.
+struct Waiting {
+  Frame frame;
+  std::string note;
+};
+
 // One run: what is written waits until the person's shape is known, because every file begins with it.
 class Run {
  public:
@@ -89,35 +98,30 @@ class Run {
     if (tracker_.calibration() && !outputs_.begun()) {
       begin();
     }
-    MotionFrame motion = result.motion;
+    statistics_.add(result.motion);
     if (smoother_) {
-      motion = (*smoother_)(motion);
-    }
-    statistics_.add(motion);
-    if (outputs_.begun()) {
-      outputs_.write(motion);
+      waiting_.push_back({frame, result.note});
+      smoother_->push(result.motion);
+      write_ready();
     } else {
-      waiting_.push_back(motion);
-    }
-    cv::Mat overlay;
-    if (request_.overlay || hooks_.draw) {
-      overlay = draw_overlay(frame.image, {&motion, &tracker_.model(), tracker_.camera(), result.note});
-      if (request_.overlay) {
-        outputs_.write_overlay(overlay);
-      }
+      // Nobody was found yet, maybe for a long time: the pictures are not kept.
+      draw({frame, result.note}, result.motion);
+      before_.push_back(result.motion);
     }
     if (!hooks_.progress) {
       return Wish::go_on;
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     return hooks_.progress(
-        {statistics_.frames, info_.frames, seconds, &result, overlay.empty() ? nullptr : &overlay});
+        {statistics_.frames, info_.frames, seconds, &result, overlay_.empty() ? nullptr : &overlay_});
   }
 
   TrackSummary finish(bool interrupted, const std::string& complaint, const nlohmann::json& scene) {
     if (!outputs_.begun()) {
       begin();
     }
+    smoother_->finish();
+    write_ready();
     TrackSummary summary;
     summary.frames = statistics_.frames;
     summary.tracked = statistics_.tracked;
@@ -147,11 +151,33 @@ class Run {
   void begin() {
     const StreamHeader header = header_of(info_, tracker_);
     outputs_.begin(header);
-    smoother_ = make_smoother(request_.config.smoothing, header.body, header.camera);
-    for (const MotionFrame& motion : waiting_) {
+    SmoothingOptions smoothing = request_.config.smoothing;
+    if (info_.live) {
+      smoothing.look_ahead = 0;
+    }
+    smoother_ = std::make_unique<TwoWaySmoother>(smoothing, header.body, header.camera);
+    for (const MotionFrame& motion : before_) {
       outputs_.write(motion);
     }
-    waiting_.clear();
+    before_.clear();
+  }
+
+  void draw(const Waiting& waiting, const MotionFrame& motion) {
+    if (request_.overlay || hooks_.draw) {
+      overlay_ =
+          draw_overlay(waiting.frame.image, {&motion, &tracker_.model(), tracker_.camera(), waiting.note});
+      if (request_.overlay) {
+        outputs_.write_overlay(overlay_);
+      }
+    }
+  }
+
+  void write_ready() {
+    while (const auto motion = smoother_->next()) {
+      outputs_.write(*motion);
+      draw(waiting_.front(), *motion);
+      waiting_.pop_front();
+    }
   }
 
   // Each reason once, whatever its numbers, with the frame at which it came up first.
@@ -173,9 +199,11 @@ class Run {
   Tracker& tracker_;
   Clock::time_point start_ = Clock::now();
   RunOutputs outputs_;
-  std::unique_ptr<Smoother> smoother_;
+  std::unique_ptr<TwoWaySmoother> smoother_;
   Statistics statistics_;
-  std::vector<MotionFrame> waiting_;
+  std::vector<MotionFrame> before_;  // all lost: until the person's shape is known
+  std::deque<Waiting> waiting_;
+  cv::Mat overlay_;  // the last one drawn
   std::set<std::string> told_;
   nlohmann::json notes_ = nlohmann::json::array();
 };
@@ -231,6 +259,24 @@ Config with_budget(const Config& config, const Camera& camera) {
   return fixed;
 }
 
+// Files can be read twice: the person's shape is fitted to many frames before the first one is written.
+std::optional<LookAhead> look_ahead_of(const TrackRequest& request, const RunHooks& hooks,
+                                       const Prepared& p) {
+  if (p.source->info().live || !request.calibration.empty() || request.config.calibration.look_ahead == 0) {
+    return std::nullopt;
+  }
+  const auto again = open_source(request.input);
+  const auto go_on = [&](std::int64_t frame) {
+    return !hooks.progress || hooks.progress({frame + 1, 0, 0.0, nullptr, nullptr}) != Wish::stop;
+  };
+  auto found = look_ahead(*again, p.tracker->config(), p.tracker->camera(),
+                          p.tracker->features().calibration(), request.most_frames, go_on);
+  if (found && hooks.message) {
+    hooks.message("the body was fitted to " + std::to_string(found->frames) + " frames");
+  }
+  return found;
+}
+
 Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
   Prepared p;
   p.source = open_source(request.input);
@@ -259,6 +305,10 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
 TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& hooks,
                                  const std::filesystem::path& file) {
   Prepared p = prepare_run(request, hooks);
+  if (const auto found = look_ahead_of(request, hooks, p)) {
+    save_person({found->start.person, p.tracker->camera(), found->image}, file);
+    return found->start.person;
+  }
   std::string reason = "the input holds no frame that can be read";
   std::int64_t frames = 0;
   while (request.most_frames == 0 || frames < request.most_frames) {
@@ -280,8 +330,12 @@ TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& ho
 }
 
 TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
+  prepare_outputs(request);
   Prepared prepared = prepare_run(request, hooks);
   Tracker& tracker = *prepared.tracker;
+  if (const auto found = look_ahead_of(request, hooks, prepared)) {
+    tracker.start_with(found->start);
+  }
   Run run(request, hooks, prepared.source->info(), tracker);
   bool interrupted = false;
   std::int64_t frames = 0;

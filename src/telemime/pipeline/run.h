@@ -34,10 +34,10 @@ struct TrackRequest {
 /// Where a run stands; handed to the viewer after each frame.
 struct Progress {
   std::int64_t frames = 0;
-  std::int64_t total = 0;  ///< 0: not known
-  double seconds = 0.0;    ///< since the first frame
-  const TrackedFrame* frame = nullptr;
-  const cv::Mat* overlay = nullptr;  ///< null when nobody wants one
+  std::int64_t total = 0;               ///< 0: not known
+  double seconds = 0.0;                 ///< since the first frame
+  const TrackedFrame* frame = nullptr;  ///< null while the program looks ahead to fit the body
+  const cv::Mat* overlay = nullptr;     ///< null when nobody wants one
 };
 
 /// What the viewer may ask for between frames.

@@ -40,22 +40,26 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
   }
 }
 
-RunOutputs::RunOutputs(const TrackRequest& request, double fps)
-    : folder_(request.out), formats_(request.formats), options_(request.output_options), fps_(fps) {
-  for (const std::string& name : formats_) {
+void prepare_outputs(const TrackRequest& request) {
+  for (const std::string& name : request.formats) {
     output_format(name);  // throws for one that there is not
   }
   for (const OutputFormat& format : kOutputFormats) {
-    format.make(options_);  // and for options that it cannot use
+    format.make(request.output_options);  // and for options that it cannot use
   }
   std::error_code failure;
-  std::filesystem::create_directories(folder_, failure);
+  std::filesystem::create_directories(request.out, failure);
   if (failure) {
-    throw cannot_write(folder_, failure.value());
+    throw cannot_write(request.out, failure.value());
   }
-  if (access(folder_.c_str(), W_OK) != 0) {
-    throw cannot_write(folder_, errno);
+  if (access(request.out.c_str(), W_OK) != 0) {
+    throw cannot_write(request.out, errno);
   }
+}
+
+RunOutputs::RunOutputs(const TrackRequest& request, double fps)
+    : folder_(request.out), formats_(request.formats), options_(request.output_options), fps_(fps) {
+  prepare_outputs(request);
 }
 
 void RunOutputs::begin(const StreamHeader& header) {

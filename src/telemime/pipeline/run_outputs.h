@@ -12,10 +12,14 @@
 
 namespace telemime {
 
+/// Makes the folder of the results and sees to it that they can be written there. Throws Error(usage) for a
+/// format or an option that there is not, Error(output).
+void prepare_outputs(const TrackRequest& request);
+
 /// The files of one run: the encoders' and the overlay video.
 class RunOutputs {
  public:
-  /// Makes the folder. Throws Error(usage) for a format or an option that there is not, Error(output).
+  /// Throws as prepare_outputs does.
   RunOutputs(const TrackRequest& request, double fps);
 
   /// Opens the encoders' files: the head of each holds the person's shape, so this waits until it is known.

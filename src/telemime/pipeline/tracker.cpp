@@ -8,6 +8,9 @@
 namespace telemime {
 namespace {
 
+// Frames in a row with a head but no face until the head's outline is taken.
+constexpr int kFaceless = 25;
+
 class Stopwatch {
  public:
   double lap() {
@@ -66,15 +69,20 @@ SceneReport Tracker::bootstrap(std::span<const Frame> clip) {
   return features_.bootstrap(clip);
 }
 
-void Tracker::set_calibration(const TrackerCalibration& calibration, ImageCalibration image) {
+void Tracker::set_scene(const ImageCalibration& scene) {
+  features_.set_calibration(scene);
+}
+
+void Tracker::set_calibration(const TrackerCalibration& calibration, const ImageCalibration& image) {
   calibration_ = calibration;
   model_ = make_model(calibration.shape);
-  features_.set_calibration(std::move(image));
+  features_.set_calibration(image);
   phase_ = Phase::lost;
   frames_until_search_ = 0;
 }
 
 void Tracker::recalibrate() {
+  known_.reset();
   calibration_.reset();
   phase_ = Phase::waiting;
   waited_ = 0;
@@ -82,13 +90,16 @@ void Tracker::recalibrate() {
 }
 
 bool Tracker::person_colours(const Frame& frame, std::string& note) {
-  if (calibration_ || features_.calibration().colours.known()) {
+  // A masked face is never found: after a while the outline of the head must do, and colours that were
+  // learned from somebody still walking are learned again.
+  const bool again = phase_ == Phase::waiting && waited_ > 0 && waited_ % kFaceless == 0;
+  if (calibration_ || (features_.calibration().colours.known() && !again)) {
     return true;
   }
   const PersonReport report = features_.begin_person(frame);
   note = report.reason;
   face_just_seen_ = report.accepted;
-  return report.accepted;
+  return report.accepted || again;
 }
 
 TrackedFrame Tracker::step(const Frame& frame) {
@@ -123,6 +134,15 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
   if (!observation.head) {
     waited_ = 0;
     lose("no head is seen", result);
+    return;
+  }
+  if (known_ && result.motion.frame == known_->frame) {
+    calibration_ = known_->person;
+    model_ = make_model(known_->person.shape);
+    phase_ = Phase::tracking;
+    previous_ = known_->pose;
+    Objective objective(*backend_, prepared, model_, limits_);
+    adopt(known_->pose, objective.score(known_->pose, Reduction::all), result);
     return;
   }
   if (!calibration_) {

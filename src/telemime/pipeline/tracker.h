@@ -25,6 +25,13 @@ struct TrackerCalibration {
   Score score;
 };
 
+/// A person who was calibrated before: where tracking starts, and from which pose.
+struct KnownStart {
+  TrackerCalibration person;
+  std::int64_t frame = 0;
+  Pose pose;  ///< in that frame
+};
+
 /// One frame's result with what a viewer may want to draw.
 struct TrackedFrame {
   MotionFrame motion;       ///< not smoothed
@@ -44,7 +51,11 @@ class Tracker {
   void learn_background(std::span<const Frame> frames);
   /// Learns what it can of the scene from frames of the input itself (FeatureExtractor::bootstrap).
   SceneReport bootstrap(std::span<const Frame> clip);
-  void set_calibration(const TrackerCalibration& calibration, ImageCalibration image);
+  /// Takes over what another tracker of the same input learned of the scene.
+  void set_scene(const ImageCalibration& scene);
+  void set_calibration(const TrackerCalibration& calibration, const ImageCalibration& image);
+  /// Uses this person and pose in that frame instead of calibrating there.
+  void start_with(const KnownStart& start) { known_ = start; }
 
   TrackedFrame step(const Frame& frame);
 
@@ -77,6 +88,7 @@ class Tracker {
   Random random_;
   Model model_;
   std::optional<TrackerCalibration> calibration_;
+  std::optional<KnownStart> known_;
   Phase phase_ = Phase::waiting;
   Pose pose_;
   Pose previous_;

@@ -95,6 +95,11 @@ void CalibrationConfig::validate() const {
           "shape spreads must be positive");
   require(shape.prior_weight >= 0.0 && shape.contour_weight >= 0.0,
           "shape.prior_weight and shape.contour_weight must not be negative");
+  require(look_ahead >= 0 && look_ahead <= 1000, "look_ahead must be between 0 and 1000 frames");
+  require(refine.keyframes >= 1 && refine.keyframes <= 100, "keyframes must be between 1 and 100");
+  require(refine.pose_iterations >= 10 && refine.pose_iterations <= 10000,
+          "refine_iterations must be between 10 and 10000");
+  require(refine.shapes >= 0 && refine.shapes <= 10000, "refine_shapes must be between 0 and 10000");
   require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
   require(worst_region > 0.0 && worst_region <= 1.0, "worst_region must be above 0, at most 1");
 }

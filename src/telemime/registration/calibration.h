@@ -6,7 +6,7 @@
 
 #include "telemime/core/random.h"
 #include "telemime/registration/arm_search.h"
-#include "telemime/registration/shape_fit.h"
+#include "telemime/registration/shape_refine.h"
 #include "telemime/registration/two_step.h"
 
 namespace telemime {
@@ -17,6 +17,8 @@ struct CalibrationConfig {
   double farthest = 5.0;          ///< m, D_max
   ArmSearchConfig arms;
   ShapeFitConfig shape;
+  ShapeRefineConfig refine;
+  int look_ahead = 150;           ///< frames of a file that the shape is fitted to; 0: the first one only
   int rounds = 2;                 ///< of pose alignment and shape adjustment
   int pose_iterations = 800;      ///< evaluations of each pose alignment
   double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image

@@ -21,11 +21,15 @@ double outside_limits(const JointLimits& limits, const Pose& pose) {
   return sum;
 }
 
+// What a joint far from where it was expected costs at most: one that was lost must be able to come back.
+constexpr double kFarthest = 2.0;
+
 double distance_from_expected(const Kinematics& k, const JointPositions& expected) {
   constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
   double sum = 0.0;
   for (const Joint j : kArms) {
-    sum += (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
+    const double way = (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
+    sum += way / (1.0 + way / kFarthest);
   }
   return sum / static_cast<double>(kArms.size());
 }

@@ -17,22 +17,6 @@ double square(double x) {
   return x * x;
 }
 
-// Squared deviation of the logarithms of all scales from the average body.
-double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
-  double sum = 0.0;
-  for (const SegmentScale& s : shape.segments) {
-    sum += square(std::log(s.length) / config.length_spread) +
-           square(std::log(s.height) / config.girth_spread) + square(std::log(s.width) / config.girth_spread);
-  }
-  sum /= static_cast<double>(3 * kSegmentCount);
-  // A nearly straight arm shows its whole length but not where the elbow is: people's proportions decide.
-  sum += square(std::log(shape[Segment::l_upper_arm].length / shape[Segment::l_forearm].length) /
-                config.ratio_spread);
-  sum += square(std::log(shape[Segment::r_upper_arm].length / shape[Segment::r_forearm].length) /
-                config.ratio_spread);
-  return sum;
-}
-
 struct Candidate {
   Shape shape;
   Pose pose;
@@ -125,6 +109,21 @@ Group arms_group(const std::vector<Side>& sides, const JointLimits& limits) {
 }
 
 }  // namespace
+
+double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
+  double sum = 0.0;
+  for (const SegmentScale& s : shape.segments) {
+    sum += square(std::log(s.length) / config.length_spread) +
+           square(std::log(s.height) / config.girth_spread) + square(std::log(s.width) / config.girth_spread);
+  }
+  sum /= static_cast<double>(3 * kSegmentCount);
+  // A nearly straight arm shows its whole length but not where the elbow is: people's proportions decide.
+  sum += square(std::log(shape[Segment::l_upper_arm].length / shape[Segment::l_forearm].length) /
+                config.ratio_spread);
+  sum += square(std::log(shape[Segment::r_upper_arm].length / shape[Segment::r_forearm].length) /
+                config.ratio_spread);
+  return sum;
+}
 
 ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
                    const JointLimits& limits, const ShapeFitConfig& config) {

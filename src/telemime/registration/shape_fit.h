@@ -22,6 +22,9 @@ struct ShapeFit {
   int evaluations = 0;
 };
 
+/// Squared deviation of the logarithms of all scales from the average body, over their spreads.
+double shape_prior(const Shape& shape, const ShapeFitConfig& config);
+
 /// Minimises F (and D_C) over the 24 scales, the sleeve and the trunk's translation, in three groups: trunk,
 /// head, arms (thesis 3.3, "shape adjustment"). One view cannot tell a big body far away from a small one
 /// nearby: the prior keeps proportions human, the stature of `shape` sets the scale. The arms are taken to be

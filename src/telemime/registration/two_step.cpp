@@ -87,14 +87,31 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
-// Arms from elsewhere: depth flips of where the arm is, and random ones. They replace the arm when their cost
-// is lower.
+struct Candidate {
+  Pose pose;
+  double cost = 0.0;
+};
+
+Candidate refine_arm(Objective& objective, const Candidate& from, Side side, const RegistrationConfig& config) {
+  const SearchBlock block =
+      bones_block(objective.model().body, from.pose, side, objective.limits(), config.simplex_factor);
+  SimplexOptions options;
+  options.tolerance = config.tolerance;
+  options.max_evaluations = config.proposal_refine;
+  const SimplexResult found =
+      minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), config.region); },
+               axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
+  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost} : from;
+}
+
+// Arms from elsewhere: depth flips of where the arm is, and random ones. The best of them replaces the arm
+// when its cost is lower, after both had the same short search: an arm that was followed for many frames
+// fits closely even where it is wrong, a random one does not even where it is right.
 Pose propose_arms(Objective& objective, const Pose& start, const RegistrationConfig& config, Random& random) {
-  Pose best = start;
-  double best_cost = objective(start, config.region);
+  Candidate best = {start, objective(start, config.region)};
   const Body& body = objective.model().body;
   for (const Side side : {Side::left, Side::right}) {
-    const Pose from = best;
+    const Pose from = best.pose;
     std::vector<Pose> arms;
     if (config.flips) {
       arms = depth_flips(body, from, side, objective.limits());
@@ -103,15 +120,22 @@ Pose propose_arms(Objective& objective, const Pose& start, const RegistrationCon
       arms.push_back(i % 2 == 0 ? random_forearm(body, from, side, objective.limits(), random)
                                 : random_arm(body, from, side, objective.limits(), random));
     }
+    Candidate other = {from, std::numeric_limits<double>::infinity()};
     for (const Pose& arm : arms) {
       const double cost = objective(arm, config.region);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = arm;
+      if (cost < other.cost) {
+        other = {arm, cost};
       }
     }
+    if (config.proposal_refine > 0) {
+      best = refine_arm(objective, best, side, config);
+      other = refine_arm(objective, other, side, config);
+    }
+    if (other.cost < best.cost) {
+      best = other;
+    }
   }
-  return best;
+  return best.pose;
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -132,6 +156,8 @@ void RegistrationConfig::validate() const {
   require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
   require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
   require(proposals >= 0 && proposals <= 100000, "proposals must be between 0 and 100000");
+  require(proposal_refine >= 0 && proposal_refine <= 100000,
+          "proposal_refine must be between 0 and 100000");
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
     require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
@@ -168,8 +194,9 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   int before = objective.evaluations();
   auto clock = std::chrono::steady_clock::now();
   if (region_budget > 0) {
-    const int proposals = 2 * (config.proposals + (config.flips ? 3 : 0));
-    const bool affordable = proposals > 0 && proposals < region_budget / 2;
+    const int proposals = config.proposals + (config.flips ? 3 : 0);
+    const int cost = 2 * (proposals + 2 * config.proposal_refine);
+    const bool affordable = proposals > 0 && cost < region_budget / 2;
     const Pose from = affordable ? propose_arms(objective, start, config, random) : start;
     const int spent = objective.evaluations() - before;
     step = run_step(objective, from, config, config.region, region_budget - spent, nullptr);

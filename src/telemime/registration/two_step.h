@@ -34,6 +34,9 @@ struct RegistrationConfig {
   /// Arms that are tried anywhere each frame, for each arm, so that one that was lost in a fast motion comes
   /// back; 0: none.
   int proposals = 30;
+  /// Evaluations of the short search that the best of them gets before it is compared with the arm itself,
+  /// which gets as many.
+  int proposal_refine = 45;
   /// Tries the arms' mirror images in depth each frame.
   bool flips = true;
 

@@ -38,7 +38,7 @@ class RotationSmoother : public Smoother {
       start(measured);
     }
     last_time_ = frame.time;
-    return moved(frame, pose_of(smooth_, frame.pose));
+    return with_pose(frame, pose_of(smooth_, frame.pose), body_, camera_);
   }
 
  protected:
@@ -50,21 +50,6 @@ class RotationSmoother : public Smoother {
   JointRotations smooth_;
 
  private:
-  MotionFrame moved(const MotionFrame& frame, const Pose& pose) const {
-    MotionFrame result = frame;
-    result.pose = pose;
-    result.joints = forward_kinematics(body_, pose).joints;
-    for (std::size_t j = 0; j < kJointCount; ++j) {
-      const Eigen::Vector3d& before = frame.joints.at[j];
-      const Eigen::Vector3d& after = result.joints.at[j];
-      if (before.z() > 0.0 && after.z() > 0.0) {
-        // A difference, so that the distortion of the input image, if any, stays in the pixel.
-        result.pixels[j] += camera_.project(after) - camera_.project(before);
-      }
-    }
-    return result;
-  }
-
   Body body_;
   Camera camera_;
   std::optional<double> last_time_;
@@ -167,6 +152,21 @@ bool usable(const OneEuroOptions& options) {
 }
 
 }  // namespace
+
+MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& body, const Camera& camera) {
+  MotionFrame result = frame;
+  result.pose = pose;
+  result.joints = forward_kinematics(body, pose).joints;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d& before = frame.joints.at[j];
+    const Eigen::Vector3d& after = result.joints.at[j];
+    if (before.z() > 0.0 && after.z() > 0.0) {
+      // A difference, so that the distortion of the input image, if any, stays in the pixel.
+      result.pixels[j] += camera.project(after) - camera.project(before);
+    }
+  }
+  return result;
+}
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const Body& body,
                                         const Camera& camera) {

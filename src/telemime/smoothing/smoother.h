@@ -22,7 +22,10 @@ struct SmoothingOptions {
   double recursive_coefficient = 0.6;       ///< share of the past, in [0, 1) (thesis 4.30)
   OneEuroOptions angles = {1.0, 4.0, 1.0};  ///< of joint rotations, speeds in rad/s
   OneEuroOptions root = {1.0, 10.0, 1.0};   ///< of the translation, speeds in m/s
+  int look_ahead = 12;                      ///< frames of a file's future that are used (TwoWaySmoother)
 };
+
+inline constexpr int kLongestLookAhead = 250;
 
 /// Steadies a stream of frames. Rotations are smoothed, not angles, so that nothing happens where angles
 /// jump; the joints follow by forward kinematics and the pixels by what the joints move in the image. A lost
@@ -38,6 +41,9 @@ class Smoother {
   /// Frames in the order of their time.
   virtual MotionFrame operator()(const MotionFrame& frame) = 0;
 };
+
+/// The frame with another pose: joints by forward kinematics, pixels by what the joints move in the image.
+MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& body, const Camera& camera);
 
 /// `camera` is that of frame.pixels. Throws Error(config) when a name or a number is not usable.
 std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const Body& body,

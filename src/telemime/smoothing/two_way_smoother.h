@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "telemime/smoothing/smoother.h"
+
+namespace telemime {
+
+/// Smooths with what comes after a frame as well as with what came before: the filter meets each frame from
+/// both sides of time, and the frame gets the middle of the two. What lags one way runs ahead the other way,
+/// so the lag goes, and the jitter is less than either way alone. Frames come out
+/// SmoothingOptions::look_ahead frames late. With look_ahead 0 it is the plain filter.
+class TwoWaySmoother {
+ public:
+  /// Throws Error(config) when a name or a number is not usable.
+  TwoWaySmoother(const SmoothingOptions& options, const Body& body, const Camera& camera);
+
+  /// Frames in the order of their time.
+  void push(const MotionFrame& frame);
+  /// The next frame with all its future, in the order in which they came; nothing when it must still wait.
+  std::optional<MotionFrame> next();
+  /// No frame comes any more: next() gives the rest.
+  void finish() { finished_ = true; }
+
+ private:
+  struct Waiting {
+    MotionFrame measured;
+    MotionFrame forward;
+  };
+
+  SmoothingOptions options_;
+  Body body_;
+  Camera camera_;
+  std::unique_ptr<Smoother> forward_;
+  std::deque<Waiting> waiting_;
+  bool finished_ = false;
+};
+
+}  // namespace telemime
