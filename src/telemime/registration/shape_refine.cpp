@@ -58,8 +58,8 @@ void both(Shape& shape, Segment left, Segment right, double length, double girth
   }
 }
 
-// Directions in which lengths are searched one after the other: the whole arm, its share between upper arm and
-// forearm, the hand, the shoulders.
+// Directions in which lengths are searched one after the other: the whole arm, its share between upper arm
+// and forearm, the hand, the shoulders.
 using LengthChange = void (*)(Shape&, double);
 constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) {
@@ -77,9 +77,7 @@ constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
 }};
 
 Stage girth_stage(double step) {
-  return {{step, step, step, step},
-          {0.5, 0.5, 0.5, 1.0},
-          [](const Shape& from, const Eigen::VectorXd& x) {
+  return {{step, step, step, step}, {0.5, 0.5, 0.5, 1.0}, [](const Shape& from, const Eigen::VectorXd& x) {
             Shape to = from;
             both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
             both(to, Segment::l_forearm, Segment::r_forearm, 0.0, x[1]);
@@ -229,7 +227,8 @@ Fitted search_stage(Refiner& refiner, const Stage& stage, const Fitted& start, i
 bool shows_arms(const Body& body, const Keyframe& keyframe) {
   const Camera& camera = keyframe.frame.camera;
   const JointPositions joints = forward_kinematics(body, keyframe.pose).joints;
-  for (const Joint j : {Joint::l_elbow, Joint::l_wrist, Joint::r_elbow, Joint::r_wrist}) {
+  for (const Joint j :
+       {Joint::l_elbow, Joint::l_wrist, Joint::l_hand, Joint::r_elbow, Joint::r_wrist, Joint::r_hand}) {
     const Eigen::Vector2d p = joints[j].z() > 0.1 ? camera.project(joints[j]) : Eigen::Vector2d(-1.0, -1.0);
     if (p.x() < 0.0 || p.y() < 0.0 || p.x() > camera.width - 1 || p.y() > camera.height - 1) {
       return false;
@@ -252,7 +251,7 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
   }
   const auto middle = regions.begin() + static_cast<std::ptrdiff_t>(regions.size() / 2);
   std::nth_element(regions.begin(), middle, regions.end());
-  const double worst = 1.3 * *middle;
+  const double worst = 1.1 * *middle;
   std::vector<double> distance(candidates.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].region > worst || !shows_arms(body, candidates[i])) {

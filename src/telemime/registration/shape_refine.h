@@ -12,13 +12,13 @@ namespace telemime {
 
 /// Settings of refine_shape.
 struct ShapeRefineConfig {
-  int keyframes = 8;         ///< frames that the shape is fitted to at once
-  int rounds = 2;            ///< over all lengths, each with half the step of the one before
-  int pose_iterations = 80;  ///< evaluations that each arm of each keyframe gets for each length tried
-  int shapes = 60;           ///< girths and sleeves that are tried in each round
+  int keyframes = 8;             ///< frames that the shape is fitted to at once
+  int rounds = 2;                ///< over all lengths, each with half the step of the one before
+  int pose_iterations = 80;      ///< evaluations that each arm of each keyframe gets for each length tried
+  int shapes = 60;               ///< girths and sleeves that are tried in each round
   double contour_weight = 0.15;  ///< of D_C beside F
   double natural_weight = 0.02;  ///< of natural_cost in each keyframe
-  double prior_weight = 0.001;    ///< of shape_prior; less than one frame needs, many frames tell more
+  double prior_weight = 0.002;   ///< of shape_prior; less than one frame needs, many frames tell more
 };
 
 /// A frame with the pose that was found in it.
@@ -38,7 +38,7 @@ struct ShapeRefinement {
 
 using BackendMaker = std::function<std::unique_ptr<Backend>()>;
 
-/// Are elbows and wrists inside the image?
+/// Are elbows, wrists and hands inside the image?
 bool shows_arms(const Body& body, const Keyframe& keyframe);
 
 /// Picks at most `count` of the candidates: the first good one, then always the one whose arms are farthest

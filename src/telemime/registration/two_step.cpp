@@ -92,7 +92,8 @@ struct Candidate {
   double cost = 0.0;
 };
 
-Candidate refine_arm(Objective& objective, const Candidate& from, Side side, const RegistrationConfig& config) {
+Candidate refine_arm(Objective& objective, const Candidate& from, Side side,
+                     const RegistrationConfig& config) {
   const SearchBlock block =
       bones_block(objective.model().body, from.pose, side, objective.limits(), config.simplex_factor);
   SimplexOptions options;
@@ -101,7 +102,8 @@ Candidate refine_arm(Objective& objective, const Candidate& from, Side side, con
   const SimplexResult found =
       minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), config.region); },
                axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
-  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost} : from;
+  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost}
+                                       : from;
 }
 
 // Arms from elsewhere: depth flips of where the arm is, and random ones. The best of them replaces the arm
@@ -156,8 +158,7 @@ void RegistrationConfig::validate() const {
   require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
   require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
   require(proposals >= 0 && proposals <= 100000, "proposals must be between 0 and 100000");
-  require(proposal_refine >= 0 && proposal_refine <= 100000,
-          "proposal_refine must be between 0 and 100000");
+  require(proposal_refine >= 0 && proposal_refine <= 100000, "proposal_refine must be between 0 and 100000");
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
     require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
