@@ -5,7 +5,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "support/list_source.h"
 #include "support/synthetic_clip.h"
+#include "telemime/pipeline/look_ahead.h"
 
 namespace telemime {
 namespace {
@@ -170,6 +172,73 @@ TEST(Tracker, RecalibratesWhenAsked) {
     tracker.step(clip().person[static_cast<std::size_t>(i)]);
   }
   EXPECT_TRUE(tracker.calibration());
+}
+
+TEST(Tracker, StartsWithAPersonWhoIsKnown) {
+  Tracker first = make_tracker(quick_config());
+  first.learn_background(clip().background);
+  const TrackedFrame start = first.step(clip().person.front());
+  ASSERT_TRUE(first.calibration());
+  KnownStart known = {*first.calibration(), start.motion.frame, start.motion.pose};
+  known.person.shape[Segment::l_forearm].length *= 1.02;
+
+  Tracker second = make_tracker(quick_config());
+  second.learn_background(clip().background);
+  second.start_with(known);
+  const TrackedFrame taken = second.step(clip().person.front());
+  EXPECT_EQ(taken.motion.state, TrackState::tracking);
+  EXPECT_EQ(taken.motion.pose.vector(), known.pose.vector());
+  EXPECT_EQ(second.calibration()->shape[Segment::l_forearm].length,
+            known.person.shape[Segment::l_forearm].length);
+  EXPECT_EQ(second.step(clip().person[1]).motion.state, TrackState::tracking);
+}
+
+TEST(Tracker, TheSceneOfAnotherTrackerIsNotChangedByThisOne) {
+  Tracker first = make_tracker(quick_config());
+  first.learn_background(clip().background);
+  const cv::Mat before = first.features().calibration().background.mean.l.clone();
+  Tracker second = make_tracker(quick_config());
+  second.set_scene(first.features().calibration());
+  for (const Frame& frame : clip().person) {
+    second.step(frame);
+  }
+  const cv::Mat& after = first.features().calibration().background.mean.l;
+  EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(before, second.features().calibration().background.mean.l, cv::NORM_INF), 0.0)
+      << "it does follow the light";
+}
+
+TEST(LookAhead, FitsTheShapeAndSaysWhereToStart) {
+  Config config = quick_config();
+  config.calibration.refine.rounds = 1;
+  config.calibration.refine.pose_iterations = 20;
+  config.calibration.refine.shapes = 10;
+  Tracker tracker = make_tracker(config);
+  tracker.learn_background(clip().background);
+  support::ListSource source(clip().person);
+  std::int64_t asked = 0;
+  const auto found = look_ahead(source, config, clip().camera, tracker.features().calibration(), 0,
+                                [&](std::int64_t) { return ++asked > 0; });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(asked, kPersonFrames);
+  EXPECT_EQ(found->frames, kPersonFrames);
+  EXPECT_EQ(found->start.frame, 0);
+  EXPECT_LE(found->cost, found->cost_before);
+  tracker.start_with(found->start);
+  for (const Frame& frame : clip().person) {
+    EXPECT_EQ(tracker.step(frame).motion.state, TrackState::tracking) << frame.index;
+  }
+}
+
+TEST(LookAhead, NobodyOrAStopIsNoStart) {
+  const Config config = quick_config();
+  Tracker tracker = make_tracker(config);
+  tracker.learn_background(clip().background);
+  const ImageCalibration& scene = tracker.features().calibration();
+  support::ListSource empty({clip().background.begin(), clip().background.begin() + 3});
+  EXPECT_FALSE(look_ahead(empty, config, clip().camera, scene, 0, [](std::int64_t) { return true; }));
+  support::ListSource person(clip().person);
+  EXPECT_FALSE(look_ahead(person, config, clip().camera, scene, 0, [](std::int64_t) { return false; }));
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 namespace telemime {
 
-/// Smooths with what comes after a frame as well as with what came before: the filter meets each frame from
-/// both sides of time, and the frame gets the middle of the two. What lags one way runs ahead the other way,
-/// so the lag goes, and the jitter is less than either way alone. Frames come out
-/// SmoothingOptions::look_ahead frames late. With look_ahead 0 it is the plain filter.
+/// Smooths with what comes after a frame as well as with what came before: the filter runs forward in time,
+/// and then backward over its own result. What lags one way runs ahead the other way, so the lag goes, and
+/// the filter acts twice. Frames come out SmoothingOptions::look_ahead frames late. With look_ahead 0 it is
+/// the plain filter.
 class TwoWaySmoother {
  public:
   /// Throws Error(config) when a name or a number is not usable.
@@ -26,16 +26,11 @@ class TwoWaySmoother {
   void finish() { finished_ = true; }
 
  private:
-  struct Waiting {
-    MotionFrame measured;
-    MotionFrame forward;
-  };
-
   SmoothingOptions options_;
   Body body_;
   Camera camera_;
   std::unique_ptr<Smoother> forward_;
-  std::deque<Waiting> waiting_;
+  std::deque<MotionFrame> waiting_;  // smoothed forward in time
   bool finished_ = false;
 };
 
