@@ -124,7 +124,7 @@ Camera load_camera(const std::filesystem::path& file) {
     cv::Mat distortion;
     storage["camera_matrix"] >> matrix;
     storage["distortion_coefficients"] >> distortion;
-    if (matrix.rows != 3 || matrix.cols != 3) {
+    if (matrix.rows != 3 || matrix.cols != 3 || matrix.channels() != 1 || distortion.channels() != 1) {
       throw broken(file, "camera_matrix is not 3 x 3");
     }
     matrix.convertTo(matrix, CV_64F);

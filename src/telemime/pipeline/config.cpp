@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <vector>
 
@@ -234,18 +235,22 @@ void update_from_json(Config& config, const Json& json) {
   config = updated;
 }
 
+void parse_config(Config& config, std::string_view text, const std::filesystem::path& name) {
+  const Json json = Json::parse(text, nullptr, false, true);
+  if (json.is_discarded()) {
+    throw Error(ErrorKind::config, "configuration file " + name.string() + " is not valid JSON",
+                "JSON knows no NaN or Infinity; `telemime config` prints a file to start from.");
+  }
+  update_from_json(config, json);
+}
+
 void update_from_file(Config& config, const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file)) {
     throw Error(ErrorKind::config, "configuration file " + file.string() + " cannot be opened",
                 "Check the path and its permissions.");
   }
-  const Json json = Json::parse(in, nullptr, false, true);
-  if (json.is_discarded()) {
-    throw Error(ErrorKind::config, "configuration file " + file.string() + " is not valid JSON",
-                "JSON knows no NaN or Infinity; `telemime config` prints a file to start from.");
-  }
-  update_from_json(config, json);
+  parse_config(config, std::string(std::istreambuf_iterator<char>(in), {}), file);
 }
 
 }  // namespace telemime

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "telemime/image/features.h"
 #include "telemime/registration/calibration.h"
@@ -51,6 +52,9 @@ nlohmann::json to_json(const Config& config);
 /// Replaces the values that `json` holds. Throws Error(config) that names an unknown key, a wrong type or a
 /// number that is not finite; `config` is unchanged then.
 void update_from_json(Config& config, const nlohmann::json& json);
+
+/// The same from the text of a file; `name` is for messages. Throws Error(config).
+void parse_config(Config& config, std::string_view text, const std::filesystem::path& name);
 
 /// The same from a file. Throws Error(config).
 void update_from_file(Config& config, const std::filesystem::path& file);

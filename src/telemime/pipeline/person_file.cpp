@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/errors.h"
@@ -59,28 +60,29 @@ Shape shape_from(const Json& json) {
 
 void save_person(const PersonFile& p, const std::filesystem::path& file) {
   const Camera& c = p.camera;
-  const Json json = {
-      {"format", kFormat},
-      {"version", 1},
-      {"shape", shape_json(p.person.shape)},
-      {"scale_from", p.person.scale_from},
-      {"refusal", p.person.refusal},
-      {"F", p.person.score.region},
-      {"camera",
-       {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}}}};
+  const Json json = {{"format", kFormat},
+                     {"version", 1},
+                     {"shape", shape_json(p.person.shape)},
+                     {"scale_from", p.person.scale_from},
+                     {"refusal", p.person.refusal},
+                     {"F", p.person.score.region},
+                     {"camera",
+                      {{"width", c.width},
+                       {"height", c.height},
+                       {"fx", c.fx},
+                       {"fy", c.fy},
+                       {"cx", c.cx},
+                       {"cy", c.cy},
+                       {"distortion", c.distortion}}}};
   // The scene first: a calibration is only there when all of it is.
   save_calibration(p.image, scene_of(file));
   write_whole_file(file, json.dump(2) + "\n");
 }
 
-PersonFile load_person(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) {
-    throw bad(file, "it cannot be opened");
-  }
-  const Json json = Json::parse(in, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != kFormat) {
-    throw bad(file, "it is not a calibration of telemime");
+PersonFile parse_person(std::string_view text, const std::filesystem::path& name) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("format") || json["format"] != kFormat) {
+    throw bad(name, "it is not a calibration of telemime");
   }
   PersonFile p;
   try {
@@ -94,11 +96,27 @@ PersonFile load_person(const std::filesystem::path& file) {
     p.camera.fy = number(c, "fy", 1e-3, 1e6);
     p.camera.cx = number(c, "cx", -1e5, 1e5);
     p.camera.cy = number(c, "cy", -1e5, 1e5);
+    const Json& distortion = c.at("distortion");
+    if (distortion.size() != p.camera.distortion.size()) {
+      throw std::out_of_range("'distortion' needs five numbers");
+    }
+    for (std::size_t i = 0; i < p.camera.distortion.size(); ++i) {
+      p.camera.distortion[i] = distortion.at(i).get<double>();
+    }
   } catch (const Json::exception& e) {
-    throw bad(file, e.what());
+    throw bad(name, e.what());
   } catch (const std::out_of_range& e) {
-    throw bad(file, e.what());
+    throw bad(name, e.what());
   }
+  return p;
+}
+
+PersonFile load_person(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw bad(file, "it cannot be opened");
+  }
+  PersonFile p = parse_person(std::string(std::istreambuf_iterator<char>(in), {}), file);
   p.image = load_calibration(scene_of(file));
   return p;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "telemime/pipeline/tracker.h"
 
@@ -17,6 +18,9 @@ struct PersonFile {
 /// Writes FILE (JSON: shape, camera) and beside it FILE.scene.yml.gz (colours and background). Throws
 /// Error(output).
 void save_person(const PersonFile& person, const std::filesystem::path& file);
+
+/// The JSON part of such a file; the image part stays empty. `name` is for messages. Throws Error(config).
+PersonFile parse_person(std::string_view text, const std::filesystem::path& name);
 
 /// Reads both again. Throws Error(config) that names the file and what is missing or out of range.
 PersonFile load_person(const std::filesystem::path& file);

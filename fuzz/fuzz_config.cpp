@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz_target.h"
+#include "telemime/core/errors.h"
+#include "telemime/pipeline/config.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto read = [](std::string_view text) {
+    telemime::Config config;
+    telemime::parse_config(config, text, "fuzz");
+    config.validate();
+  };
+  return telemime::fuzz_one(data, size, read, telemime::ErrorKind::config);
+}
