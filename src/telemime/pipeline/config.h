@@ -22,7 +22,7 @@ struct TrackingConfig {
   int patience = 8;            ///< frames
   int retry_every = 3;         ///< frames between searches for a person while lost
   /// Frames to wait for a first frame in which the shape can be fitted (thesis 3.3); then the average body
-  /// starts, and the shape is fitted when a good frame comes.
+  /// starts; in a file, the frames that the look-ahead picks may still fit it.
   int calibration_patience = 10;
   double velocity = 0.5;  ///< share of the last frame's motion of the arms that is expected again
 };

@@ -52,6 +52,8 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   if (keyframes.size() < kFewest) {
     return found;
   }
+  found.keyframes = keyframes.size();
+  found.start.person.refusal.clear();  // whatever the first frame hid, these show
   // The pose in the first frame is needed for the new shape, too.
   keyframes.insert(keyframes.begin(), candidates.front());
   const ShapeRefinement refined =

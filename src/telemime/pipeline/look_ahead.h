@@ -13,7 +13,9 @@ namespace telemime {
 struct LookAhead {
   KnownStart start;
   ImageCalibration image;   ///< colours and background, as learned by then
-  std::int64_t frames = 0;  ///< looked at with the person in them
+  std::int64_t frames = 0;  ///< in which the person was tracked
+  /// The shape was fitted to so many; 0: too few of them showed the arms, it is as the first frame gave it.
+  std::size_t keyframes = 0;
   double cost_before = 0.0;
   double cost = 0.0;
 };

@@ -272,7 +272,9 @@ std::optional<LookAhead> look_ahead_of(const TrackRequest& request, const RunHoo
   auto found = look_ahead(*again, p.tracker->config(), p.tracker->camera(),
                           p.tracker->features().calibration(), request.most_frames, go_on);
   if (found && hooks.message) {
-    hooks.message("the body was fitted to " + std::to_string(found->frames) + " frames");
+    hooks.message(found->keyframes > 0 ? "the body was fitted to " + std::to_string(found->keyframes) +
+                                             " of the first " + std::to_string(found->frames) + " frames"
+                                       : "the body was fitted to one frame: too few others show both arms");
   }
   return found;
 }

@@ -62,8 +62,9 @@ struct TrackSummary {
 /// an input that cannot be read, Error(output) when results cannot be written, Error(config) for settings.
 TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks);
 
-/// Calibrates on the first good frame of an input and writes the calibration to `file` (person_file.h).
-/// Throws as run_track does, and Error(tracking) with the last reason when no frame would do.
+/// Calibrates on the first good frame of an input (of a file: on many after it, too) and writes the
+/// calibration to `file` (person_file.h). Throws as run_track does, and Error(tracking) with the last reason
+/// when no frame would do.
 TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& hooks,
                                  const std::filesystem::path& file);
 

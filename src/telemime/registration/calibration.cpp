@@ -99,6 +99,9 @@ void CalibrationConfig::validate() const {
   require(refine.keyframes >= 1 && refine.keyframes <= 100, "keyframes must be between 1 and 100");
   require(refine.pose_iterations >= 10 && refine.pose_iterations <= 10000,
           "refine_iterations must be between 10 and 10000");
+  require(refine.rounds >= 0 && refine.rounds <= 20, "refine_rounds must be between 0 and 20");
+  require(refine.prior_weight >= 0.0 && refine.natural_weight >= 0.0 && refine.contour_weight >= 0.0,
+          "refine_prior_weight, refine_natural_weight and refine_contour_weight must not be negative");
   require(refine.shapes >= 0 && refine.shapes <= 10000, "refine_shapes must be between 0 and 10000");
   require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
   require(worst_region > 0.0 && worst_region <= 1.0, "worst_region must be above 0, at most 1");

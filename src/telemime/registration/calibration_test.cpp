@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "telemime/body/testing_poses.h"
@@ -54,6 +55,13 @@ TEST(Calibration, ConfigRefusesValuesByName) {
       {"spread", [](auto& c) { c.shape.length_spread = 0.0; }},
       {"worst_region", [](auto& c) { c.worst_region = 1.5; }},
       {"fronto_parallel", [](auto& c) { c.fronto_parallel = -1.0; }},
+      {"look_ahead", [](auto& c) { c.look_ahead = -1; }},
+      {"keyframes", [](auto& c) { c.refine.keyframes = 0; }},
+      {"refine_rounds", [](auto& c) { c.refine.rounds = -1; }},
+      {"refine_iterations", [](auto& c) { c.refine.pose_iterations = 0; }},
+      {"refine_shapes", [](auto& c) { c.refine.shapes = -1; }},
+      {"refine_prior_weight", [](auto& c) { c.refine.prior_weight = -1.0; }},
+      {"refine_natural_weight", [](auto& c) { c.refine.natural_weight = std::nan(""); }},
       {"prior_weight", [](auto& c) { c.shape.prior_weight = -1.0; }},
       {"contour_weight", [](auto& c) { c.shape.contour_weight = -1.0; }},
   };

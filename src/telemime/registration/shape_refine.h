@@ -18,7 +18,7 @@ struct ShapeRefineConfig {
   int shapes = 60;               ///< girths and sleeves that are tried in each round
   double contour_weight = 0.15;  ///< of D_C beside F
   double natural_weight = 0.02;  ///< of natural_cost in each keyframe
-  double prior_weight = 0.002;   ///< of shape_prior; less than one frame needs, many frames tell more
+  double prior_weight = 0.002;   ///< of the squared deviations (over their spreads) from average arms
 };
 
 /// A frame with the pose that was found in it.

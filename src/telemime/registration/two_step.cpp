@@ -92,13 +92,13 @@ struct Candidate {
   double cost = 0.0;
 };
 
-Candidate refine_arm(Objective& objective, const Candidate& from, Side side,
-                     const RegistrationConfig& config) {
+Candidate refine_arm(Objective& objective, const Candidate& from, Side side, const RegistrationConfig& config,
+                     int evaluations) {
   const SearchBlock block =
       bones_block(objective.model().body, from.pose, side, objective.limits(), config.simplex_factor);
   SimplexOptions options;
   options.tolerance = config.tolerance;
-  options.max_evaluations = config.proposal_refine;
+  options.max_evaluations = evaluations;
   const SimplexResult found =
       minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), config.region); },
                axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
@@ -109,7 +109,8 @@ Candidate refine_arm(Objective& objective, const Candidate& from, Side side,
 // Arms from elsewhere: depth flips of where the arm is, and random ones. The best of them replaces the arm
 // when its cost is lower, after both had the same short search: an arm that was followed for many frames
 // fits closely even where it is wrong, a random one does not even where it is right.
-Pose propose_arms(Objective& objective, const Pose& start, const RegistrationConfig& config, Random& random) {
+Pose propose_arms(Objective& objective, const Pose& start, const RegistrationConfig& config, int refine,
+                  Random& random) {
   Candidate best = {start, objective(start, config.region)};
   const Body& body = objective.model().body;
   for (const Side side : {Side::left, Side::right}) {
@@ -129,9 +130,9 @@ Pose propose_arms(Objective& objective, const Pose& start, const RegistrationCon
         other = {arm, cost};
       }
     }
-    if (config.proposal_refine > 0) {
-      best = refine_arm(objective, best, side, config);
-      other = refine_arm(objective, other, side, config);
+    if (refine > 0 && !arms.empty()) {
+      best = refine_arm(objective, best, side, config, refine);
+      other = refine_arm(objective, other, side, config, refine);
     }
     if (other.cost < best.cost) {
       best = other;
@@ -196,9 +197,11 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   auto clock = std::chrono::steady_clock::now();
   if (region_budget > 0) {
     const int proposals = config.proposals + (config.flips ? 3 : 0);
-    const int cost = 2 * (proposals + 2 * config.proposal_refine);
-    const bool affordable = proposals > 0 && cost < region_budget / 2;
-    const Pose from = affordable ? propose_arms(objective, start, config, random) : start;
+    // A small budget has proposals without their search, the smallest none.
+    const int refine =
+        2 * (proposals + 2 * config.proposal_refine) < region_budget / 2 ? config.proposal_refine : 0;
+    const bool affordable = proposals > 0 && 2 * proposals < region_budget / 2;
+    const Pose from = affordable ? propose_arms(objective, start, config, refine, random) : start;
     const int spent = objective.evaluations() - before;
     step = run_step(objective, from, config, config.region, region_budget - spent, nullptr);
   }
