@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/smoothing/two_way_smoother.h"
 
-#include <ranges>
-
 #include "telemime/core/errors.h"
 
 namespace telemime {
@@ -28,9 +26,9 @@ std::optional<MotionFrame> TwoWaySmoother::next() {
   if (ahead > 0) {
     const double time = result.time;
     const auto backward = make_smoother(options_, body_, camera_);
-    for (const MotionFrame& later : std::ranges::reverse_view(waiting_)) {
-      result = later;
-      result.time = -later.time;
+    for (std::size_t i = waiting_.size(); i-- > 0;) {
+      result = waiting_[i];
+      result.time = -result.time;
       result = (*backward)(result);
     }
     result.time = time;
