@@ -10,6 +10,7 @@
 
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/testing_folder.h"
 
 namespace telemime {
 namespace {
@@ -102,14 +103,11 @@ TEST(Limits, ClampMovesOnlyWhatIsOutside) {
 class LimitsFile : public ::testing::Test {
  protected:
   LimitsFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "telemime_limits_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
     json_["name"] = "mine";
     for (const std::string_view name_of_angle : kAngleNames) {
       json_["limits"][std::string(name_of_angle)] = {-30, 60.5};
     }
   }
-  ~LimitsFile() override { std::filesystem::remove_all(folder_); }
 
   std::string write(const std::string& bytes) const {
     const auto file = folder_ / "limits.json";
@@ -131,7 +129,8 @@ class LimitsFile : public ::testing::Test {
   }
   std::string refusal() const { return refusal(json_.dump()); }
 
-  std::filesystem::path folder_;
+  testing::ScratchFolder scratch_;
+  std::filesystem::path folder_ = scratch_.path();
   nlohmann::json json_;
 };
 

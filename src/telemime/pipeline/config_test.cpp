@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/testing_folder.h"
 
 namespace telemime {
 namespace {
@@ -200,11 +201,6 @@ TEST(Config, ValuesOutOfRangeAreRefusedByName) {
 
 class ConfigFile : public ::testing::Test {
  protected:
-  ConfigFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "telemime_config_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~ConfigFile() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& bytes) const {
     auto file = folder_ / "config.json";
     std::ofstream(file) << bytes;
@@ -214,7 +210,8 @@ class ConfigFile : public ::testing::Test {
     Config config;
     return refusal([&] { update_from_file(config, file); });
   }
-  std::filesystem::path folder_;
+  testing::ScratchFolder scratch_;
+  std::filesystem::path folder_ = scratch_.path();
 };
 
 TEST_F(ConfigFile, IsReadWithComments) {

@@ -2,7 +2,6 @@
 #include "telemime/pipeline/person_file.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <iterator>
@@ -10,15 +9,13 @@
 #include <string>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/testing_folder.h"
 
 namespace telemime {
 namespace {
 
 class PersonFileTest : public ::testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   static PersonFile person() {
     PersonFile p;
     p.person.shape.stature = 1.81;
@@ -37,9 +34,8 @@ class PersonFileTest : public ::testing::Test {
     return nlohmann::json::parse(in);
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("telemime_person_" + std::to_string(getpid()));
-  std::filesystem::path file_ = folder_ / "person.json";
+  testing::ScratchFolder folder_;
+  std::filesystem::path file_ = folder_.file("person.json");
 };
 
 TEST_F(PersonFileTest, ComesBackAsItWas) {
@@ -75,8 +71,8 @@ TEST_F(PersonFileTest, RefusesWhatIsMissingWrongOrOutOfRange) {
   refused("/scale_from", 1);
   EXPECT_THROW(parse_person("", "p"), Error);
   EXPECT_THROW(parse_person("[1]", "p"), Error);
-  EXPECT_THROW(load_person(folder_), Error) << "a folder";
-  EXPECT_THROW(load_person(folder_ / "none.json"), Error);
+  EXPECT_THROW(load_person(folder_.path()), Error) << "a folder";
+  EXPECT_THROW(load_person(folder_.file("none.json")), Error);
 }
 
 TEST_F(PersonFileTest, WithoutItsSceneItIsRefused) {

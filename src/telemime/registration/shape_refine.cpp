@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "telemime/registration/blocks.h"
 #include "telemime/registration/simplex.h"
@@ -44,12 +47,6 @@ Eigen::Vector3d on_ray(const Eigen::Vector3d& seen, const Eigen::Vector3d& old_p
   return ray * (along + side * half);
 }
 
-struct Stage {
-  std::vector<double> steps;
-  std::vector<double> reach;
-  std::function<Shape(const Shape&, const Eigen::VectorXd&)> apply;
-};
-
 void both(Shape& shape, Segment left, Segment right, double length, double girth) {
   for (const Segment s : {left, right}) {
     shape[s].length *= std::exp(length);
@@ -76,15 +73,14 @@ constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) { s[Segment::chest].width *= std::exp(x); }, 0.04},
 }};
 
-Stage girth_stage(double step) {
-  return {{step, step, step, step}, {0.5, 0.5, 0.5, 1.0}, [](const Shape& from, const Eigen::VectorXd& x) {
-            Shape to = from;
-            both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
-            both(to, Segment::l_forearm, Segment::r_forearm, 0.0, x[1]);
-            both(to, Segment::l_hand, Segment::r_hand, 0.0, x[2]);
-            to.sleeve = std::clamp(from.sleeve + x[3], 0.0, 2.0);
-            return to;
-          }};
+// Logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
+Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
+  Shape to = from;
+  both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
+  both(to, Segment::l_forearm, Segment::r_forearm, 0.0, x[1]);
+  both(to, Segment::l_hand, Segment::r_hand, 0.0, x[2]);
+  to.sleeve = std::clamp(from.sleeve + x[3], 0.0, 2.0);
+  return to;
 }
 
 // A shape with the best poses that were found for it.
@@ -206,20 +202,17 @@ Fitted search_length(Refiner& refiner, const Fitted& from, LengthChange change, 
                                                                  : tried[static_cast<std::size_t>(lowest)];
 }
 
-// The best shape that one stage reaches without a new search of the poses.
-Fitted search_stage(Refiner& refiner, const Stage& stage, const Fitted& start, int shapes) {
-  const auto n = static_cast<Eigen::Index>(stage.steps.size());
-  const Eigen::VectorXd steps = Eigen::Map<const Eigen::VectorXd>(stage.steps.data(), n);
-  const Eigen::VectorXd reach = Eigen::Map<const Eigen::VectorXd>(stage.reach.data(), n);
+// Girths move no joint: the poses are not searched anew.
+Fitted search_girths(Refiner& refiner, const Fitted& from, double step, int shapes) {
+  const Eigen::VectorXd reach = Eigen::Vector4d(0.5, 0.5, 0.5, 1.0);
   const Bounds bounds = {-reach, reach};
   SimplexOptions options;
   options.max_evaluations = shapes;
-  const auto cost = [&](const Eigen::VectorXd& x) {
-    return refiner.fit(start, stage.apply(start.shape, x), 0).cost;
-  };
-  const SimplexResult found =
-      minimise(cost, axis_simplex(Eigen::VectorXd::Zero(n), steps, bounds), bounds, options);
-  return refiner.fit(start, stage.apply(start.shape, found.best().point), 0);
+  const auto at = [&](const Eigen::VectorXd& x) { return refiner.fit(from, with_girths(from.shape, x), 0); };
+  const SimplexResult found = minimise(
+      [&](const Eigen::VectorXd& x) { return at(x).cost; },
+      axis_simplex(Eigen::VectorXd::Zero(4), Eigen::VectorXd::Constant(4, step), bounds), bounds, options);
+  return at(found.best().point);
 }
 
 }  // namespace
@@ -314,7 +307,7 @@ ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const K
     for (const auto& [change, step] : kLengths) {
       best = search_length(refiner, best, change, scale * step, config.pose_iterations);
     }
-    best = search_stage(refiner, girth_stage(0.1 * scale), best, config.shapes);
+    best = search_girths(refiner, best, 0.1 * scale, config.shapes);
   }
   result.shape = best.shape;
   result.poses = best.poses;

@@ -13,39 +13,17 @@
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
 #include "telemime/smoothing/joint_rotations.h"
+#include "telemime/smoothing/testing_motion.h"
 
 namespace telemime {
 namespace {
 
-constexpr double kFps = 25.0;
+using testing::kFps;
+using testing::standing;
+
 const std::vector<std::string> kFilters = {"recursive", "one-euro"};
 
-struct Rig {
-  Body body = make_body(Shape{});
-  Camera camera;
-
-  MotionFrame frame(const Pose& pose, int index) const {
-    MotionFrame result;
-    result.frame = index;
-    result.time = index / kFps;
-    result.state = TrackState::tracking;
-    result.pose = pose;
-    result.joints = forward_kinematics(body, pose).joints;
-    for (std::size_t j = 0; j < kJointCount; ++j) {
-      result.pixels[j] = camera.project(result.joints.at[j]);
-    }
-    return result;
-  }
-
-  std::vector<MotionFrame> frames(int count, const std::function<Pose(int)>& pose) const {
-    std::vector<MotionFrame> result;
-    result.reserve(static_cast<std::size_t>(count));
-    for (int t = 0; t < count; ++t) {
-      result.push_back(frame(pose(t), t));
-    }
-    return result;
-  }
-
+struct Rig : testing::Stage {
   std::vector<MotionFrame> smoothed(const std::string& name, const std::vector<MotionFrame>& frames) const {
     SmoothingOptions options;
     options.name = name;
@@ -58,12 +36,6 @@ struct Rig {
     return result;
   }
 };
-
-Pose standing() {
-  Pose pose;
-  pose.root = {0.0, 0.45, 1.3};
-  return pose;
-}
 
 double largest_move(const MotionFrame& a, const MotionFrame& b) {
   double largest = 0.0;

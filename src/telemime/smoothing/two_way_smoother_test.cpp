@@ -10,41 +10,21 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
+#include "telemime/smoothing/testing_motion.h"
 
 namespace telemime {
 namespace {
 
-constexpr double kFps = 25.0;
+using testing::standing;
 
-class TwoWaySmootherTest : public ::testing::Test {
+class TwoWaySmootherTest : public ::testing::Test, protected testing::Stage {
  protected:
-  MotionFrame frame(const Pose& pose, int index) const {
-    MotionFrame result;
-    result.frame = index;
-    result.time = index / kFps;
-    result.state = TrackState::tracking;
-    result.pose = pose;
-    result.joints = forward_kinematics(body_, pose).joints;
-    for (std::size_t j = 0; j < kJointCount; ++j) {
-      result.pixels[j] = camera_.project(result.joints.at[j]);
-    }
-    return result;
-  }
-
-  std::vector<MotionFrame> frames(int count, const std::function<Pose(int)>& pose) const {
-    std::vector<MotionFrame> result;
-    for (int t = 0; t < count; ++t) {
-      result.push_back(frame(pose(t), t));
-    }
-    return result;
-  }
-
   std::vector<MotionFrame> smoothed(const std::vector<MotionFrame>& frames, int look_ahead,
                                     const std::string& name = "one-euro") const {
     SmoothingOptions options;
     options.name = name;
     options.look_ahead = look_ahead;
-    TwoWaySmoother smoother(options, body_, camera_);
+    TwoWaySmoother smoother(options, body, camera);
     std::vector<MotionFrame> result;
     const auto collect = [&] {
       while (const auto next = smoother.next()) {
@@ -61,16 +41,7 @@ class TwoWaySmootherTest : public ::testing::Test {
     collect();
     return result;
   }
-
-  Body body_ = make_body(Shape{});
-  Camera camera_;
 };
-
-Pose standing() {
-  Pose pose;
-  pose.root = {0.0, 0.45, 1.3};
-  return pose;
-}
 
 // Both arms swing; the phase of what comes out tells the lag.
 Pose swinging(double frame) {
@@ -84,7 +55,7 @@ Pose swinging(double frame) {
 TEST_F(TwoWaySmootherTest, WithoutFutureItIsThePlainFilter) {
   const auto input = frames(30, swinging);
   SmoothingOptions options;
-  const auto plain = make_smoother(options, body_, camera_);
+  const auto plain = make_smoother(options, body, camera);
   const auto result = smoothed(input, 0);
   ASSERT_EQ(result.size(), input.size());
   for (std::size_t t = 0; t < input.size(); ++t) {
@@ -180,7 +151,7 @@ TEST_F(TwoWaySmootherTest, RefusesALookAheadThatCannotBe) {
   for (const int look_ahead : {-1, kLongestLookAhead + 1}) {
     SmoothingOptions options;
     options.look_ahead = look_ahead;
-    EXPECT_THROW(TwoWaySmoother(options, body_, camera_), Error) << look_ahead;
+    EXPECT_THROW(TwoWaySmoother(options, body, camera), Error) << look_ahead;
   }
 }
 
