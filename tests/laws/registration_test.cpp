@@ -43,6 +43,13 @@ class Search {
     return sum;
   }
 
+  // Distance (m) of the left wrist from the truth across the viewing ray.
+  double left_wrist_error(const Pose& pose) const {
+    const Eigen::Vector3d a = forward_kinematics(model_.body, pose).joints[Joint::l_wrist];
+    const Eigen::Vector3d b = forward_kinematics(model_.body, truth_).joints[Joint::l_wrist];
+    return (a * (b.z() / a.z()) - b).norm();
+  }
+
   int evaluations() const { return evaluations_; }
   /// Without this, the start is what is expected.
   void expect_nothing() { expect_ = false; }
@@ -202,9 +209,58 @@ TEST(Registration, FindsAnArmAgainThatIsFarAway) {
   ASSERT_GT(search.error(start, true), 0.1);
   search.expect_nothing();
   RegistrationConfig config;
-  config.proposals = 200;
+  config.proposals.arms = 200;
   config.iterations = 2000;
   EXPECT_LT(search.error(search.from(start, config).pose, true), 0.04);
+}
+
+TEST(Registration, AForearmThatWasLostIsBackWithinAThirdOfASecond) {
+  int cases = 0;
+  int back = 0;
+  int back_without = 0;
+  for (const double bend : {-100.0, -120.0}) {
+    for (const double twist : {-40.0, 40.0}) {
+      Pose truth = support::seated({-20 * kDegree, twist * kDegree, 15 * kDegree, bend * kDegree},
+                                   {-20 * kDegree, 0, -15 * kDegree, bend * kDegree});
+      truth.root.y() += 0.15;
+      truth = anatomical_limits().clamp(truth);
+      Search search(truth);
+      for (const double lost : {-5.0, -130.0}) {
+        Pose start = truth;
+        ArmAngles arm = arm_angles(truth, Side::left);
+        arm.twisting = -arm.twisting;
+        arm.elbow = lost * kDegree;
+        set_arm_angles(start, Side::left, arm);
+        const auto found = [&](const RegistrationConfig& config) {
+          Pose pose = anatomical_limits().clamp(start);
+          for (std::uint64_t frame = 0; frame < 8; ++frame) {
+            pose = search.from(pose, config, 10 + frame).pose;
+          }
+          return search.left_wrist_error(pose) < 0.06;
+        };
+        RegistrationConfig without;
+        without.proposals = no_proposals();
+        ++cases;
+        back += found(RegistrationConfig{}) ? 1 : 0;
+        back_without += found(without) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(back, cases - 1) << "of " << cases;
+  EXPECT_LT(back_without, back - 2) << "the cases are too easy to show anything";
+}
+
+TEST(Registration, ProposalsThatAreNoBetterLeaveThePoseAlone) {
+  const Pose truth = gestures()[0];
+  Search search(truth);
+  RegistrationConfig still;
+  still.region_share = 1.0;
+  still.proposals.margin = 10.0;
+  RegistrationConfig none = still;
+  none.proposals = no_proposals();
+  // With a margin that nothing reaches, only the arm itself was searched further.
+  EXPECT_LT(search.error(search.from(truth, still).pose, true), 0.02);
+  EXPECT_LT(search.error(search.from(truth, none).pose, true), 0.02);
 }
 
 TEST(Registration, OnAnEmptyPictureGivesAPoseAllTheSame) {

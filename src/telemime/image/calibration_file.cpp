@@ -73,7 +73,7 @@ std::array<std::pair<const char*, ColourMixture*>, 5> mixtures_of(ImageCalibrati
            {"skin", &calibration.colours.skin},
            {"clothes", &calibration.colours.clothes},
            {"hair", &calibration.colours.hair},
-           {"lower", &calibration.colours.lower}}};
+           {"other", &calibration.colours.other}}};
 }
 
 /// Not opened when there is no such file or folder: OpenCV would say so on the terminal.

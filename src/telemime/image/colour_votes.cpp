@@ -20,8 +20,9 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
   cv::Mat skin = energy(colours.skin, picture);
   cv::Mat clothes = energy(colours.clothes, picture);
   cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, picture);
-  cv::Mat lower = energy(colours.lower, picture);
-  cv::min(lower, config.unknown_cost, lower);
+  cv::Mat known = energy(colours.other, picture);
+  cv::Mat other;
+  cv::min(known, config.unknown_cost, other);
   // A far colour must not outvote its neighbours by being very far.
   const float limit = config.unknown_cost + config.vote_limit;
   const cv::Size size = picture.u.size();
@@ -30,7 +31,7 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
     const auto* s = skin.ptr<float>(r);
     const auto* c = clothes.ptr<float>(r);
     const auto* h = hair.ptr<float>(r);
-    const auto* o = lower.ptr<float>(r);
+    const auto* o = other.ptr<float>(r);
     auto* b = out.best.ptr<float>(r);
     for (int i = 0; i < size.width; ++i) {
       b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], o[i]));
@@ -39,19 +40,21 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
   smooth(skin, limit);
   smooth(clothes, limit);
   smooth(hair, limit);
-  smooth(lower, limit);
+  smooth(known, limit);
+  smooth(other, limit);
   for (int r = 0; r < size.height; ++r) {
     const auto* s = skin.ptr<float>(r);
     const auto* c = clothes.ptr<float>(r);
     const auto* h = hair.ptr<float>(r);
-    const auto* o = lower.ptr<float>(r);
+    const auto* o = other.ptr<float>(r);
+    const auto* k = known.ptr<float>(r);
     auto* colour = out.colour.ptr<unsigned char>(r);
     auto* learned = out.learned.ptr<unsigned char>(r);
     for (int i = 0; i < size.width; ++i) {
       const bool is_skin = s[i] < c[i];
       unsigned char best = is_skin ? kSkin : kClothes;
       const float least = is_skin ? s[i] : c[i];
-      learned[i] = best;
+      learned[i] = k[i] < least ? static_cast<unsigned char>(kOther) : best;
       if (head && h[i] < least && h[i] < o[i]) {
         const float dx = (static_cast<float>(i) - static_cast<float>(head->centre.x())) /
                          static_cast<float>(head->radii.x());

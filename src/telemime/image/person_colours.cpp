@@ -51,10 +51,10 @@ Samples keep_if(const Samples& samples, const std::function<bool(const Eigen::Ve
 }
 
 /// A Gaussian as wide as this is a mixture of things, and would claim other classes' pixels.
-void keep_if_narrow(const ColourGaussian& fitted, ColourMixture& mixture) {
+void add_if_narrow(const ColourGaussian& fitted, ColourMixture& mixture) {
   constexpr float kWidest = 0.18F;
   if (fitted.covariance(0, 0) < kWidest * kWidest && fitted.covariance(1, 1) < kWidest * kWidest) {
-    mixture = {fitted};
+    mixture.push_back(fitted);
   }
 }
 
@@ -101,7 +101,16 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
     return mahalanobis2(learned.skin, c) > 12 && mahalanobis2(learned.clothes, c) > 9;
   });
   if (lower.size() >= kFewest && lower.size() * 8 >= below.size()) {
-    keep_if_narrow(fit_robust(lower, kHairTolerance), learned.lower);
+    add_if_narrow(fit_robust(lower, kHairTolerance), learned.other);
+  }
+
+  // A mask has a colour of its own, which shoes, paper or a cup may have, too: as long as it is not known,
+  // skin is the nearest that is.
+  const Samples mask = keep_if(face, [&](const Eigen::Vector3f& c) {
+    return !may_be_skin(c) && mahalanobis2(learned.clothes, c) > 9;
+  });
+  if (skin.size() != face.size() && mask.size() >= kFewest && mask.size() * 5 >= face.size()) {
+    add_if_narrow(fit_robust(mask, kClothesTolerance), learned.other);
   }
 
   const Samples above = collect(picture, silhouette, head, [](double x, double y) {
@@ -109,7 +118,7 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
   });
   const Samples hair = keep_if(above, unlike_skin);
   if (hair.size() >= kFewest / 2 && hair.size() * 4 >= above.size()) {
-    keep_if_narrow(fit_robust(hair, kHairTolerance), learned.hair);
+    add_if_narrow(fit_robust(hair, kHairTolerance), learned.hair);
   }
   colours = learned;
   return {true, {}};

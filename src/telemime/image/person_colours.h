@@ -14,7 +14,7 @@ struct PersonColours {
   ColourMixture skin;
   ColourMixture clothes;
   ColourMixture hair;
-  ColourMixture lower;  ///< trousers or skirt, when seen at the start
+  ColourMixture other;  ///< what is neither: trousers or a skirt, a mask, when seen at the start
   bool known() const { return !skin.empty(); }
 };
 

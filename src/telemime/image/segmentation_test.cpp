@@ -119,5 +119,42 @@ TEST(PersonColours, AMaskOnHalfTheFaceDoesNotBecomeSkin) {
   EXPECT_GT(mahalanobis2(colours.skin, log_colour_of(225, 222, 220)), 9);
 }
 
+TEST(PersonColours, WhatHasTheColourOfAMaskIsNotAnArm) {
+  const cv::Scalar white(225, 222, 220);
+  cv::Mat image = picture();
+  const cv::Rect shoe(102, 84, 10, 8);
+  cv::rectangle(image, shoe, white, cv::FILLED);
+  const auto label_of_the_shoe = [&](bool masked) {
+    Scene s = scene();
+    cv::Mat shown = image.clone();
+    if (masked) {
+      cv::rectangle(shown, cv::Rect(70, 33, 20, 9), white, cv::FILLED);
+    }
+    const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+    const LogColour colour = log_colour(shown);
+    EXPECT_TRUE(learn_person(colour, everywhere, s.head, s.colours).accepted);
+    const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
+    const BackgroundModel model = learn_background_model(empty);
+    const BackgroundEnergy background = background_energy(model, colour, ShadowRange{}, {});
+    const Segmentation out = segment(colour, background, s.colours, s.head, {});
+    EXPECT_EQ(at(out.labels, 48, 64), Label::arms) << "a true arm";
+    EXPECT_EQ(at(out.labels, 80, 60), Label::clothes);
+    return at(out.labels, shoe.x + 5, shoe.y + 4);
+  };
+  EXPECT_EQ(label_of_the_shoe(true), Label::ignore);
+  EXPECT_NE(label_of_the_shoe(false), Label::ignore) << "an unknown scrap goes to its neighbours";
+}
+
+TEST(PersonColours, AShirtInsideTheHeadsEllipseIsNoMask) {
+  // A head that was found too low holds some of the shirt: the shirt must stay clothes.
+  cv::Mat image = picture();
+  cv::rectangle(image, cv::Rect(70, 38, 20, 12), kShirt, cv::FILLED);
+  PersonColours colours;
+  const Scene s = scene();
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  ASSERT_TRUE(learn_person(log_colour(image), everywhere, s.head, colours).accepted);
+  EXPECT_GT(mahalanobis2(colours.other, log_colour_of(150, 60, 40)), 9);
+}
+
 }  // namespace
 }  // namespace telemime

@@ -67,9 +67,14 @@ void each_setting(C& c, Visit&& visit) {
   visit("registration/edge_factor", c.registration.edge_factor);
   visit("registration/blocks", c.registration.blocks);
   visit("registration/rounds", c.registration.rounds);
-  visit("registration/proposals", c.registration.proposals);
-  visit("registration/proposal_refine", c.registration.proposal_refine);
-  visit("registration/flips", c.registration.flips);
+  visit("registration/proposal_share", c.registration.proposal_share);
+  visit("registration/proposals/directions", c.registration.proposals.directions);
+  visit("registration/proposals/arms", c.registration.proposals.arms);
+  visit("registration/proposals/flips", c.registration.proposals.flips);
+  visit("registration/proposals/kept", c.registration.proposals.kept);
+  visit("registration/proposals/turns", c.registration.proposals.turns);
+  visit("registration/proposals/refine", c.registration.proposals.refine);
+  visit("registration/proposals/margin", c.registration.proposals.margin);
   visit("registration/tolerance", c.registration.tolerance);
   const auto weights = [&](const std::string& step, auto& w) {
     visit(step + "/region", w.region);

@@ -56,31 +56,39 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
   return limits.clamp(arm);
 }
 
-Pose random_forearm(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
-                    Random& random) {
+std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                              int count, Random& random) {
   const bool left = side == Side::left;
   const Kinematics k = forward_kinematics(body, pose);
   const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
   const Eigen::Matrix3d& chest = k[Segment::chest].linear();
-  Pose arm = pose;
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    const Eigen::Vector3d fore =
-        Eigen::Vector3d(random.normal(0.0, 0.7), random.normal(0.0, 0.7), random.normal(0.5, 0.5))
-            .normalized();
-    set_arm_angles(
-        arm, side,
-        arm_through(body, pose, side, elbow,
-                    elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)], limits));
-    if (limits.contains(arm, 0.05) &&
-        interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
-      break;
-    }
-  }
+  Pose straight = pose;
   for (const Angle a : left ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot}
                             : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot}) {
-    arm[a] = 0.0;
+    straight[a] = 0.0;
   }
-  return limits.clamp(arm);
+  constexpr double kBehind = 0.25;  // of the unit sphere's radius
+  constexpr double kGoldenAngle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
+  const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const double shift = random.uniform();
+  std::vector<Pose> fan;
+  for (int i = 0; i < count; ++i) {
+    const double forward = 1.0 - (1.0 + kBehind) * (i + shift) / count;
+    const double aside = std::sqrt(std::max(0.0, 1.0 - forward * forward));
+    const double angle = turn + i * kGoldenAngle;
+    const Eigen::Vector3d fore(aside * std::cos(angle), aside * std::sin(angle), forward);
+    const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)];
+    Pose arm = straight;
+    set_arm_angles(arm, side, arm_through(body, straight, side, elbow, wrist, limits));
+    // What the limits cut off by little is still near the direction.
+    if (limits.contains(arm, 0.15)) {
+      arm = limits.clamp(arm);
+      if (interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
+        fan.push_back(arm);
+      }
+    }
+  }
+  return fan;
 }
 
 Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,

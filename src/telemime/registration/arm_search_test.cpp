@@ -67,6 +67,54 @@ TEST(RandomArm, SameSeedSameArm) {
   }
 }
 
+TEST(ForearmFan, TurnsTheForearmAboutTheElbowAlone) {
+  const Body body = make_body(testing_poses::other_shape());
+  Random random(5);
+  for (const JointLimits& limits : {anatomical_limits(), reference_limits()}) {
+    for (int i = 0; i < 20; ++i) {
+      const Pose pose = random_pose(limits, random, 0.2);
+      const JointPositions before = forward_kinematics(body, pose).joints;
+      for (const Side side : kSides) {
+        for (const Pose& arm : forearm_fan(body, pose, side, limits, 40, random)) {
+          const JointPositions after = forward_kinematics(body, arm).joints;
+          ASSERT_TRUE(limits.contains(arm));
+          ASSERT_LT(interpenetration(body, forward_kinematics(body, arm)), kInvalidInterpenetration);
+          // What is clamped to the limits moves the elbow by some millimetres on the clavicle.
+          ASSERT_LT((after[elbow_of(side)] - before[elbow_of(side)]).norm(), 0.06);
+          const Side other = side == Side::left ? Side::right : Side::left;
+          ASSERT_EQ(after[wrist_of(other)], before[wrist_of(other)]);
+        }
+      }
+    }
+  }
+}
+
+TEST(ForearmFan, HasADirectionNearEveryForearmBeforeTheChest) {
+  const Body body = make_body(Shape{});
+  const JointLimits limits = anatomical_limits();
+  Random random(6);
+  double farthest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    Pose pose;
+    pose.root = {0, 0.3, 1.5};
+    set_arm_angles(pose, Side::left,
+                   {-10 * kDegree, random.uniform(-60.0, 60.0) * kDegree, 25 * kDegree,
+                    random.uniform(-110.0, -20.0) * kDegree});
+    pose = limits.clamp(pose);
+    const Eigen::Vector3d wanted = forward_kinematics(body, pose).joints[Joint::l_wrist];
+    Pose away = pose;
+    ArmAngles hanging = arm_angles(pose, Side::left);
+    hanging.elbow = -5 * kDegree;
+    set_arm_angles(away, Side::left, hanging);
+    double nearest = 1e9;
+    for (const Pose& arm : forearm_fan(body, away, Side::left, limits, 60, random)) {
+      nearest = std::min(nearest, (forward_kinematics(body, arm).joints[Joint::l_wrist] - wanted).norm());
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(farthest, 0.45 * body.forearm_length[0]) << "about 25 degrees";
+}
+
 TEST(DepthFlips, LookTheSameButLieElsewhere) {
   const Body body = make_body(Shape{});
   const JointLimits limits = anatomical_limits();

@@ -179,6 +179,20 @@ SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const Joi
   return block;
 }
 
+SearchBlock part_of(const SearchBlock& block, Eigen::Index first, Eigen::Index count) {
+  SearchBlock part;
+  part.name = block.name;
+  part.start = block.start.segment(first, count);
+  part.steps = block.steps.segment(first, count);
+  part.bounds = {block.bounds.low.segment(first, count), block.bounds.high.segment(first, count)};
+  part.decode = [first, count, all = block.start, decode = block.decode](const Eigen::VectorXd& x) {
+    Eigen::VectorXd numbers = all;
+    numbers.segment(first, count) = x;
+    return decode(numbers);
+  };
+  return part;
+}
+
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor) {
   const ArmTarget target = arm_target(body, pose, side);

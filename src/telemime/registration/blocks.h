@@ -39,6 +39,9 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
 SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                         double factor);
 
+/// Some of a block's numbers, from `first` on; the others keep their start. The block may go away.
+SearchBlock part_of(const SearchBlock& block, Eigen::Index first, Eigen::Index count);
+
 /// The pose with one wrist moved there and the swivel set; out of reach: as near as the arm comes.
 Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
                 const JointLimits& limits);

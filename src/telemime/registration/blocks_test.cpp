@@ -179,5 +179,21 @@ TEST(Blocks, WristInsideTheShoulderStillGivesAPose) {
   }
 }
 
+TEST(Blocks, PartMovesItsNumbersAndKeepsTheOthers) {
+  const Body body = make_body(Shape{});
+  const JointLimits limits = anatomical_limits();
+  Random random(9);
+  const Pose pose = bent_pose(random, limits);
+  const SearchBlock whole = bones_block(body, pose, Side::left, limits, 1.5);
+  const SearchBlock fore = part_of(bones_block(body, pose, Side::left, limits, 1.5), 2, 2);
+  ASSERT_EQ(fore.start.size(), 2);
+  EXPECT_EQ(fore.steps, whole.steps.segment(2, 2));
+  EXPECT_EQ(fore.bounds.low, whole.bounds.low.segment(2, 2));
+  EXPECT_EQ(fore.bounds.high, whole.bounds.high.segment(2, 2));
+  Eigen::VectorXd all = whole.start;
+  all.segment(2, 2) << 0.2, -0.3;
+  EXPECT_EQ(fore.decode(Eigen::Vector2d(0.2, -0.3)).vector(), whole.decode(all).vector());
+}
+
 }  // namespace
 }  // namespace telemime

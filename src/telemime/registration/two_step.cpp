@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
-#include "telemime/registration/arm_search.h"
 
 namespace telemime {
 namespace {
@@ -87,58 +86,15 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
-struct Candidate {
-  Pose pose;
-  double cost = 0.0;
-};
-
-Candidate refine_arm(Objective& objective, const Candidate& from, Side side, const RegistrationConfig& config,
-                     int evaluations) {
-  const SearchBlock block =
-      bones_block(objective.model().body, from.pose, side, objective.limits(), config.simplex_factor);
-  SimplexOptions options;
-  options.tolerance = config.tolerance;
-  options.max_evaluations = evaluations;
-  const SimplexResult found =
-      minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), config.region); },
-               axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
-  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost}
-                                       : from;
-}
-
-// Arms from elsewhere: depth flips of where the arm is, and random ones. The best of them replaces the arm
-// when its cost is lower, after both had the same short search: an arm that was followed for many frames
-// fits closely even where it is wrong, a random one does not even where it is right.
-Pose propose_arms(Objective& objective, const Pose& start, const RegistrationConfig& config, int refine,
-                  Random& random) {
-  Candidate best = {start, objective(start, config.region)};
-  const Body& body = objective.model().body;
-  for (const Side side : {Side::left, Side::right}) {
-    const Pose from = best.pose;
-    std::vector<Pose> arms;
-    if (config.flips) {
-      arms = depth_flips(body, from, side, objective.limits());
-    }
-    for (int i = 0; i < config.proposals; ++i) {
-      arms.push_back(i % 2 == 0 ? random_forearm(body, from, side, objective.limits(), random)
-                                : random_arm(body, from, side, objective.limits(), random));
-    }
-    Candidate other = {from, std::numeric_limits<double>::infinity()};
-    for (const Pose& arm : arms) {
-      const double cost = objective(arm, config.region);
-      if (cost < other.cost) {
-        other = {arm, cost};
-      }
-    }
-    if (refine > 0 && !arms.empty()) {
-      best = refine_arm(objective, best, side, config, refine);
-      other = refine_arm(objective, other, side, config, refine);
-    }
-    if (other.cost < best.cost) {
-      best = other;
-    }
-  }
-  return best.pose;
+// Both arms' proposals when half of what they want can be had for each, one arm's otherwise.
+Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
+             Random& random) {
+  const int most = static_cast<int>(std::floor(config.proposal_share * budget));
+  const bool both = most >= config.proposals.evaluations();
+  const ProposalConfig proposals = config.proposals.within(both ? most / 2 : most);
+  return proposals.any()
+             ? propose_arms(objective, start, config.region, proposals, both, config.simplex_factor, random)
+             : start;
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
@@ -158,8 +114,8 @@ void RegistrationConfig::validate() const {
   require(simplex_factor > 0.0 && simplex_factor <= 20.0, "simplex_factor must be above 0, at most 20");
   require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
   require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
-  require(proposals >= 0 && proposals <= 100000, "proposals must be between 0 and 100000");
-  require(proposal_refine >= 0 && proposal_refine <= 100000, "proposal_refine must be between 0 and 100000");
+  proposals.validate();
+  require(proposal_share >= 0.0 && proposal_share <= 1.0, "proposal_share must be between 0 and 1");
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
     require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
@@ -173,8 +129,7 @@ RegistrationConfig reference_registration() {
   RegistrationConfig config;
   config.blocks = false;
   config.region_share = 0.5;
-  config.proposals = 0;
-  config.flips = false;
+  config.proposals = no_proposals();
   config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0, 0.0};
   config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0, 0.0};
   return config;
@@ -196,12 +151,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   int before = objective.evaluations();
   auto clock = std::chrono::steady_clock::now();
   if (region_budget > 0) {
-    const int proposals = config.proposals + (config.flips ? 3 : 0);
-    // A small budget has proposals without their search, the smallest none.
-    const int refine =
-        2 * (proposals + 2 * config.proposal_refine) < region_budget / 2 ? config.proposal_refine : 0;
-    const bool affordable = proposals > 0 && 2 * proposals < region_budget / 2;
-    const Pose from = affordable ? propose_arms(objective, start, config, refine, random) : start;
+    const Pose from = propose(objective, start, config, region_budget, random);
     const int spent = objective.evaluations() - before;
     step = run_step(objective, from, config, config.region, region_budget - spent, nullptr);
   }

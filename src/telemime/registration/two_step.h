@@ -7,6 +7,7 @@
 #include "telemime/core/random.h"
 #include "telemime/registration/blocks.h"
 #include "telemime/registration/objective.h"
+#include "telemime/registration/proposals.h"
 
 namespace telemime {
 
@@ -31,14 +32,10 @@ struct RegistrationConfig {
   /// The edge step's objective: D_C, with F beside it so that the contours do not leave their regions.
   ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.010, 0.002};
   double tolerance = 1e-4;
-  /// Arms that are tried anywhere each frame, for each arm, so that one that was lost in a fast motion comes
-  /// back; 0: none.
-  int proposals = 30;
-  /// Evaluations of the short search that the best of them gets before it is compared with the arm itself,
-  /// which gets as many.
-  int proposal_refine = 45;
-  /// Tries the arms' mirror images in depth each frame.
-  bool flips = true;
+  ProposalConfig proposals;
+  /// Of the region step's evaluations, what the proposals may use at most; where that is too little for both
+  /// arms in each frame, one of them at random has its turn.
+  double proposal_share = 0.65;
 
   /// Throws Error(config) with what to change.
   void validate() const;

@@ -32,8 +32,7 @@ TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
   EXPECT_NO_THROW(reference.validate());
   // One simplex, F alone, then D_C alone, and nothing that the thesis does not have.
   EXPECT_FALSE(reference.blocks);
-  EXPECT_EQ(reference.proposals, 0);
-  EXPECT_FALSE(reference.flips);
+  EXPECT_FALSE(reference.proposals.any());
   EXPECT_EQ(reference.region.contour, 0.0);
   EXPECT_EQ(reference.edge.region, 0.0);
   for (const ObjectiveWeights& w : {reference.region, reference.edge}) {
@@ -54,7 +53,8 @@ TEST(RegistrationConfig, RefusesValuesByName) {
       {"simplex_factor", [=](auto& c) { c.simplex_factor = nan; }},
       {"edge_factor", [](auto& c) { c.edge_factor = -1.0; }},
       {"rounds", [](auto& c) { c.rounds = 0; }},
-      {"proposals", [](auto& c) { c.proposals = -1; }},
+      {"proposals", [](auto& c) { c.proposals.directions = -1; }},
+      {"proposal_share", [=](auto& c) { c.proposal_share = nan; }},
       {"tolerance", [](auto& c) { c.tolerance = -1e-9; }},
       {"weights", [](auto& c) { c.region.region = -1.0; }},
       {"weights", [=](auto& c) { c.edge.contour = nan; }},
