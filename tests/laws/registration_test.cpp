@@ -250,6 +250,34 @@ TEST(Registration, AForearmThatWasLostIsBackWithinAThirdOfASecond) {
   EXPECT_LT(back_without, back - 2) << "the cases are too easy to show anything";
 }
 
+TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
+  const JointLimits limits = anatomical_limits();
+  const auto backend = make_scalar_backend();
+  const Pose upright = gestures()[0];
+  Pose bent = upright;
+  bent[Angle::root_roll] += 14 * kDegree;
+  bent.root += forward_kinematics(model.body, upright).joints[Joint::neck] -
+               forward_kinematics(model.body, bent).joints[Joint::neck];
+  for (const Side side : {Side::left, Side::right}) {
+    bent = with_wrist(model.body, bent, side, arm_target(model.body, upright, side), limits);
+  }
+  const auto proposed = [&](const Pose& truth, const Pose& start) {
+    const PreparedFrame frame = prepare(observe(model, truth, camera), camera);
+    Objective objective(*backend, frame, model, limits);
+    return propose_upright(objective, start, RegistrationConfig{}.region);
+  };
+  EXPECT_EQ(proposed(bent, bent).vector(), bent.vector());
+  const Pose back = proposed(upright, bent);
+  EXPECT_NEAR(back[Angle::root_roll], 0.5 * bent[Angle::root_roll], 1e-9);
+  const JointPositions before = forward_kinematics(model.body, bent).joints;
+  const JointPositions after = forward_kinematics(model.body, back).joints;
+  for (const Joint j : {Joint::neck, Joint::l_wrist, Joint::r_wrist}) {
+    EXPECT_LT((before[j] - after[j]).norm(), 0.02) << kJointNames[static_cast<std::size_t>(j)];
+  }
+}
+
 TEST(Registration, ProposalsThatAreNoBetterLeaveThePoseAlone) {
   const Pose truth = gestures()[0];
   Search search(truth);

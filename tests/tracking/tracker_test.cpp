@@ -193,6 +193,25 @@ TEST(Tracker, StartsWithAPersonWhoIsKnown) {
   EXPECT_EQ(second.step(clip().person[1]).motion.state, TrackState::tracking);
 }
 
+TEST(Tracker, APersonWhoIsKnownIsTrackedBeforeTheFrameThatTheShapeWasFittedTo) {
+  Tracker first = make_tracker(quick_config());
+  first.learn_background(clip().background);
+  const TrackedFrame start = first.step(clip().person.front());
+  ASSERT_TRUE(first.calibration());
+  KnownStart known = {*first.calibration(), 5, start.motion.pose, 0};
+  known.person.shape[Segment::l_forearm].length *= 1.02;
+  const auto forearm_at_first = [&](std::int64_t since) {
+    known.since = since;
+    Tracker second = make_tracker(quick_config());
+    second.learn_background(clip().background);
+    second.start_with(known);
+    EXPECT_EQ(second.step(clip().person.front()).motion.state, TrackState::tracking);
+    return second.calibration()->shape[Segment::l_forearm].length;
+  };
+  EXPECT_EQ(forearm_at_first(0), known.person.shape[Segment::l_forearm].length);
+  EXPECT_NE(forearm_at_first(5), known.person.shape[Segment::l_forearm].length);
+}
+
 TEST(Tracker, TheSceneOfAnotherTrackerIsNotChangedByThisOne) {
   Tracker first = make_tracker(quick_config());
   first.learn_background(clip().background);

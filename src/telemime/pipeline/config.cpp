@@ -71,6 +71,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("registration/proposals/directions", c.registration.proposals.directions);
   visit("registration/proposals/arms", c.registration.proposals.arms);
   visit("registration/proposals/flips", c.registration.proposals.flips);
+  visit("registration/proposals/upright", c.registration.proposals.upright);
   visit("registration/proposals/kept", c.registration.proposals.kept);
   visit("registration/proposals/turns", c.registration.proposals.turns);
   visit("registration/proposals/refine", c.registration.proposals.refine);

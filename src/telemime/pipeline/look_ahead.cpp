@@ -33,7 +33,7 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
       continue;
     }
     if (candidates.empty()) {
-      found.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose};
+      found.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
     }
     if (seen.motion.state == TrackState::tracking && found.frames++ % kStride == 0) {
       candidates.push_back(

@@ -99,6 +99,7 @@ bool Tracker::person_colours(const Frame& frame, std::string& note) {
   const PersonReport report = features_.begin_person(frame);
   note = report.reason;
   face_just_seen_ = report.accepted;
+  since_ = report.accepted ? frame.index : since_;
   return report.accepted || again;
 }
 
@@ -133,6 +134,7 @@ TrackedFrame Tracker::step(const Frame& frame) {
 void Tracker::search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result) {
   if (!observation.head) {
     waited_ = 0;
+    since_ = result.motion.frame + 1;
     lose("no head is seen", result);
     return;
   }
@@ -152,6 +154,12 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
       frames_until_search_ = 1;
       return;
     }
+  }
+  if (!calibration_ && known_ && result.motion.frame >= known_->since) {
+    calibration_ = known_->person;
+    model_ = make_model(known_->person.shape);
+  }
+  if (!calibration_) {
     const Calibration fit = calibrate(*backend_, prepared, *observation.head, limits_, config_.calibration,
                                       config_.registration, random_);
     result.motion.evaluations += fit.evaluations;

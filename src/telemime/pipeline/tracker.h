@@ -30,6 +30,9 @@ struct KnownStart {
   TrackerCalibration person;
   std::int64_t frame = 0;
   Pose pose;  ///< in that frame
+  /// From here on the person had the same colours and stayed in the picture: tracking may start here already,
+  /// although no shape could be fitted yet.
+  std::int64_t since = frame;
 };
 
 /// One frame's result with what a viewer may want to draw.
@@ -54,7 +57,8 @@ class Tracker {
   /// Takes over what another tracker of the same input learned of the scene.
   void set_scene(const ImageCalibration& scene);
   void set_calibration(const TrackerCalibration& calibration, const ImageCalibration& image);
-  /// Uses this person and pose in that frame instead of calibrating there.
+  /// Uses this person and pose in that frame instead of calibrating there; or the person earlier, where a
+  /// search finds the pose.
   void start_with(const KnownStart& start) { known_ = start; }
 
   TrackedFrame step(const Frame& frame);
@@ -63,6 +67,8 @@ class Tracker {
   void recalibrate();
 
   const std::optional<TrackerCalibration>& calibration() const { return calibration_; }
+  /// The frame since which the person has been in the picture with the colours that are known now.
+  std::int64_t since() const { return since_; }
   const FeatureExtractor& features() const { return features_; }
   const Model& model() const { return model_; }
   const Camera& camera() const { return camera_; }
@@ -95,6 +101,7 @@ class Tracker {
   bool face_just_seen_ = false;  ///< the person's colours were learned in this frame
   int bad_frames_ = 0;
   int frames_until_search_ = 0;
+  std::int64_t since_ = 0;
   int waited_ = 0;  ///< frames since a head came into the picture
 };
 

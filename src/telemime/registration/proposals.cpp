@@ -14,7 +14,10 @@ namespace telemime {
 namespace {
 
 constexpr int kFlips = 3;
-constexpr double kUnlike = 0.08;  // m, between the wrists of two proposals that are both worth a search
+// Between the wrists (m) of a proposal and of the arm itself: what is nearer belongs to the same valley of
+// the cost mostly, and would hide the others. And between two proposals that are both worth a search.
+constexpr double kAway = 0.15;
+constexpr double kApart = 0.10;
 constexpr double kTolerance = 1e-4;
 
 struct Candidate {
@@ -38,20 +41,22 @@ Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
   return forward_kinematics(body, pose).joints[side == Side::left ? Joint::l_wrist : Joint::r_wrist];
 }
 
-// The cheapest ones whose wrists are apart from each other's and from that of `here`.
+// The cheapest ones whose wrists are away from that of `here` and apart from each other's.
 std::vector<Candidate> unlike(std::vector<Candidate> candidates, const Body& body, const Pose& here,
                               Side side, int count) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  std::vector<Eigen::Vector3d> wrists = {wrist_of(body, here, side)};
+  const Eigen::Vector3d own = wrist_of(body, here, side);
+  std::vector<Eigen::Vector3d> wrists;
   std::vector<Candidate> kept;
   for (const Candidate& c : candidates) {
     if (static_cast<int>(kept.size()) == count) {
       break;
     }
     const Eigen::Vector3d wrist = wrist_of(body, c.pose, side);
-    if (std::all_of(wrists.begin(), wrists.end(),
-                    [&](const Eigen::Vector3d& w) { return (w - wrist).norm() >= kUnlike; })) {
+    if ((wrist - own).norm() >= kAway &&
+        std::all_of(wrists.begin(), wrists.end(),
+                    [&](const Eigen::Vector3d& w) { return (w - wrist).norm() >= kApart; })) {
       wrists.push_back(wrist);
       kept.push_back(c);
     }
@@ -81,6 +86,7 @@ ProposalConfig no_proposals() {
   none.directions = 0;
   none.arms = 0;
   none.flips = false;
+  none.upright = false;
   return none;
 }
 
@@ -119,6 +125,22 @@ void ProposalConfig::validate() const {
   if (!(margin >= 0.0 && margin <= 10.0)) {
     throw Error(ErrorKind::config, "registration: the margin of proposals must be between 0 and 10");
   }
+}
+
+Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  Pose upright = start;
+  for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt}) {
+    upright[a] = 0.5 * start[a];
+  }
+  const auto neck = [&](const Pose& pose) { return forward_kinematics(body, pose).joints[Joint::neck]; };
+  upright.root += neck(start) - neck(upright);
+  for (const Side side : {Side::left, Side::right}) {
+    upright = with_wrist(body, upright, side, arm_target(body, start, side), limits);
+  }
+  upright = limits.clamp(upright);
+  return objective(upright, weights) < objective(start, weights) ? upright : start;
 }
 
 Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeights& weights,

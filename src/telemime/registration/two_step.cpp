@@ -86,15 +86,17 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
-// Both arms' proposals when half of what they want can be had for each, one arm's otherwise.
+// Of both arms where the evaluations are enough for all that each may use, else of one.
 Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
              Random& random) {
   const int most = static_cast<int>(std::floor(config.proposal_share * budget));
   const bool both = most >= config.proposals.evaluations();
   const ProposalConfig proposals = config.proposals.within(both ? most / 2 : most);
-  return proposals.any()
-             ? propose_arms(objective, start, config.region, proposals, both, config.simplex_factor, random)
-             : start;
+  if (!proposals.any()) {
+    return start;
+  }
+  const Pose from = proposals.upright ? propose_upright(objective, start, config.region) : start;
+  return propose_arms(objective, from, config.region, proposals, both, config.simplex_factor, random);
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {

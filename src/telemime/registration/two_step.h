@@ -28,9 +28,9 @@ struct RegistrationConfig {
   /// Rounds over the blocks within a step.
   int rounds = 2;
   /// The region step's objective.
-  ObjectiveWeights region{1.0, 0.0, 0.02, 4.0, 0.04, 0.010, 0.002};
+  ObjectiveWeights region{1.0, 0.0, 0.02, 4.0, 0.04, 0.020, 0.002};
   /// The edge step's objective: D_C, with F beside it so that the contours do not leave their regions.
-  ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.010, 0.002};
+  ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.020, 0.002};
   double tolerance = 1e-4;
   ProposalConfig proposals;
   /// Of the region step's evaluations, what the proposals may use at most; where that is too little for both
