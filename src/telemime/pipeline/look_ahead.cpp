@@ -57,7 +57,7 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   // The pose in the first frame is needed for the new shape, too.
   keyframes.insert(keyframes.begin(), candidates.front());
   const ShapeRefinement refined =
-      refine_shape(make_scalar_backend, keyframes, found.start.person.shape, scout.limits(),
+      refine_shape(make_part_backend, keyframes, found.start.person.shape, scout.limits(),
                    config.calibration.shape, config.calibration.refine);
   found.start.person.shape = refined.shape;
   found.start.pose = refined.poses.front();

@@ -53,7 +53,7 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       working_camera_(camera.scaled_to(config.image.width, config.image.height)),
       limits_(load_limits(config.limits)),
       features_(config.image),
-      backend_(make_scalar_backend()),
+      backend_(make_part_backend()),
       random_(config.seed) {
   config_.validate();
   Shape average;

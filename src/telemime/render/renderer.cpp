@@ -38,12 +38,16 @@ void clear(Rendering& out, const Camera& camera, const BodyMesh& mesh) {
   out.facing.resize(mesh.triangles.size());
 }
 
-void project(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera, Rendering& out) {
+void project(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera,
+             Rendering& out) {
   const auto fx = static_cast<float>(camera.fx);
   const auto fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx);
   const auto cy = static_cast<float>(camera.cy);
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    if (!which[s]) {
+      continue;
+    }
     const Eigen::Matrix3f r = kinematics.camera_from_segment[s].linear().cast<float>();
     const Eigen::Vector3f t = kinematics.camera_from_segment[s].translation().cast<float>();
     for (auto i = mesh.vertex_range[s].begin; i < mesh.vertex_range[s].end; ++i) {
@@ -212,12 +216,8 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
   }
 }
 
-}  // namespace
-
-void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera, Rendering& out) {
-  clear(out, camera, mesh);
-  project(mesh, kinematics, camera, out);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+void draw(Range triangles, const BodyMesh& mesh, Rendering& out) {
+  for (auto i = triangles.begin; i < triangles.end; ++i) {
     const MeshTriangle& triangle = mesh.triangles[i];
     const Eigen::Vector3f& a = out.projected[triangle.vertex[0]];
     const Eigen::Vector3f& b = out.projected[triangle.vertex[1]];
@@ -235,6 +235,48 @@ void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& ca
       out.facing[i] = -1;
     }
   }
+}
+
+void draw_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera,
+                   Rendering& out) {
+  project(which, mesh, kinematics, camera, out);
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    if (which[s]) {
+      draw(mesh.triangle_range[s], mesh, out);
+    }
+  }
+}
+
+}  // namespace
+
+void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera, Rendering& out) {
+  clear(out, camera, mesh);
+  project(SegmentSet{}.set(), mesh, kinematics, camera, out);
+  draw({0, static_cast<std::uint32_t>(mesh.triangles.size())}, mesh, out);
+}
+
+void render_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
+                     const Camera& camera, Rendering& out) {
+  clear(out, camera, mesh);
+  draw_segments(which, mesh, kinematics, camera, out);
+}
+
+void render_over(const Rendering& base, SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
+                 const Camera& camera, Rendering& out) {
+  clear(out, camera, mesh);
+  const int span = base.right - base.left;
+  for (int y = base.top; y < base.bottom && span > 0; ++y) {
+    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * base.width + base.left;
+    std::copy_n(base.surface.begin() + row, span, out.surface.begin() + row);
+    std::copy_n(base.inverse_depth.begin() + row, span, out.inverse_depth.begin() + row);
+  }
+  out.left = base.left;
+  out.top = base.top;
+  out.right = base.right;
+  out.bottom = base.bottom;
+  out.projected = base.projected;
+  out.facing = base.facing;
+  draw_segments(which, mesh, kinematics, camera, out);
 }
 
 void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::vector<Eigen::Vector2f>& out) {

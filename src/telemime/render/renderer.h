@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bitset>
 #include <cstdint>
 #include <vector>
 
@@ -29,6 +30,17 @@ struct Rendering {
 /// Renders the class planes with a z-buffer (thesis 2.4.4.2): a pixel belongs to the nearest surface that
 /// covers its centre. Surfaces nearer than 5 cm to the camera's plane are left out.
 void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera, Rendering& out);
+
+using SegmentSet = std::bitset<kSegmentCount>;
+
+/// The same with these segments alone; the mesh must have its ranges.
+void render_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
+                     const Camera& camera, Rendering& out);
+
+/// The same with these segments over all that `base` shows. `base` has the others, with this mesh and camera.
+/// What render() draws with all of them, but for pixels where two segments are at exactly one depth.
+void render_over(const Rendering& base, SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
+                 const Camera& camera, Rendering& out);
 
 /// Points of the visible occluding contour (thesis 3.5.2), about one a pixel, in pixels: edges that join a
 /// front-facing to a back-facing triangle and are not hidden by another segment. Call after render() with the

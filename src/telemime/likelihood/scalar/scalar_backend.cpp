@@ -5,7 +5,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/cues/all.h"
 #include "telemime/likelihood/backend.h"
-#include "telemime/render/renderer.h"
+#include "telemime/render/part_renderer.h"
 
 namespace telemime {
 namespace {
@@ -66,9 +66,20 @@ void sum_contour(const PreparedFrame& frame, const std::vector<Eigen::Vector2f>&
   r.contour_points = static_cast<std::int32_t>(contour.size());
 }
 
+// Every pose drawn whole.
+struct WholeRenderer {
+  Rendering rendering;
+  const Rendering& render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera) {
+    telemime::render(mesh, kinematics, camera, rendering);
+    return rendering;
+  }
+};
+
+template <typename Renderer>
 class ScalarBackend final : public Backend {
  public:
-  std::string_view name() const override { return "scalar"; }
+  explicit ScalarBackend(std::string_view name) : name_(name) {}
+  std::string_view name() const override { return name_; }
 
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
                 std::span<Score> scores) override {
@@ -77,14 +88,14 @@ class ScalarBackend final : public Backend {
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Kinematics kinematics = forward_kinematics(model.body, poses[i]);
-      render(model.mesh, kinematics, frame.camera, rendering_);
+      const Rendering& rendering = renderer_.render(model.mesh, kinematics, frame.camera);
       Score score;
       if (wants(terms, Reduction::overlap)) {
-        count_overlap(frame, rendering_, score.reductions);
+        count_overlap(frame, rendering, score.reductions);
         score.region = non_overlapping_ratio(score.reductions);
       }
       if (wants(terms, Reduction::contour)) {
-        occluding_contour(model.mesh, rendering_, contour_);
+        occluding_contour(model.mesh, rendering, contour_);
         sum_contour(frame, contour_, score.reductions);
         score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
       }
@@ -93,14 +104,19 @@ class ScalarBackend final : public Backend {
   }
 
  private:
-  Rendering rendering_;
+  std::string_view name_;
+  Renderer renderer_;
   std::vector<Eigen::Vector2f> contour_;
 };
 
 }  // namespace
 
 std::unique_ptr<Backend> make_scalar_backend() {
-  return std::make_unique<ScalarBackend>();
+  return std::make_unique<ScalarBackend<WholeRenderer>>("scalar");
+}
+
+std::unique_ptr<Backend> make_part_backend() {
+  return std::make_unique<ScalarBackend<PartRenderer>>("parts");
 }
 
 }  // namespace telemime
