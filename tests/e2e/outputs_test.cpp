@@ -146,6 +146,16 @@ TEST(Results, FolderWithoutPermissionIsNamed) {
   EXPECT_EQ(refused.code, kExitOutput) << refused.words;
 }
 
+TEST(Results, CalibrationThatCouldNotBeWrittenIsRefusedBeforeTheInputIsRead) {
+  const Folder folder;
+  fs::create_directory(folder / "taken");
+  for (const std::string& file : {folder / "missing/me.json", folder / "taken"}) {
+    const Ended refused = run({"calibrate", folder / "no_such_input.mp4", "--out", file, "--quiet"});
+    EXPECT_EQ(refused.code, kExitOutput) << refused.words;
+    EXPECT_NE(refused.words.find(file), std::string::npos) << refused.words;
+  }
+}
+
 TEST(Results, FullDiskIsNamedAndWhatWasWrittenIsWhole) {
   const Folder folder;
   const TinyDisk disk(folder);

@@ -306,6 +306,7 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
 
 TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& hooks,
                                  const std::filesystem::path& file) {
+  prepare_file(file);
   Prepared p = prepare_run(request, hooks);
   if (const auto found = look_ahead_of(request, hooks, p)) {
     save_person({found->start.person, p.tracker->camera(), found->image}, file);

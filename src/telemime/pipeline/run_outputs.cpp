@@ -57,6 +57,17 @@ void prepare_outputs(const TrackRequest& request) {
   }
 }
 
+void prepare_file(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw cannot_write(file, errno);
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw cannot_write(file, EISDIR);
+  }
+}
+
 RunOutputs::RunOutputs(const TrackRequest& request, double fps)
     : folder_(request.out), formats_(request.formats), options_(request.output_options), fps_(fps) {
   prepare_outputs(request);

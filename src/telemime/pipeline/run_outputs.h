@@ -16,6 +16,9 @@ namespace telemime {
 /// format or an option that there is not, Error(output).
 void prepare_outputs(const TrackRequest& request);
 
+/// Throws Error(output) where a file of that name could not be written later; writes nothing.
+void prepare_file(const std::filesystem::path& file);
+
 /// The files of one run: the encoders' and the overlay video.
 class RunOutputs {
  public:
