@@ -278,6 +278,36 @@ TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   }
 }
 
+TEST(Registration, OneArmAtATimeTakesBothInTurn) {
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
+  const JointLimits limits = anatomical_limits();
+  const auto backend = make_scalar_backend();
+  const PreparedFrame frame = prepare(observe(model, gestures()[1], camera), camera);
+  const Pose start = gestures()[0];
+  const RegistrationConfig config;
+  int left = 0;
+  int right = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto proposed = [&] {
+      Objective objective(*backend, frame, model, limits);
+      Random random(seed);
+      const Pose pose = propose_arms(objective, start, config.region, config.proposals, false, 1.5, random);
+      EXPECT_LE(objective.evaluations(), config.proposals.evaluations() + 1);
+      return pose;
+    };
+    const Pose pose = proposed();
+    EXPECT_EQ(pose.vector(), proposed().vector());
+    const bool l = arm_angles(pose, Side::left).elbow != arm_angles(start, Side::left).elbow;
+    const bool r = arm_angles(pose, Side::right).elbow != arm_angles(start, Side::right).elbow;
+    EXPECT_FALSE(l && r);
+    left += l ? 1 : 0;
+    right += r ? 1 : 0;
+  }
+  EXPECT_GT(left, 0);
+  EXPECT_GT(right, 0);
+}
+
 TEST(Registration, ProposalsThatAreNoBetterLeaveThePoseAlone) {
   const Pose truth = gestures()[0];
   Search search(truth);

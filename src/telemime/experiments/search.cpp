@@ -183,7 +183,8 @@ Finding steps_sharing(Lab& lab) {
   }
   finding.tables.insert(finding.tables.begin(), table);
   finding.notes = {
-      "'Ours' searches trunk and arms in turn with depth flips, a few random arms and a mild prior; without "
+      "'Ours' searches trunk and arms in turn with forearm directions, random arms, depth flips, an upright "
+      "trunk and a mild prior; without "
       "the expected motion and smoothing that `telemime track` adds."};
   finding.verdict =
       verdict({joy[2] < joy[0], joy[2] < joy[1]},

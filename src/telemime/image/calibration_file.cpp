@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// One row per Gaussian: weight, mean (3), covariance (9).
 cv::Mat table_of(const ColourMixture& mixture) {

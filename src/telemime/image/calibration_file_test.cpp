@@ -38,6 +38,7 @@ ImageCalibration some_calibration() {
   g.weight = 0.75F;
   c.colours.skin = {g};
   c.colours.clothes = {g, g, g};
+  c.colours.other = {g, g};
   c.doubtful = true;
   return c;
 }
@@ -53,6 +54,7 @@ TEST_F(CalibrationFile, ReadsWhatWasWritten) {
     EXPECT_EQ(cv::countNonZero(before.background.valid != after.background.valid), 0);
     ASSERT_EQ(after.colours.skin.size(), 1U);
     EXPECT_EQ(after.colours.clothes.size(), 3U);
+    EXPECT_EQ(after.colours.other.size(), 2U);
     EXPECT_TRUE(after.colours.hair.empty());
     EXPECT_EQ(after.colours.skin[0].mean, before.colours.skin[0].mean);
     EXPECT_EQ(after.colours.skin[0].covariance, before.colours.skin[0].covariance);

@@ -16,7 +16,7 @@ enum Colour : unsigned char { kSkin = 0, kClothes = 1, kHair = 2, kOther = 3 };
 struct ColourVotes {
   cv::Mat best;     ///< CV_32FC1, energy of the best of the person's colours
   cv::Mat colour;   ///< CV_8UC1, which
-  cv::Mat learned;  ///< CV_8UC1, which of those that were learned: no unknown colour, but trousers or a mask
+  cv::Mat learned;  ///< CV_8UC1, which of those that were learned, hair excluded; kOther: trousers or a mask
 };
 
 struct Ellipse {

@@ -104,21 +104,21 @@ PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, c
     add_if_narrow(fit_robust(lower, kHairTolerance), learned.other);
   }
 
-  // A mask has a colour of its own, which shoes, paper or a cup may have, too: as long as it is not known,
-  // skin is the nearest that is.
-  const Samples mask = keep_if(face, [&](const Eigen::Vector3f& c) {
-    return !may_be_skin(c) && mahalanobis2(learned.clothes, c) > 9;
-  });
-  if (skin.size() != face.size() && mask.size() >= kFewest && mask.size() * 5 >= face.size()) {
-    add_if_narrow(fit_robust(mask, kClothesTolerance), learned.other);
-  }
-
   const Samples above = collect(picture, silhouette, head, [](double x, double y) {
     return x * x + y * y < 1 && y < -0.45 && x * x + y * y > 0.2;
   });
   const Samples hair = keep_if(above, unlike_skin);
   if (hair.size() >= kFewest / 2 && hair.size() * 4 >= above.size()) {
     add_if_narrow(fit_robust(hair, kHairTolerance), learned.hair);
+  }
+
+  // A mask has a colour of its own, which shoes, paper or a cup may have, too: as long as it is not known,
+  // skin is the nearest that is. A beard has the colour of hair.
+  const Samples mask = keep_if(face, [&](const Eigen::Vector3f& c) {
+    return !may_be_skin(c) && mahalanobis2(learned.clothes, c) > 9 && mahalanobis2(learned.hair, c) > 9;
+  });
+  if (skin.size() != face.size() && mask.size() >= kFewest && mask.size() * 5 >= face.size()) {
+    add_if_narrow(fit_robust(mask, kClothesTolerance), learned.other);
   }
   colours = learned;
   return {true, {}};

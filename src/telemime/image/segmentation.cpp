@@ -107,8 +107,8 @@ void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const c
 }
 
 /// Unknown colours in strips of one or two pixels are the mixed pixels between two known ones, and small
-/// patches of them are folds and deep shade: both go to the likelier of skin and clothes. What reaches the
-/// bottom of the picture stays: trousers begin there.
+/// patches of them are folds and deep shade: both go to the likeliest of the colours that were learned. What
+/// reaches the bottom of the picture stays: trousers begin there.
 void give_scraps_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette, double most) {
   const cv::Mat other = (votes.colour == kOther) & silhouette;
   cv::Mat thick;

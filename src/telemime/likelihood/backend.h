@@ -57,8 +57,9 @@ PreparedFrame prepare(const Observation& observation, const Camera& camera);
 /// The definition: exact z-buffered meshes, one pose after the other.
 std::unique_ptr<Backend> make_scalar_backend();
 
-/// The same, drawing again only the segments that moved since the pose before: for searches over one arm.
-/// Agrees with `scalar` but for pixels where two segments are at exactly one depth.
+/// The same for searches over one arm: where at most three segments moved since the pose before, only those
+/// are drawn again. Agrees with `scalar` but for pixels where two segments are at exactly one depth; there it
+/// depends on the poses before. One for each thread.
 std::unique_ptr<Backend> make_part_backend();
 
 }  // namespace telemime

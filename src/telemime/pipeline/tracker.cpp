@@ -116,11 +116,14 @@ TrackedFrame Tracker::step(const Frame& frame) {
   result.warnings = features_.status().warnings;
   motion.stage_ms.emplace_back("features", watch.lap());
 
+  if (!result.observation.head) {
+    since_ = frame.index + 1;
+  }
   if (coloured) {
     const PreparedFrame prepared = prepare(result.observation, working_camera_);
     if (phase_ == Phase::tracking) {
       follow(prepared, result);
-    } else if (++waited_; --frames_until_search_ <= 0) {
+    } else if (++waited_; --frames_until_search_ <= 0 || (known_ && frame.index == known_->frame)) {
       search(prepared, result.observation, result);
     }
   }
@@ -134,7 +137,6 @@ TrackedFrame Tracker::step(const Frame& frame) {
 void Tracker::search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result) {
   if (!observation.head) {
     waited_ = 0;
-    since_ = result.motion.frame + 1;
     lose("no head is seen", result);
     return;
   }

@@ -67,7 +67,7 @@ class Tracker {
   void recalibrate();
 
   const std::optional<TrackerCalibration>& calibration() const { return calibration_; }
-  /// The frame since which the person has been in the picture with the colours that are known now.
+  /// The frame since which a head has been in the picture, with the colours that are known now.
   std::int64_t since() const { return since_; }
   const FeatureExtractor& features() const { return features_; }
   const Model& model() const { return model_; }

@@ -18,7 +18,8 @@ struct ArmSearchConfig {
 /// and swivel drawn so that hands before the body are likelier than behind it.
 Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random);
 
-/// The same arm with other forearms: the elbow stays, the hand is straight, and the forearm points in
+/// The same arm with other forearms: the elbow stays (but for some centimetres where
+/// limits clamp), the hand is straight, and the forearm points in
 /// directions spread evenly (a Fibonacci lattice, turned at random) over all that lies before the chest and a
 /// little behind. Those outside the limits or inside the body are left out: at most `count` poses.
 std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,

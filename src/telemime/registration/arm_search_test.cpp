@@ -70,12 +70,15 @@ TEST(RandomArm, SameSeedSameArm) {
 TEST(ForearmFan, TurnsTheForearmAboutTheElbowAlone) {
   const Body body = make_body(testing_poses::other_shape());
   Random random(5);
+  EXPECT_TRUE(forearm_fan(body, Pose{}, Side::left, anatomical_limits(), 0, random).empty());
+  std::size_t poses = 0;
   for (const JointLimits& limits : {anatomical_limits(), reference_limits()}) {
     for (int i = 0; i < 20; ++i) {
       const Pose pose = random_pose(limits, random, 0.2);
       const JointPositions before = forward_kinematics(body, pose).joints;
       for (const Side side : kSides) {
         for (const Pose& arm : forearm_fan(body, pose, side, limits, 40, random)) {
+          ++poses;
           const JointPositions after = forward_kinematics(body, arm).joints;
           ASSERT_TRUE(limits.contains(arm));
           ASSERT_LT(interpenetration(body, forward_kinematics(body, arm)), kInvalidInterpenetration);
@@ -87,6 +90,7 @@ TEST(ForearmFan, TurnsTheForearmAboutTheElbowAlone) {
       }
     }
   }
+  EXPECT_GT(poses, 2 * 20 * 2 * 10U) << "of 40 each";
 }
 
 TEST(ForearmFan, HasADirectionNearEveryForearmBeforeTheChest) {

@@ -27,6 +27,9 @@ struct Candidate {
 
 Candidate searched(Objective& objective, const Candidate& from, const SearchBlock& block,
                    const ObjectiveWeights& weights, int evaluations) {
+  if (evaluations < 2) {
+    return from;
+  }
   SimplexOptions options;
   options.tolerance = kTolerance;
   options.max_evaluations = evaluations;
@@ -104,7 +107,7 @@ ProposalConfig ProposalConfig::within(int most) const {
     const auto shared = [&](int whole) { return static_cast<int>(std::floor(whole * share)); };
     less.directions = shared(directions);
     less.arms = shared(arms);
-    less.kept = std::max(std::min(1, kept), shared(kept));
+    less.kept = std::max(1, shared(kept));
     less.refine = shared(refine);
     if (less.directions + less.arms < std::min(kFewest, directions + arms)) {
       break;
@@ -117,14 +120,17 @@ ProposalConfig ProposalConfig::within(int most) const {
 }
 
 void ProposalConfig::validate() const {
-  for (const int n : {directions, arms, kept, turns, refine}) {
-    if (n < 0 || n > 100000) {
-      throw Error(ErrorKind::config, "registration: the numbers of proposals must be between 0 and 100000");
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "registration: proposals." + what);
     }
-  }
-  if (!(margin >= 0.0 && margin <= 10.0)) {
-    throw Error(ErrorKind::config, "registration: the margin of proposals must be between 0 and 10");
-  }
+  };
+  require(directions >= 0 && directions <= 10000, "directions must be between 0 and 10000");
+  require(arms >= 0 && arms <= 10000, "arms must be between 0 and 10000");
+  require(kept >= 1 && kept <= 100, "kept must be between 1 and 100");
+  require(turns >= 0 && turns <= 10000, "turns must be between 0 and 10000");
+  require(refine >= 0 && refine <= 10000, "refine must be between 0 and 10000");
+  require(margin >= 0.0 && margin <= 10.0, "margin must be between 0 and 10");
 }
 
 Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights) {

@@ -11,15 +11,15 @@ struct ProposalConfig {
   int directions = 38;  ///< of the forearm, about the elbow as it is; 0: none
   int arms = 10;        ///< random ones; 0: none
   bool flips = true;    ///< the arm's mirror images in depth
-  bool upright = true;  ///< the trunk half as bent, before the arms have their turn
+  bool upright = true;  ///< the trunk half as bent and turned, before the arms have their turn
   int kept = 4;         ///< best ones, unlike each other, that are searched further
   int turns = 10;       ///< evaluations for each of those to turn its forearm
   int refine = 80;  ///< evaluations for the whole arm of the best of those; half as many for the arm itself
   /// A proposal must be better by so much: two arms that fit equally well must not take turns.
   double margin = 0.006;
 
-  bool any() const { return directions > 0 || arms > 0 || flips; }
-  /// Evaluations for one arm, at most.
+  bool any_arms() const { return directions > 0 || arms > 0 || flips; }
+  /// Evaluations for one arm, at most; without that of the arm as it is.
   int evaluations() const;
   /// The same in proportion for at most so many evaluations an arm; too few for a search: none.
   ProposalConfig within(int evaluations) const;
@@ -30,8 +30,9 @@ struct ProposalConfig {
 /// No arms from elsewhere.
 ProposalConfig no_proposals();
 
-/// The pose, or one with the trunk half as bent where that costs less; neck and wrists stay where they are. A
-/// trunk that was followed through a lean keeps some of it: a plain shirt looks nearly the same from within.
+/// The pose, or one with the trunk half as bent and turned where that costs less; neck and wrists stay where
+/// they are. A trunk that was followed through a lean keeps some of it: a plain shirt looks nearly the same
+/// from within.
 Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights);
 
 /// The best of the pose and its arms from elsewhere; of both arms, or of one at random. A proposal replaces

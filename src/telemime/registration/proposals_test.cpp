@@ -15,7 +15,7 @@ TEST(Proposals, FitIntoTheirEvaluations) {
   EXPECT_EQ(whole.within(whole.evaluations()).directions, whole.directions);
   for (int most = 0; most <= whole.evaluations() + 10; ++most) {
     const ProposalConfig less = whole.within(most);
-    if (!less.any()) {
+    if (!less.any_arms()) {
       EXPECT_LT(most, 50) << "room enough for a few";
       continue;
     }
@@ -26,9 +26,9 @@ TEST(Proposals, FitIntoTheirEvaluations) {
 }
 
 TEST(Proposals, NoneStayNone) {
-  EXPECT_FALSE(no_proposals().any());
-  EXPECT_FALSE(no_proposals().within(1000).any());
-  EXPECT_FALSE(no_proposals().within(0).any());
+  EXPECT_FALSE(no_proposals().any_arms());
+  EXPECT_FALSE(no_proposals().within(1000).any_arms());
+  EXPECT_FALSE(no_proposals().within(0).any_arms());
 }
 
 TEST(Proposals, RefuseValuesByName) {
@@ -46,8 +46,16 @@ TEST(Proposals, RefuseValuesByName) {
         &ProposalConfig::refine}) {
     ProposalConfig config;
     config.*number = -1;
-    EXPECT_TRUE(refused(config, "numbers of proposals"));
+    EXPECT_TRUE(refused(config, "proposals."));
   }
+  ProposalConfig none_kept;
+  none_kept.kept = 0;
+  EXPECT_TRUE(refused(none_kept, "kept"));
+  ProposalConfig most;
+  most.directions = most.arms = most.turns = most.refine = 10000;
+  most.kept = 100;
+  EXPECT_NO_THROW(most.validate());
+  EXPECT_GT(most.evaluations(), 0) << "no overflow";
   for (const double margin : {-0.1, std::numeric_limits<double>::quiet_NaN()}) {
     ProposalConfig config;
     config.margin = margin;

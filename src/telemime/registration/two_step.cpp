@@ -86,17 +86,18 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
-// Of both arms where the evaluations are enough for all that each may use, else of one.
+// For both arms where the evaluations would be enough for one in full, else for one at random.
 Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
              Random& random) {
-  const int most = static_cast<int>(std::floor(config.proposal_share * budget));
+  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk
+  const int most = std::min(static_cast<int>(std::floor(config.proposal_share * budget)), budget - kBeside);
   const bool both = most >= config.proposals.evaluations();
   const ProposalConfig proposals = config.proposals.within(both ? most / 2 : most);
-  if (!proposals.any()) {
-    return start;
-  }
-  const Pose from = proposals.upright ? propose_upright(objective, start, config.region) : start;
-  return propose_arms(objective, from, config.region, proposals, both, config.simplex_factor, random);
+  const Pose from =
+      config.proposals.upright && most >= kBeside ? propose_upright(objective, start, config.region) : start;
+  return proposals.any_arms()
+             ? propose_arms(objective, from, config.region, proposals, both, config.simplex_factor, random)
+             : from;
 }
 
 double milliseconds_since(std::chrono::steady_clock::time_point start) {

@@ -33,8 +33,8 @@ struct RegistrationConfig {
   ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.020, 0.002};
   double tolerance = 1e-4;
   ProposalConfig proposals;
-  /// Of the region step's evaluations, what the proposals may use at most; where that is too little for both
-  /// arms in each frame, one of them at random has its turn.
+  /// Of the region step's evaluations, what the proposals may use at most: both arms have fewer proposals in
+  /// proportion; where it is less than one arm would have in full, one at random has its turn.
   double proposal_share = 0.65;
 
   /// Throws Error(config) with what to change.

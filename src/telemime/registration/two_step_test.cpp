@@ -32,7 +32,7 @@ TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
   EXPECT_NO_THROW(reference.validate());
   // One simplex, F alone, then D_C alone, and nothing that the thesis does not have.
   EXPECT_FALSE(reference.blocks);
-  EXPECT_FALSE(reference.proposals.any());
+  EXPECT_FALSE(reference.proposals.any_arms());
   EXPECT_EQ(reference.region.contour, 0.0);
   EXPECT_EQ(reference.edge.region, 0.0);
   for (const ObjectiveWeights& w : {reference.region, reference.edge}) {

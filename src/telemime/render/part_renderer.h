@@ -2,13 +2,15 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "telemime/render/renderer.h"
 
 namespace telemime {
 
 /// Renders poses that share most of their segments: a search over one arm moves three of eight. The segments
-/// that stayed are drawn once and kept. Everything that could make them stale is looked at in each call.
+/// that stayed are drawn once and kept. Camera, vertices
+/// and surfaces are compared in each call, so another mesh of make_mesh() or another camera starts anew.
 class PartRenderer {
  public:
   /// What render() gives, but for pixels where two segments are at exactly one depth. Valid until the next
