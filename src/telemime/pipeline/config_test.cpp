@@ -172,6 +172,13 @@ TEST(Config, UnknownKeysAreRefusedByName) {
   EXPECT_NO_THROW(update_from_json(config, {{"image", Json::object()}, {"registration", Json::object()}}));
 }
 
+TEST(Config, TheFuzzersSeedIsAWholeConfigurationOfToday) {
+  // A seed that is refused at its first key would leave the reader behind it untried.
+  Config config;
+  update_from_file(config, std::filesystem::path(TELEMIME_SOURCE_DIR) / "fuzz/corpus/config/default.json");
+  EXPECT_EQ(to_json(config), to_json(Config{}));
+}
+
 TEST(Config, WhatIsNoObjectIsRefused) {
   for (const Json& json : {Json(), Json(3), Json::array({1}), Json("seed")}) {
     EXPECT_TRUE(names(refusal_of(json), "object")) << json;
@@ -188,6 +195,10 @@ TEST(Config, ValuesOutOfRangeAreRefusedByName) {
                                                  {"/tracking/velocity", -0.1},
                                                  {"/registration/iterations", 0},
                                                  {"/registration/method", "guess"},
+                                                 {"/registration/proposal_share", 1.1},
+                                                 {"/registration/proposals/kept", 0},
+                                                 {"/registration/proposals/refine", 10001},
+                                                 {"/registration/proposals/margin", -0.1},
                                                  {"/image/width", 3},
                                                  {"/calibration/worst_region", -1.0},
                                                  {"/smoothing/name", "magic"},

@@ -27,7 +27,7 @@ struct ProposalConfig {
   void validate() const;
 };
 
-/// No arms from elsewhere.
+/// Neither arms from elsewhere nor an upright trunk.
 ProposalConfig no_proposals();
 
 /// The pose, or one with the trunk half as bent and turned where that costs less; neck and wrists stay where
@@ -39,7 +39,7 @@ Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWei
 /// the arm when its cost is lower by the margin after both had a short search: an arm that was followed for
 /// many frames fits closely even where it is wrong, one from elsewhere does not even where it is right. The
 /// forearm's two directions are searched first: they are what a lost arm has wrong most often, and two
-/// numbers converge in few evaluations.
+/// numbers converge in few evaluations. `simplex_factor` as in RegistrationConfig. Same generator, same pose.
 Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeights& weights,
                   const ProposalConfig& config, bool both, double simplex_factor, Random& random);
 
