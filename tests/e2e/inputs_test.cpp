@@ -13,20 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-testing::AssertionResult fails_with(const Ended& run, int code, const std::vector<std::string>& causes) {
+::testing::AssertionResult fails_with(const Ended& run, int code, const std::vector<std::string>& causes) {
   if (run.code != code) {
-    return testing::AssertionFailure()
+    return ::testing::AssertionFailure()
            << "exit code " << run.code << " instead of " << code << ": " << run.words;
   }
   for (const std::string& cause : causes) {
     if (run.words.find(cause) == std::string::npos) {
-      return testing::AssertionFailure() << "'" << cause << "' is missing in: " << run.words;
+      return ::testing::AssertionFailure() << "'" << cause << "' is missing in: " << run.words;
     }
   }
   if (run.words.find("unexpected failure") != std::string::npos) {
-    return testing::AssertionFailure() << run.words;
+    return ::testing::AssertionFailure() << run.words;
   }
-  return testing::AssertionSuccess();
+  return ::testing::AssertionSuccess();
 }
 
 Ended track(const std::string& input, const Folder& folder, std::vector<std::string> more = {}) {

@@ -20,14 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "telemime_e2e_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("no temporary folder");
-  }
-  return name;
-}
-
 struct Clips {
   Folder folder;
   std::string person = folder / "person";
@@ -52,7 +44,7 @@ const Clips& clips() {
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& arguments) : folder_(new_folder()) {
+Program::Program(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {TELEMIME_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -61,8 +53,8 @@ Program::Program(const std::vector<std::string>& arguments) : folder_(new_folder
     argv.push_back(word.data());
   }
   argv.push_back(nullptr);
-  const std::string out = (folder_ / "out").string();
-  const std::string err = (folder_ / "err").string();
+  const std::string out = folder_.file("out");
+  const std::string err = folder_.file("err");
   process_ = ::fork();
   if (process_ == 0) {
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
@@ -77,8 +69,6 @@ Program::~Program() {
     ::kill(process_, SIGKILL);
     ::waitpid(process_, &status_, 0);
   }
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 void Program::signal(int number) const {
@@ -97,19 +87,12 @@ Ended Program::wait() {
     ::waitpid(process_, &status_, 0);
     process_ = -1;
   }
-  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, bytes_of(folder_ / "out"),
-          bytes_of(folder_ / "err")};
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, bytes_of(folder_.file("out")),
+          bytes_of(folder_.file("err"))};
 }
 
 Ended run(const std::vector<std::string>& arguments) {
   return Program(arguments).wait();
-}
-
-Folder::Folder() : path_(new_folder()) {}
-
-Folder::~Folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 std::string bytes_of(const fs::path& file) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "telemime/core/testing_folder.h"
+
 namespace telemime::e2e {
 
 /// How a run of the program ended.
@@ -29,7 +31,7 @@ class Program {
   Ended wait();
 
  private:
-  std::filesystem::path folder_;  ///< of its standard output and error
+  testing::ScratchFolder folder_;  ///< of its standard output and error
   pid_t process_ = -1;
   int status_ = 0;
 };
@@ -37,17 +39,9 @@ class Program {
 Ended run(const std::vector<std::string>& arguments);
 
 /// A new empty folder that goes away with its content.
-class Folder {
+class Folder : public testing::ScratchFolder {
  public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+  std::string operator/(const std::string& name) const { return file(name); }
 };
 
 std::string bytes_of(const std::filesystem::path& file);

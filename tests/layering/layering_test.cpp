@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 
 #include "rules.h"
+#include "telemime/core/testing_folder.h"
 
 namespace telemime::layering {
 namespace {
@@ -43,8 +43,6 @@ TEST(ThisProject, NothingIsLeftUndone) {
 class SmallProject : public ::testing::Test {
  protected:
   SmallProject() {
-    std::string name = (fs::temp_directory_path() / "telemime_layering_XXXXXX").string();
-    root_ = ::mkdtemp(name.data());
     write("ARCHITECTURE.md", "| `low` | one |\n| `high` | two |\n| `attic` | three |\n");
     write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low LIBRARIES high)\n");
     write("src/telemime/low/low.h", licence("//") + "#include <vector>\n");
@@ -55,7 +53,6 @@ class SmallProject : public ::testing::Test {
     write("src/telemime/attic/attic.cpp", licence("//") + "#include \"telemime/low/low.h\"\n");
     write("scripts/run.sh", "#!/bin/sh\n" + licence("#"));
   }
-  ~SmallProject() override { fs::remove_all(root_); }
 
   static std::string licence(const std::string& comment) {
     return comment + " SPDX-License-Identifier: Apache-2.0\n";
@@ -73,7 +70,8 @@ class SmallProject : public ::testing::Test {
     EXPECT_NE(violations().find(words), std::string::npos) << violations();
   }
 
-  fs::path root_;
+  testing::ScratchFolder folder_;
+  fs::path root_ = folder_.path();
 };
 
 TEST_F(SmallProject, IsInOrder) {
