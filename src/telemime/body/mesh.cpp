@@ -143,6 +143,9 @@ class MeshBuilder {
       triangle(bottom, vertex(rings - 1, j), vertex(rings - 1, j + 1), stack.between.back());
     }
     connect(mesh_.triangle_range[s].begin);
+    mesh_.stacks[s] = {rings, n, {stack.between.front()}};
+    mesh_.stacks[s].surface.insert(mesh_.stacks[s].surface.end(), stack.between.begin(), stack.between.end());
+    mesh_.stacks[s].surface.push_back(stack.between.back());
     mesh_.vertex_range[s].end = static_cast<std::uint32_t>(mesh_.vertices.size());
     mesh_.triangle_range[s].end = static_cast<std::uint32_t>(mesh_.triangles.size());
     mesh_.edge_range[s].end = static_cast<std::uint32_t>(mesh_.edges.size());

@@ -29,6 +29,15 @@ struct MeshEdge {
   std::array<std::uint32_t, 2> triangle{};  ///< the two that meet here
 };
 
+/// How a segment's mesh is laid out: rings of vertices from the top down, `sides` each, then the vertex that
+/// closes the top and the one that closes the bottom. `surface` has the class of each strip between them:
+/// top cap, strips from ring to ring, bottom cap.
+struct RingStack {
+  std::uint32_t rings = 0;
+  std::uint32_t sides = 0;
+  std::vector<SurfaceClass> surface;  ///< rings + 1
+};
+
 /// Closed polygon meshes of the eight segments (thesis 2.4.1), each in its segment's frame, metres. Vertices,
 /// triangles and edges of a segment are contiguous.
 struct BodyMesh {
@@ -38,6 +47,7 @@ struct BodyMesh {
   std::array<Range, kSegmentCount> vertex_range{};
   std::array<Range, kSegmentCount> triangle_range{};
   std::array<Range, kSegmentCount> edge_range{};
+  std::array<RingStack, kSegmentCount> stacks{};
 };
 
 /// Meshes for a body: stacks of elliptic rings scaled by the shape, radii from the segment girths of

@@ -10,6 +10,7 @@
 #include "telemime/core/camera.h"
 #include "telemime/cues/reductions.h"
 #include "telemime/image/observation.h"
+#include "telemime/likelihood/tiled_planes.h"
 
 namespace telemime {
 
@@ -28,6 +29,7 @@ struct PreparedFrame {
   cv::Mat distance;  ///< (h x w) CV_32FC1, px
   std::array<std::int32_t, kSurfaceClassCount> observed{};
   double distance_cap = 0.0;  ///< px, the largest value of the distance map
+  TiledPlanes tiles;          ///< labels and distance once more, for back ends that read them by tiles
 };
 
 /// F and D_C of one pose (algorithms: 4.1, 4.2).
@@ -53,6 +55,10 @@ class Backend {
 
 /// `camera` is the one of the working image that the observation has.
 PreparedFrame prepare(const Observation& observation, const Camera& camera);
+
+/// The same scores up to rounding, many times faster: vector instructions over vertices, surfaces and pixels.
+/// One for each thread.
+std::unique_ptr<Backend> make_simd_backend();
 
 /// The definition: exact z-buffered meshes, one pose after the other.
 std::unique_ptr<Backend> make_scalar_backend();

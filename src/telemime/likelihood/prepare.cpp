@@ -29,6 +29,7 @@ PreparedFrame prepare(const Observation& observation, const Camera& camera) {
     }
     frame.distance_cap = std::max(frame.distance_cap, static_cast<double>(distance[i]));
   }
+  tile(frame.labels, frame.distance, frame.tiles);
   return frame;
 }
 

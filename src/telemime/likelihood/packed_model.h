@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "telemime/body/body.h"
+#include "telemime/body/mesh.h"
+
+namespace telemime {
+
+/// A person's surface laid out for processors that do many things at once. A segment is a grid of vertices:
+/// its rings from the top down, between two rings that are one point each (the ends). A ring has its first
+/// vertex once more at its end, so that `stride` is sides + 1 and the quadrilateral of lane i always has the
+/// corners i, i + 1, i + stride and i + stride + 1: nothing has to be looked up. Lanes whose ring would wrap
+/// hold none; `quads` says which do.
+struct PackedSegment {
+  static constexpr std::uint32_t kMostLanes = 256;
+  using LaneSet = std::array<std::uint64_t, kMostLanes / 64>;
+
+  std::uint32_t begin = 0;     ///< of its vertices and lanes in the model's arrays, a multiple of 16
+  std::uint32_t vertices = 0;  ///< (rings + 2) x stride
+  std::uint32_t lanes = 0;     ///< (rings + 1) x stride
+  std::uint32_t stride = 0;
+  LaneSet quads{};  ///< lanes that hold a quadrilateral
+  LaneSet first{};  ///< those of a ring's first side
+};
+
+/// Distances of the skeleton (m, body frame; see Body).
+struct PackedSkeleton {
+  std::array<float, 3> neck_from_root{};
+  std::array<std::array<float, 3>, 2> shoulder_from_root{};  ///< of an arm that hangs
+  float clavicle_lift = 0.0F;
+  float clavicle_reach = 0.0F;
+  std::array<float, 2> upper_arm{};
+  std::array<float, 2> forearm{};
+  bool operator==(const PackedSkeleton&) const = default;
+};
+
+/// Everything about a person that an evaluation needs.
+struct PackedModel {
+  /// Bits of a surface class in the lowest five bits of a depth: 8 times the class.
+  static constexpr std::uint32_t kClassShift = 3;
+  /// Lanes that a vector load may touch behind a segment's last one.
+  static constexpr std::uint32_t kPadding = 48;
+
+  PackedSkeleton skeleton;
+  std::array<PackedSegment, kSegmentCount> segments{};
+  std::vector<float> x, y, z;          ///< vertices, m, segment's frame
+  std::vector<std::uint32_t> surface;  ///< by lane: the strip's class << kClassShift
+};
+
+/// Packs into `out`, whose memory is used again. The mesh must be one of make_mesh(). Throws Error(usage) for
+/// a segment of more than kMostLanes.
+void pack(const Body& body, const BodyMesh& mesh, PackedModel& out);
+
+/// Keeps the last packed model: a search asks for the same one again and again. Compares the contents, so
+/// that a model that was changed in place is packed anew.
+class PackedModelCache {
+ public:
+  const PackedModel& of(const Body& body, const BodyMesh& mesh);
+
+ private:
+  PackedModel packed_;
+  std::vector<Eigen::Vector3f> vertices_;
+  std::array<std::vector<SurfaceClass>, kSegmentCount> surfaces_;
+};
+
+}  // namespace telemime

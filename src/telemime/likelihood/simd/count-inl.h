@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Overlap of the drawn surface with the labels, and a clean z-buffer for the next pose.
+#if defined(TELEMIME_SIMD_COUNT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TELEMIME_SIMD_COUNT_INL_H
+#undef TELEMIME_SIMD_COUNT_INL_H
+#else
+#define TELEMIME_SIMD_COUNT_INL_H
+#endif
+
+#include "telemime/likelihood/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace telemime::simd::HWY_NAMESPACE {
+
+// Each lane counts four classes in its four bytes.
+struct ByteCounts {
+  IntVector model, both;
+};
+
+HWY_INLINE ByteCounts no_counts() {
+  return {hn::Zero(kInt), hn::Zero(kInt)};
+}
+
+HWY_INLINE std::int32_t sum_of_bytes(IntVector counts, int byte) {
+  const IntVector one = hn::And(hn::ShiftRightSame(counts, byte * 8), hn::Set(kInt, 0xFF));
+  return hn::GetLane(hn::SumOfLanes(kInt, one));
+}
+
+HWY_INLINE void flush(const ByteCounts& counts, Reductions& r) {
+  for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
+    r.model[c] += sum_of_bytes(counts.model, static_cast<int>(c) + 1);
+    r.both[c] += sum_of_bytes(counts.both, static_cast<int>(c) + 1);
+  }
+}
+
+HWY_INLINE void count_pixels(IntVector drawn, IntVector label, ByteCounts& counts) {
+  const IntVector surface = hn::And(drawn, hn::Set(kInt, 0x18));
+  const IntVector one = hn::Shl(hn::Set(kInt, 1), surface);
+  counts.both = counts.both + hn::IfThenElseZero(label == surface, one);
+  counts.model = counts.model + hn::IfThenElseZero(label < hn::Set(kInt, TiledPlanes::kUnknown), one);
+}
+
+// Counts (if `counted`) what lies in the tiles that hold something, and empties them.
+inline void count_and_clear(const TiledPlanes& frame, bool counted, Workspace& ws, Reductions& r) {
+  constexpr int kMostTiles = 255 / static_cast<int>(kParts);  // so that no byte runs over
+  const hn::Rebind<std::uint8_t, Int> bytes;
+  const int span = ws.right + 1 - ws.left;
+  ByteCounts counts = no_counts();
+  int tiles = 0;
+  for (int row = ws.top; row <= ws.bottom; ++row) {
+    std::size_t at =
+        static_cast<std::size_t>(row * frame.grid.columns + ws.left) * static_cast<std::size_t>(TileGrid::kPixels);
+    for (int column = 0; column < span; ++column) {
+      if (++tiles > kMostTiles) {
+        flush(counts, r);
+        counts = no_counts();
+        tiles = 1;
+      }
+      for (std::size_t part = 0; part < kParts; ++part, at += kN) {
+        auto* depth = reinterpret_cast<std::int32_t*>(ws.depth + at);
+        if (counted) {
+          const IntVector label = hn::PromoteTo(kInt, hn::LoadU(bytes, frame.labels.data() + at));
+          count_pixels(hn::Load(kInt, depth), label, counts);
+        }
+        hn::Store(hn::Zero(kInt), kInt, depth);
+      }
+    }
+  }
+  if (counted) {
+    flush(counts, r);
+  }
+}
+
+}  // namespace telemime::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // TELEMIME_SIMD_COUNT_INL_H

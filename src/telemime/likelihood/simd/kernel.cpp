@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/likelihood/simd/kernel.h"
+
+#include <algorithm>
+#include <limits>
+
+// Highway compiles what follows once for every instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "telemime/likelihood/simd/kernel.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "telemime/likelihood/simd/contour-inl.h"
+#include "telemime/likelihood/simd/count-inl.h"
+#include "telemime/likelihood/simd/place-inl.h"
+#include "telemime/likelihood/simd/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace telemime::simd::HWY_NAMESPACE {
+
+// One pose, from its segments' places to its counts.
+inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
+  const bool contour = wants(batch.terms, Reduction::contour);
+  Touched touched = nothing_touched();
+  ws.count = 0;
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const PackedSegment& segment = batch.model.segments[s];
+    project_segment(batch, segment, s, lane, ws);
+    const Facing facing = set_up_quads(segment, batch.frame.grid, touched, ws);
+    draw_quads(batch, segment, facing, ws);
+    if (contour) {
+      sample_contour(segment, facing, ws);
+    }
+  }
+  ws.left = hn::GetLane(hn::MinOfLanes(kInt, touched.left));
+  ws.top = hn::GetLane(hn::MinOfLanes(kInt, touched.top));
+  // Quadrilaterals are drawn in 2 x 2 tiles even where they need fewer.
+  ws.right = std::min(hn::GetLane(hn::MaxOfLanes(kInt, touched.right)) + 1, batch.frame.grid.columns - 1);
+  ws.bottom = std::min(hn::GetLane(hn::MaxOfLanes(kInt, touched.bottom)) + 1, batch.frame.grid.rows - 1);
+  if (contour) {
+    sum_contour(batch.frame, ws, r);
+  }
+  count_and_clear(batch.frame, wants(batch.terms, Reduction::overlap), ws, r);
+}
+
+void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out, Workspace& ws) {
+  ws.fit(batch.frame.grid);
+  for (std::size_t first = 0; first < poses.size(); first += kN) {
+    const std::size_t size = std::min(kN, poses.size() - first);
+    place_segments(batch.model.skeleton, poses.subspan(first, size), ws);
+    for (std::size_t lane = 0; lane < size; ++lane) {
+      count_pose(batch, lane, ws, out[first + lane]);
+    }
+  }
+}
+
+}  // namespace telemime::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace telemime::simd {
+
+void Workspace::fit(const TileGrid& grid) {
+  constexpr std::size_t kLine = 64 / sizeof(std::uint32_t);
+  if (depth_size == grid.pixels()) {
+    return;
+  }
+  depth_memory.assign(grid.pixels() + kLine, 0);
+  depth_size = grid.pixels();
+  auto address = reinterpret_cast<std::uintptr_t>(depth_memory.data());
+  depth = depth_memory.data() + ((64 - address % 64) % 64) / sizeof(std::uint32_t);
+}
+
+void Workspace::grow_samples(std::size_t capacity_at_least) {
+  const std::size_t larger = std::max<std::size_t>({capacity_at_least, 2 * capacity, 4096});
+  std::vector<float> moved(3 * larger);
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(k * capacity), count,
+                moved.begin() + static_cast<std::ptrdiff_t>(k * larger));
+  }
+  samples = std::move(moved);
+  capacity = larger;
+}
+
+std::vector<InstructionSet> instruction_sets() {
+  const std::int64_t supported = hwy::SupportedTargets();
+  std::vector<InstructionSet> sets;
+  const auto offer = [&](std::int64_t target, std::string_view name, Kernel kernel) {
+    if ((supported & target) != 0) {
+      sets.push_back({name, kernel});
+    }
+  };
+#if (HWY_TARGETS & HWY_AVX3) != 0
+  offer(HWY_AVX3, "avx512", &N_AVX3::count_poses);
+#endif
+#if (HWY_TARGETS & HWY_AVX2) != 0
+  offer(HWY_AVX2, "avx2", &N_AVX2::count_poses);
+#endif
+#if (HWY_TARGETS & HWY_SSE4) != 0
+  offer(HWY_SSE4, "sse4", &N_SSE4::count_poses);
+#endif
+#if (HWY_TARGETS & HWY_SSSE3) != 0
+  offer(HWY_SSSE3, "ssse3", &N_SSSE3::count_poses);
+#endif
+#if (HWY_TARGETS & HWY_NEON) != 0
+  offer(HWY_NEON, "neon", &N_NEON::count_poses);
+#endif
+#if (HWY_TARGETS & HWY_EMU128) != 0
+  sets.push_back({"portable", &N_EMU128::count_poses});
+#endif
+#if (HWY_TARGETS & HWY_SCALAR) != 0
+  sets.push_back({"portable", &N_SCALAR::count_poses});
+#endif
+  return sets;
+}
+
+}  // namespace telemime::simd
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a segment's place to its pixels: vertices to the image, quadrilaterals to lines and planes, and the
+// z-buffer test tile by tile. Lanes are vertices, then quadrilaterals, then pixels.
+#if defined(TELEMIME_SIMD_SURFACE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TELEMIME_SIMD_SURFACE_INL_H
+#undef TELEMIME_SIMD_SURFACE_INL_H
+#else
+#define TELEMIME_SIMD_SURFACE_INL_H
+#endif
+
+#include <bit>
+
+#include "telemime/likelihood/simd/vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace telemime::simd::HWY_NAMESPACE {
+
+using LaneSet = PackedSegment::LaneSet;
+
+// Which triangles of a segment are drawn (in front of the camera) and which of them face it: the first and the
+// second of each lane's quadrilateral.
+struct Facing {
+  LaneSet front[2] = {};
+  LaneSet known[2] = {};
+  LaneSet drawn = {};  ///< quadrilaterals that show something in the image
+  LaneSet small = {};  ///< those of at most 2 x 2 tiles
+};
+
+inline void project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s, std::size_t lane,
+                            Workspace& ws) {
+  constexpr float kNearest = 0.05F;
+  FloatVector transform[12];
+  for (std::size_t k = 0; k < 12; ++k) {
+    transform[k] = number(ws.transform[12 * s + k][lane]);
+  }
+  const FloatVector fx = number(batch.camera.fx);
+  const FloatVector fy = number(batch.camera.fy);
+  const FloatVector cx = number(batch.camera.cx);
+  const FloatVector cy = number(batch.camera.cy);
+  for (std::uint32_t i = 0; i < segment.vertices; i += kN) {
+    FloatVector u;
+    FloatVector v;
+    FloatVector w;
+    const std::uint32_t at = segment.begin + i;
+    project_vertex(transform, hn::LoadU(kFloat, &batch.model.x[at]), hn::LoadU(kFloat, &batch.model.y[at]),
+                   hn::LoadU(kFloat, &batch.model.z[at]), fx, fy, cx, cy, number(kNearest), &u, &v, &w);
+    hn::Store(u, kFloat, ws.u + i);
+    hn::Store(v, kFloat, ws.v + i);
+    hn::Store(w, kFloat, ws.w + i);
+  }
+}
+
+HWY_INLINE Corner corner_at(const Workspace& ws, std::size_t i) {
+  return {hn::LoadU(kFloat, ws.u + i), hn::LoadU(kFloat, ws.v + i), hn::LoadU(kFloat, ws.w + i)};
+}
+
+HWY_INLINE FloatVector smallest(FloatVector a, FloatVector b, FloatVector c, FloatVector d) {
+  return hn::Min(hn::Min(a, b), hn::Min(c, d));
+}
+HWY_INLINE FloatVector largest(FloatVector a, FloatVector b, FloatVector c, FloatVector d) {
+  return hn::Max(hn::Max(a, b), hn::Max(c, d));
+}
+
+// First and last tile of the pixel centres in [low, high], within an image of `size` pixels. A range without a
+// centre has its last pixel before its first.
+struct TileRange {
+  IntVector first, last;
+  FloatMask any;
+};
+HWY_INLINE TileRange tile_range(FloatVector low, FloatVector high, int size) {
+  const IntVector first = ceil_of(hn::Max(low, number(0.0F)));
+  const IntVector last = floor_of(hn::Min(high, number(static_cast<float>(size - 1))));
+  return {hn::ShiftRight<2>(first), hn::ShiftRight<2>(last),
+          hn::And(hn::RebindMask(kFloat, first < last + hn::Set(kInt, 1)), high >= number(0.0F))};
+}
+
+// Tiles that any quadrilateral of a pose touches, by lane.
+struct Touched {
+  IntVector left, top, right, bottom;
+};
+
+HWY_INLINE Touched nothing_touched() {
+  const IntVector far = hn::Set(kInt, 1 << 20);
+  return {far, far, hn::Zero(kInt), hn::Zero(kInt)};
+}
+
+HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Workspace& ws) {
+  const FloatVector side = number(static_cast<float>(TileGrid::kSide));
+  hn::Store(line.a * side, kFloat, ws.line[3 * k] + i);
+  hn::Store(line.b * side, kFloat, ws.line[3 * k + 1] + i);
+  hn::Store(line.c, kFloat, ws.line[3 * k + 2] + i);
+}
+
+inline Facing set_up_quads(const PackedSegment& segment, const TileGrid& grid, Touched& touched,
+                           Workspace& ws) {
+  Facing facing;
+  const FloatVector zero = hn::Zero(kFloat);
+  const IntVector two = hn::Set(kInt, 2);
+  const IntVector top_lanes = hn::Set(kInt, static_cast<std::int32_t>(segment.stride));
+  const IntVector before_bottom = hn::Set(kInt, static_cast<std::int32_t>(segment.lanes - segment.stride) - 1);
+  for (std::uint32_t i = 0; i < segment.lanes; i += kN) {
+    const Corner a = corner_at(ws, i);
+    const Corner b = corner_at(ws, i + 1);
+    const Corner c = corner_at(ws, i + segment.stride);
+    const Corner d = corner_at(ws, i + segment.stride + 1);
+    const FloatMask inner = hn::And(b.w != zero, c.w != zero);
+    const FloatMask known1 = hn::And(inner, a.w != zero);
+    const FloatMask known2 = hn::And(inner, d.w != zero);
+    FloatMask front1 = hn::And(known1, doubled_area(&a, &b, &c) < zero);
+    FloatMask front2 = hn::And(known2, doubled_area(&b, &d, &c) < zero);
+    const std::size_t word = i / 64;
+    const std::uint32_t shift = i % 64;
+    facing.known[0][word] |= bits_of(known1) << shift;
+    facing.known[1][word] |= bits_of(known2) << shift;
+    facing.front[0][word] |= bits_of(front1) << shift;
+    facing.front[1][word] |= bits_of(front2) << shift;
+
+    // At the ends one of the two triangles has no area.
+    const IntVector lane = hn::Iota(kInt, static_cast<std::int32_t>(i));
+    const FloatMask at_top = hn::RebindMask(kFloat, lane < top_lanes);
+    const FloatMask at_bottom = hn::RebindMask(kFloat, lane > before_bottom);
+    const FloatMask whole1 = hn::Or(front1, hn::And(at_top, front2));
+    front2 = hn::Or(front2, hn::And(at_bottom, front1));
+    front1 = whole1;
+
+    Linear edge[4];
+    quad_lines(&a, &b, &c, &d, front1, front2, edge);
+    for (std::size_t k = 0; k < 4; ++k) {
+      store_line(edge[k], k, i, ws);
+    }
+    store_line(depth_plane(&a, &b, &c, &d, front1, front2), 4, i, ws);
+
+    const Corner p = select_corner(front1, a, b);
+    const Corner q = select_corner(front2, d, b);
+    const TileRange x = tile_range(smallest(p.u, q.u, b.u, c.u), largest(p.u, q.u, b.u, c.u), grid.width);
+    const TileRange y = tile_range(smallest(p.v, q.v, b.v, c.v), largest(p.v, q.v, b.v, c.v), grid.height);
+    const FloatMask drawn = hn::And(hn::Or(front1, front2), hn::And(x.any, y.any));
+    const IntVector columns = x.last - x.first;
+    const IntVector rows = y.last - y.first;
+    hn::Store(y.first * hn::Set(kInt, grid.columns) + x.first, kInt, ws.tile + i);
+    hn::Store(hn::ConvertTo(kFloat, x.first), kFloat, ws.tile_x + i);
+    hn::Store(hn::ConvertTo(kFloat, y.first), kFloat, ws.tile_y + i);
+    hn::Store(columns, kInt, ws.columns + i);
+    hn::Store(rows, kInt, ws.rows + i);
+    const FloatMask small = hn::RebindMask(kFloat, hn::And(columns < two, rows < two));
+    // Lanes of no quadrilateral lie between those of one: their corners are the segment's, too.
+    const auto shown = hn::RebindMask(kInt, drawn);
+    touched.left = hn::IfThenElse(shown, hn::Min(touched.left, x.first), touched.left);
+    touched.top = hn::IfThenElse(shown, hn::Min(touched.top, y.first), touched.top);
+    touched.right = hn::IfThenElse(shown, hn::Max(touched.right, x.last), touched.right);
+    touched.bottom = hn::IfThenElse(shown, hn::Max(touched.bottom, y.last), touched.bottom);
+    facing.drawn[word] |= bits_of(drawn) << shift;
+    facing.small[word] |= bits_of(small) << shift;
+  }
+  for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
+    facing.drawn[word] &= segment.quads[word];
+    facing.small[word] &= facing.drawn[word];
+  }
+  return facing;
+}
+
+// The five linear functions of one quadrilateral at kN pixels, and their steps to the next tile.
+struct Pixels {
+  FloatVector at[5];
+};
+
+HWY_INLINE Pixels operator+(const Pixels& p, const FloatVector* step) {
+  Pixels sum;
+  for (std::size_t k = 0; k < 5; ++k) {
+    sum.at[k] = p.at[k] + step[k];
+  }
+  return sum;
+}
+
+// The z-buffer test: the larger of two positive floats is the larger of their bits as integers, and one with its
+// sign bit set, because it is outside of an edge, is smaller than all.
+HWY_INLINE void test_pixels(const Pixels& p, IntVector surface, std::uint32_t* depth) {
+  const IntVector keep = hn::Set(kInt, ~0x1F);
+  const IntVector sign = hn::Set(kInt, std::numeric_limits<std::int32_t>::min());
+  const IntVector outside =
+      hn::Or3(hn::BitCast(kInt, p.at[0]), hn::BitCast(kInt, p.at[1]), hn::BitCast(kInt, p.at[2]));
+  IntVector value = hn::OrAnd(surface, hn::BitCast(kInt, p.at[4]), keep);
+  value = hn::OrAnd(value, hn::Or(outside, hn::BitCast(kInt, p.at[3])), sign);
+  auto* pixels = reinterpret_cast<std::int32_t*>(depth);
+  hn::Store(hn::Max(value, hn::Load(kInt, pixels)), kInt, pixels);
+}
+
+HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns, int columns, int rows,
+                          Workspace& ws) {
+  FloatVector across[5];
+  FloatVector down[5];
+  Pixels base[kParts];
+  const FloatVector lane = hn::Iota(kFloat, 0.0F);
+  const FloatVector in_row = hn::ConvertTo(kFloat, hn::Iota(kInt, 0) & hn::Set(kInt, 3));
+  const FloatVector quarter = number(0.25F);
+  const FloatVector x = in_row * quarter + number(ws.tile_x[i]);
+  // Rows of a vector's lanes, in tiles.
+  const FloatVector row = (lane - in_row) * number(0.0625F) + number(ws.tile_y[i]);
+  for (std::size_t k = 0; k < 5; ++k) {
+    across[k] = number(ws.line[3 * k][i]);
+    down[k] = number(ws.line[3 * k + 1][i]);
+    const FloatVector along = across[k] * x + number(ws.line[3 * k + 2][i]);
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const FloatVector below = row + number(static_cast<float>(part * kN / 4) * 0.25F);
+      base[part].at[k] = along + down[k] * below;
+      if constexpr (kN < 4) {  // a vector is shorter than a tile's row
+        base[part].at[k] = base[part].at[k] + across[k] * number(static_cast<float>(part * kN % 4) * 0.25F);
+      }
+    }
+  }
+  const IntVector code = hn::Set(kInt, static_cast<std::int32_t>(surface));
+  for (std::size_t part = 0; part < kParts; ++part) {
+    std::uint32_t* first = ws.depth + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
+    Pixels start = base[part];
+    for (int r = 0; r <= rows; ++r) {
+      Pixels here = start;
+      std::uint32_t* depth = first;
+      for (int c = 0; c <= columns; ++c) {
+        test_pixels(here, code, depth);
+        here = here + across;
+        depth += TileGrid::kPixels;
+      }
+      start = start + down;
+      first += static_cast<std::ptrdiff_t>(tile_columns) * TileGrid::kPixels;
+    }
+  }
+}
+
+// Most quadrilaterals of a small image touch at most 2 x 2 tiles: all four are tested, since loops whose length
+// cannot be foreseen would cost more.
+inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing, Workspace& ws) {
+  const int tile_columns = batch.frame.grid.columns;
+  const std::uint32_t* surface = batch.model.surface.data() + segment.begin;
+  for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
+    for (std::uint64_t rest = facing.small[word]; rest != 0; rest &= rest - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+      draw_quad(i, surface[i], tile_columns, 1, 1, ws);
+    }
+    for (std::uint64_t rest = facing.drawn[word] & ~facing.small[word]; rest != 0; rest &= rest - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+      draw_quad(i, surface[i], tile_columns, ws.columns[i], ws.rows[i], ws);
+    }
+  }
+}
+
+}  // namespace telemime::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // TELEMIME_SIMD_SURFACE_INL_H

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/likelihood/tiled_planes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "telemime/body/mesh.h"
+
+namespace telemime {
+
+TileGrid tile_grid(int width, int height) {
+  constexpr int kSide = TileGrid::kSide;
+  return {width, height, (width + kSide - 1) / kSide + 1, (height + kSide - 1) / kSide + 1};
+}
+
+void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
+  const TileGrid grid = tile_grid(labels.cols, labels.rows);
+  if (out.grid.width != grid.width || out.grid.height != grid.height) {
+    out.grid = grid;
+    out.labels.assign(grid.pixels(), TiledPlanes::kUnknown);
+    out.distance.assign(grid.pixels(), 0.0F);
+  }
+  std::array<std::uint8_t, 256> code{};
+  code.fill(TiledPlanes::kUnknown);
+  for (std::uint8_t c = 0; c <= kSurfaceClassCount; ++c) {
+    code[c] = static_cast<std::uint8_t>(8 * c);
+  }
+  for (int y = 0; y < grid.height; ++y) {
+    const auto* label = labels.ptr<std::uint8_t>(y);
+    const auto* pixel = distance.ptr<float>(y);
+    std::size_t at = grid.index(0, y);
+    for (int x = 0; x < grid.width; x += TileGrid::kSide, at += TileGrid::kPixels) {
+      const int columns = std::min(TileGrid::kSide, grid.width - x);
+      for (int i = 0; i < columns; ++i) {
+        out.labels[at + static_cast<std::size_t>(i)] = code[label[x + i]];
+        out.distance[at + static_cast<std::size_t>(i)] = pixel[x + i];
+      }
+    }
+  }
+}
+
+}  // namespace telemime

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace telemime {
+
+/// Where pixels lie in planes of 4 x 4 tiles: tile after tile from left to right and from the top down, the 16
+/// pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of a projected
+/// surface touch few tiles. The grid is one tile wider and higher than the image.
+struct TileGrid {
+  static constexpr int kSide = 4;
+  static constexpr int kPixels = kSide * kSide;
+
+  int width = 0;  ///< px, of the image
+  int height = 0;
+  int columns = 0;  ///< tiles
+  int rows = 0;
+
+  std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+  std::size_t pixels() const { return tiles() * kPixels; }
+  /// Index of a pixel of the image.
+  std::size_t index(int x, int y) const {
+    const int tile = (y / kSide) * columns + x / kSide;
+    return static_cast<std::size_t>(tile * kPixels + (y % kSide) * kSide + x % kSide);
+  }
+};
+
+TileGrid tile_grid(int width, int height);
+
+/// What an evaluation reads of a frame, in tiles.
+struct TiledPlanes {
+  /// Codes of labels: 8 times the class (0: background), or this: the pixel counts nowhere.
+  static constexpr std::uint8_t kUnknown = 0x80;
+
+  TileGrid grid;
+  std::vector<std::uint8_t> labels;  ///< codes; kUnknown outside the image
+  std::vector<float> distance;       ///< px; 0 outside the image
+};
+
+/// Lays labels (h x w, CV_8UC1) and distance map (h x w, CV_32FC1) out in tiles. The memory of `out` is used
+/// again.
+void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out);
+
+}  // namespace telemime
