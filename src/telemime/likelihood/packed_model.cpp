@@ -32,40 +32,51 @@ PackedSkeleton packed_skeleton(const Body& body) {
   return out;
 }
 
+std::uint32_t stride_of(const RingStack& stack) {
+  return stack.rings + 2;
+}
+std::uint32_t vertices_of(const RingStack& stack) {
+  return (stack.sides + 1) * stride_of(stack);
+}
+
 void pack_segment(const BodyMesh& mesh, std::size_t s, std::uint32_t begin, PackedModel& out) {
   const RingStack& stack = mesh.stacks[s];
   PackedSegment& segment = out.segments[s];
   segment = {};
   segment.begin = begin;
-  segment.stride = stack.sides + 1;
-  segment.vertices = (stack.rings + 2) * segment.stride;
-  segment.lanes = (stack.rings + 1) * segment.stride;
-  if (stack.rings == 0 || segment.lanes + kAlignment > PackedSegment::kMostLanes) {
+  segment.stride = stride_of(stack);
+  segment.lanes = stack.sides * segment.stride;
+  if (stack.rings == 0 || segment.stride > 64 || vertices_of(stack) > PackedSegment::kMostLanes) {
     throw Error(ErrorKind::usage, "the mesh of " + std::string(kSegmentNames[s]) +
                                       " is no stack of rings or has too many of them");
   }
   const std::uint32_t first = mesh.vertex_range[s].begin;
-  const std::uint32_t top = first + stack.rings * stack.sides;
-  std::uint32_t at = begin;
-  for (std::uint32_t ring = 0; ring < stack.rings + 2; ++ring) {
-    for (std::uint32_t j = 0; j < segment.stride; ++j, ++at) {
-      const bool end = ring == 0 || ring == stack.rings + 1;
+  const std::uint32_t ends = first + stack.rings * stack.sides;
+  for (std::uint32_t j = 0; j <= stack.sides; ++j) {
+    for (std::uint32_t row = 0; row < segment.stride; ++row) {
+      const bool top = row == 0;
+      const bool bottom = row == stack.rings + 1;
       const std::uint32_t v =
-          end ? top + (ring == 0 ? 0 : 1) : first + (ring - 1) * stack.sides + j % stack.sides;
-      out.x[at] = mesh.vertices[v].x();
-      out.y[at] = mesh.vertices[v].y();
-      out.z[at] = mesh.vertices[v].z();
-    }
-  }
-  for (std::uint32_t lane = 0; lane < segment.lanes; ++lane) {
-    const std::uint32_t j = lane % segment.stride;
-    out.surface[begin + lane] = static_cast<std::uint32_t>(stack.surface[lane / segment.stride])
-                                << PackedModel::kClassShift;
-    if (j < stack.sides) {
+          top || bottom ? ends + (bottom ? 1 : 0) : first + (row - 1) * stack.sides + j % stack.sides;
+      const std::uint32_t lane = j * segment.stride + row;
+      out.x[begin + lane] = mesh.vertices[v].x();
+      out.y[begin + lane] = mesh.vertices[v].y();
+      out.z[begin + lane] = mesh.vertices[v].z();
+      if (j == stack.sides || bottom) {
+        continue;
+      }
       add(segment.quads, lane);
-    }
-    if (j == 0) {
-      add(segment.first, lane);
+      std::uint32_t mark = 0;
+      if (top) {
+        add(segment.top, lane);
+        mark = PackedModel::kTop;
+      }
+      if (row == stack.rings) {
+        add(segment.bottom, lane);
+        mark |= PackedModel::kBottom;
+      }
+      out.surface[begin + lane] =
+          static_cast<std::uint32_t>(stack.surface[row]) << PackedModel::kClassShift | mark;
     }
   }
 }
@@ -78,7 +89,7 @@ void pack(const Body& body, const BodyMesh& mesh, PackedModel& out) {
   std::uint32_t size = 0;
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     begin[s] = size;
-    size += (mesh.stacks[s].rings + 2) * (mesh.stacks[s].sides + 1);
+    size += vertices_of(mesh.stacks[s]);
     size = (size + kAlignment - 1) / kAlignment * kAlignment;
   }
   size += PackedModel::kPadding;

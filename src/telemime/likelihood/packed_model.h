@@ -10,21 +10,21 @@
 
 namespace telemime {
 
-/// A person's surface laid out for processors that do many things at once. A segment is a grid of vertices:
-/// its rings from the top down, between two rings that are one point each (the ends). A ring has its first
-/// vertex once more at its end, so that `stride` is sides + 1 and the quadrilateral of lane i always has the
-/// corners i, i + 1, i + stride and i + stride + 1: nothing has to be looked up. Lanes whose ring would wrap
-/// hold none; `quads` says which do.
+/// A person's surface laid out for processors that do many things at once. A segment is a grid of vertices,
+/// one side after the other: from its top end down its rings to its bottom end (each end is a ring that is one
+/// point). The first side stands once more at the end. So the quadrilateral of lane i always has the corners
+/// i, i + stride (on the next side) and, below them, i + 1 and i + stride + 1: nothing has to be looked up, and
+/// the sides that face away lie together. The last lane of each side holds none; `quads` says which do.
 struct PackedSegment {
   static constexpr std::uint32_t kMostLanes = 256;
   using LaneSet = std::array<std::uint64_t, kMostLanes / 64>;
 
-  std::uint32_t begin = 0;     ///< of its vertices and lanes in the model's arrays, a multiple of 16
-  std::uint32_t vertices = 0;  ///< (rings + 2) x stride
-  std::uint32_t lanes = 0;     ///< (rings + 1) x stride
-  std::uint32_t stride = 0;
-  LaneSet quads{};  ///< lanes that hold a quadrilateral
-  LaneSet first{};  ///< those of a ring's first side
+  std::uint32_t begin = 0;   ///< of its vertices and lanes in the model's arrays, a multiple of 16
+  std::uint32_t lanes = 0;   ///< sides x stride; there are `stride` more vertices
+  std::uint32_t stride = 0;  ///< rings + 2, at most 64
+  LaneSet quads{};           ///< lanes that hold a quadrilateral
+  LaneSet top{};             ///< those at the top end: (a, b, c) is no triangle
+  LaneSet bottom{};          ///< those at the bottom end: (b, d, c) is none
 };
 
 /// Distances of the skeleton (m, body frame; see Body).
@@ -42,13 +42,16 @@ struct PackedSkeleton {
 struct PackedModel {
   /// Bits of a surface class in the lowest five bits of a depth: 8 times the class.
   static constexpr std::uint32_t kClassShift = 3;
+  /// Marks of lanes at a segment's ends.
+  static constexpr std::uint32_t kTop = 0x100;
+  static constexpr std::uint32_t kBottom = 0x200;
   /// Lanes that a vector load may touch behind a segment's last one.
   static constexpr std::uint32_t kPadding = 48;
 
   PackedSkeleton skeleton;
   std::array<PackedSegment, kSegmentCount> segments{};
   std::vector<float> x, y, z;          ///< vertices, m, segment's frame
-  std::vector<std::uint32_t> surface;  ///< by lane: the strip's class << kClassShift
+  std::vector<std::uint32_t> surface;  ///< by lane: the strip's class << kClassShift, and marks
 };
 
 /// Packs into `out`, whose memory is used again. The mesh must be one of make_mesh(). Throws Error(usage) for

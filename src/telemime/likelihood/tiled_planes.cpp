@@ -10,7 +10,8 @@ namespace telemime {
 
 TileGrid tile_grid(int width, int height) {
   constexpr int kSide = TileGrid::kSide;
-  return {width, height, (width + kSide - 1) / kSide + 1, (height + kSide - 1) / kSide + 1};
+  return {width, height, (width + kSide - 1) / kSide + TileGrid::kMargin,
+          (height + kSide - 1) / kSide + TileGrid::kMargin};
 }
 
 void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
@@ -18,7 +19,7 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
   if (out.grid.width != grid.width || out.grid.height != grid.height) {
     out.grid = grid;
     out.labels.assign(grid.pixels(), TiledPlanes::kUnknown);
-    out.distance.assign(grid.pixels(), 0.0F);
+    out.distance.assign(grid.pixels() + 1, 0.0F);
   }
   std::array<std::uint8_t, 256> code{};
   code.fill(TiledPlanes::kUnknown);

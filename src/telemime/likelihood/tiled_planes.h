@@ -9,10 +9,12 @@ namespace telemime {
 
 /// Where pixels lie in planes of 4 x 4 tiles: tile after tile from left to right and from the top down, the 16
 /// pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of a projected
-/// surface touch few tiles. The grid is one tile wider and higher than the image.
+/// surface touch few tiles. The grid is `kMargin` tiles wider and higher than the image, so that blocks of tiles
+/// that begin in it end in the grid.
 struct TileGrid {
   static constexpr int kSide = 4;
   static constexpr int kPixels = kSide * kSide;
+  static constexpr int kMargin = 2;
 
   int width = 0;  ///< px, of the image
   int height = 0;
@@ -37,7 +39,7 @@ struct TiledPlanes {
 
   TileGrid grid;
   std::vector<std::uint8_t> labels;  ///< codes; kUnknown outside the image
-  std::vector<float> distance;       ///< px; 0 outside the image
+  std::vector<float> distance;       ///< px; 0 outside the image; one more number at the end
 };
 
 /// Lays labels (h x w, CV_8UC1) and distance map (h x w, CV_32FC1) out in tiles. The memory of `out` is used

@@ -15,8 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
-// Sets of lanes as long numbers.
-inline LaneSet shifted_up(const LaneSet& set, std::uint32_t by) {  // by < 64
+// Sets of lanes as long numbers; by < 64.
+inline LaneSet shifted_up(const LaneSet& set, std::uint32_t by) {
   LaneSet out{};
   for (std::size_t k = 0; k < set.size(); ++k) {
     out[k] = set[k] << by | (k > 0 ? set[k - 1] >> 1 >> (63 - by) : 0);
@@ -30,19 +30,19 @@ inline LaneSet shifted_down(const LaneSet& set, std::uint32_t by) {
   }
   return out;
 }
-inline LaneSet lanes_from(std::uint32_t begin, std::uint32_t end) {
-  LaneSet out{};
-  for (std::uint32_t k = 0; k < out.size(); ++k) {
-    const auto below = [k](std::uint32_t lane) {
-      return lane >= 64 * (k + 1) ? ~std::uint64_t{0}
-                                  : (lane > 64 * k ? (std::uint64_t{1} << (lane - 64 * k)) - 1 : 0);
-    };
-    out[k] = below(end) & ~below(begin);
+// The lanes of the first side once more behind those of the last one: there the surface closes.
+inline LaneSet closed(LaneSet set, const PackedSegment& segment) {
+  const std::uint64_t first = set[0] & ~(~std::uint64_t{0} << 1 << (segment.stride - 1));
+  const std::size_t word = segment.lanes / 64;
+  const std::uint32_t bit = segment.lanes % 64;
+  set[word] |= first << bit;
+  if (word + 1 < set.size()) {
+    set[word + 1] |= first >> 1 >> (63 - bit);
   }
-  return out;
+  return set;
 }
 
-// Points of one edge, from vertex a to vertex b of the segment.
+// Points of one edge, from vertex a to vertex b.
 HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   constexpr float kLongest = 4096.0F;
   const float ax = ws.u[a];
@@ -51,25 +51,27 @@ HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   const float dx = ws.u[b] - ax;
   const float dy = ws.v[b] - ay;
   const float dw = ws.w[b] - aw;
-  const float length = std::sqrt(dx * dx + dy * dy);
+  const hn::CappedTag<float, 1> one;
+  const float length = hn::GetLane(hn::Sqrt(hn::Set(one, dx * dx + dy * dy)));
   if (!(length < kLongest)) {
     return;
   }
-  const std::size_t steps = std::max<std::size_t>(1, static_cast<std::size_t>(length + 0.5F));
-  if (ws.count + steps + TileGrid::kPixels > ws.capacity) {
-    ws.grow_samples(ws.count + steps + TileGrid::kPixels);
+  const std::int32_t steps = std::max(1, static_cast<std::int32_t>(length + 0.5F));
+  const std::size_t first = ws.samples;
+  ws.samples = first + static_cast<std::size_t>(steps);
+  if (ws.samples + TileGrid::kPixels > ws.capacity) {
+    ws.grow_samples(ws.samples + TileGrid::kPixels);
   }
   const FloatVector inverse = number(1.0F / static_cast<float>(steps));
-  float* x = ws.samples.data() + ws.count;
-  float* y = x + ws.capacity;
-  float* w = y + ws.capacity;
-  for (std::size_t i = 0; i < steps; i += kN) {
-    const FloatVector t = (hn::Iota(kFloat, static_cast<float>(i)) + number(0.5F)) * inverse;
-    hn::StoreU(number(ax) + number(dx) * t, kFloat, x + i);
-    hn::StoreU(number(ay) + number(dy) * t, kFloat, y + i);
-    hn::StoreU(number(aw) + number(dw) * t, kFloat, w + i);
-  }
-  ws.count += steps;
+  std::int32_t i = 0;
+  do {
+    const FloatVector t = (hn::Iota(kFloat, 0.5F) + number(static_cast<float>(i))) * inverse;
+    const std::size_t at = first + static_cast<std::size_t>(i);
+    hn::StoreU(number(ax) + number(dx) * t, kFloat, ws.sample_x.get() + at);
+    hn::StoreU(number(ay) + number(dy) * t, kFloat, ws.sample_y.get() + at);
+    hn::StoreU(number(aw) + number(dw) * t, kFloat, ws.sample_w.get() + at);
+    i += static_cast<std::int32_t>(kN);
+  } while (i < steps);
 }
 
 template <typename Ends>
@@ -84,8 +86,6 @@ HWY_INLINE void sample_edges(const LaneSet& lanes, const Ends& ends, Workspace& 
 inline void sample_contour(const PackedSegment& segment, const Facing& facing, Workspace& ws) {
   const std::uint32_t stride = segment.stride;
   // At the ends a quadrilateral is one triangle.
-  const LaneSet top = lanes_from(0, stride);
-  const LaneSet bottom = lanes_from(segment.lanes - stride, segment.lanes);
   LaneSet front1{};
   LaneSet front2{};
   LaneSet known1{};
@@ -94,95 +94,98 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
     const auto take = [&](const LaneSet& own, const LaneSet& other, const LaneSet& end) {
       return ((own[k] & ~end[k]) | (other[k] & end[k])) & segment.quads[k];
     };
-    front1[k] = take(facing.front[0], facing.front[1], top);
-    front2[k] = take(facing.front[1], facing.front[0], bottom);
-    known1[k] = take(facing.known[0], facing.known[1], top);
-    known2[k] = take(facing.known[1], facing.known[0], bottom);
+    front1[k] = take(facing.front[0], facing.front[1], segment.top);
+    front2[k] = take(facing.front[1], facing.front[0], segment.bottom);
+    known1[k] = take(facing.known[0], facing.known[1], segment.top);
+    known2[k] = take(facing.known[1], facing.known[0], segment.bottom);
   }
-  // The last vertex of a ring is its first one again: its lane stands for the first quadrilateral.
-  const auto wrapped = [&](const LaneSet& set) {
-    LaneSet first = set;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      first[k] &= segment.first[k];
-    }
-    LaneSet last = shifted_up(first, stride - 1);
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      last[k] |= set[k] & ~segment.first[k];
-    }
-    return last;
-  };
-  const LaneSet right_front = wrapped(front1);
-  const LaneSet right_known = wrapped(known1);
-  const LaneSet left_front = shifted_up(front2, 1);
-  const LaneSet left_known = shifted_up(known2, 1);
-  const LaneSet below_front = shifted_down(front1, stride);
-  const LaneSet below_known = shifted_down(known1, stride);
+  const LaneSet here_front = closed(front1, segment);
+  const LaneSet here_known = closed(known1, segment);
+  const LaneSet beside_front = shifted_up(front2, stride);
+  const LaneSet beside_known = shifted_up(known2, stride);
+  const LaneSet below_front = shifted_down(front1, 1);
+  const LaneSet below_known = shifted_down(known1, 1);
   LaneSet along{};
   LaneSet diagonal{};
   LaneSet ring{};
   for (std::size_t k = 0; k < along.size(); ++k) {
-    along[k] = (right_front[k] ^ left_front[k]) & right_known[k] & left_known[k];
+    along[k] = (here_front[k] ^ beside_front[k]) & here_known[k] & beside_known[k];
     diagonal[k] = (front1[k] ^ front2[k]) & known1[k] & known2[k];
     ring[k] = (front2[k] ^ below_front[k]) & known2[k] & below_known[k];
   }
+  const std::size_t at = segment.begin;
   sample_edges(
-      along, [stride](std::size_t i, Workspace& w) { sample_edge(i, i + stride, w); }, ws);
+      along, [at](std::size_t i, Workspace& w) { sample_edge(at + i, at + i + 1, w); }, ws);
   sample_edges(
-      diagonal, [stride](std::size_t i, Workspace& w) { sample_edge(i + 1, i + stride, w); }, ws);
+      diagonal, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + stride, at + i + 1, w); }, ws);
   sample_edges(
-      ring, [stride](std::size_t i, Workspace& w) { sample_edge(i + stride, i + stride + 1, w); }, ws);
+      ring, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + 1, at + i + stride + 1, w); }, ws);
 }
 
-// Sums in 16 columns whatever the vectors' length, so that the order of additions is the same.
-inline void sum_contour(const TiledPlanes& frame, const Workspace& ws, Reductions& r) {
-  constexpr float kThickness = 0.015F;
-  const TileGrid& grid = frame.grid;
-  const float* xs = ws.samples.data();
-  const float* ys = xs + ws.capacity;
-  const float* ws_ = ys + ws.capacity;
-  FloatVector sum[kParts];
-  std::int32_t points = 0;
-  for (FloatVector& part : sum) {
-    part = hn::Zero(kFloat);
-  }
+// The pixel that each point lies in, and kNoPixel for those outside the image.
+inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const FloatVector low = number(-0.5F);
   const FloatVector right = number(static_cast<float>(grid.width) - 0.5F);
   const FloatVector bottom = number(static_cast<float>(grid.height) - 0.5F);
   const FloatVector half = number(0.5F);
   const IntVector three = hn::Set(kInt, 3);
   const IntVector columns = hn::Set(kInt, grid.columns);
-  const auto* depth = reinterpret_cast<const float*>(ws.depth);
-  const auto total = static_cast<std::int32_t>(ws.count);
-  for (std::int32_t i = 0; i < total; i += TileGrid::kPixels) {
+  const IntVector outside = hn::Set(kInt, static_cast<std::int32_t>(grid.pixels()));
+  for (std::size_t i = 0; i < ws.samples; i += kN) {
+    const FloatVector x = hn::Load(kFloat, ws.sample_x.get() + i);
+    const FloatVector y = hn::Load(kFloat, ws.sample_y.get() + i);
+    const FloatMask inside = hn::And(hn::And(x > low, x < right), hn::And(y > low, y < bottom));
+    const IntVector px = hn::ConvertTo(kInt, x + half);
+    const IntVector py = hn::ConvertTo(kInt, y + half);
+    const IntVector tile = hn::ShiftRight<2>(py) * columns + hn::ShiftRight<2>(px);
+    const IntVector pixel = hn::ShiftLeft<4>(tile) + hn::ShiftLeft<2>(py & three) + (px & three);
+    hn::Store(hn::IfThenElse(hn::RebindMask(kInt, inside), pixel, outside), kInt, ws.sample_pixel.get() + i);
+  }
+}
+
+// Sums in 16 columns whatever the vectors' length, so that the order of additions is the same.
+inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) {
+  constexpr float kThickness = 0.015F;
+  find_pixels(frame.grid, ws);
+  const auto* depth = reinterpret_cast<const float*>(ws.depth.get());
+  const float* map = frame.distance.data();
+  const std::int32_t* pixel = ws.sample_pixel.get();
+  float* nearest = ws.sample_nearest.get();
+  float* distance = ws.sample_distance.get();
+  for (std::size_t i = 0; i < ws.samples; ++i) {  // one by one: gathering vectors takes longer
+    const auto at = static_cast<std::size_t>(pixel[i]);
+    nearest[i] = depth[at];
+    distance[i] = map[at];
+  }
+  // Points behind the last one are hidden behind something very near.
+  for (std::size_t i = 0; i < kTile; i += kN) {
+    hn::StoreU(number(1e30F), kFloat, ws.sample_nearest.get() + ws.samples + i);
+    hn::StoreU(number(1.0F), kFloat, ws.sample_w.get() + ws.samples + i);
+  }
+  FloatVector sum[kParts];
+  for (FloatVector& part : sum) {
+    part = hn::Zero(kFloat);
+  }
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < ws.samples; i += kTile) {
     for (std::size_t part = 0; part < kParts; ++part) {
-      const std::size_t at = static_cast<std::size_t>(i) + part * kN;
-      const FloatVector x = hn::LoadU(kFloat, xs + at);
-      const FloatVector y = hn::LoadU(kFloat, ys + at);
-      const FloatVector w = hn::LoadU(kFloat, ws_ + at);
-      const IntVector left_over = hn::Iota(kInt, static_cast<std::int32_t>(at));
-      FloatMask seen = hn::And(hn::And(x > low, x < right), hn::And(y > low, y < bottom));
-      seen = hn::And(seen, hn::RebindMask(kFloat, left_over < hn::Set(kInt, total)));
-      const IntVector px = hn::ConvertTo(kInt, hn::IfThenElseZero(seen, x + half));
-      const IntVector py = hn::ConvertTo(kInt, hn::IfThenElseZero(seen, y + half));
-      const IntVector tile = hn::ShiftRight<2>(py) * columns + hn::ShiftRight<2>(px);
-      const IntVector pixel = hn::ShiftLeft<4>(tile) + hn::ShiftLeft<2>(py & three) + (px & three);
-      const FloatVector nearest = hn::GatherIndex(kFloat, depth, pixel);
-      const FloatVector distance = hn::GatherIndex(kFloat, frame.distance.data(), pixel);
-      seen = hn::AndNot(is_hidden(nearest, w, number(kThickness)), seen);
-      sum[part] = sum[part] + hn::IfThenElseZero(seen, distance);
-      points += static_cast<std::int32_t>(hn::CountTrue(kFloat, seen));
+      const std::size_t at = i + part * kN;
+      const FloatVector w = hn::Load(kFloat, ws.sample_w.get() + at);
+      const FloatMask seen = hn::Not(is_hidden(hn::Load(kFloat, nearest + at), w, number(kThickness)));
+      sum[part] = sum[part] + hn::IfThenElseZero(seen, hn::Load(kFloat, distance + at));
+      points += hn::CountTrue(kFloat, seen);
     }
   }
-  alignas(64) float columns_sum[TileGrid::kPixels];
+  alignas(64) float columns[kTile];
   for (std::size_t part = 0; part < kParts; ++part) {
-    hn::Store(sum[part], kFloat, columns_sum + part * kN);
+    hn::Store(sum[part], kFloat, columns + part * kN);
   }
   double all = 0.0;
-  for (const float column : columns_sum) {
+  for (const float column : columns) {
     all += static_cast<double>(column);
   }
   r.contour_sum = all;
-  r.contour_points = points;
+  r.contour_points = static_cast<std::int32_t>(points);
 }
 
 }  // namespace telemime::simd::HWY_NAMESPACE

@@ -40,33 +40,38 @@ HWY_INLINE void count_pixels(IntVector drawn, IntVector label, ByteCounts& count
   counts.model = counts.model + hn::IfThenElseZero(label < hn::Set(kInt, TiledPlanes::kUnknown), one);
 }
 
-// Counts (if `counted`) what lies in the tiles that hold something, and empties them.
-inline void count_and_clear(const TiledPlanes& frame, bool counted, Workspace& ws, Reductions& r) {
+// Counts (if asked to) what lies in the tiles that each segment touched, and empties them: what two segments
+// touched is empty when it is met again.
+template <bool counted>
+HWY_NOINLINE void count_and_clear(const TiledPlanes& frame, std::span<const TileRect> touched, Workspace& ws, Reductions& r) {
   constexpr int kMostTiles = 255 / static_cast<int>(kParts);  // so that no byte runs over
   const hn::Rebind<std::uint8_t, Int> bytes;
-  const int span = ws.right + 1 - ws.left;
   ByteCounts counts = no_counts();
   int tiles = 0;
-  for (int row = ws.top; row <= ws.bottom; ++row) {
-    std::size_t at =
-        static_cast<std::size_t>(row * frame.grid.columns + ws.left) * static_cast<std::size_t>(TileGrid::kPixels);
-    for (int column = 0; column < span; ++column) {
-      if (++tiles > kMostTiles) {
-        flush(counts, r);
-        counts = no_counts();
-        tiles = 1;
-      }
-      for (std::size_t part = 0; part < kParts; ++part, at += kN) {
-        auto* depth = reinterpret_cast<std::int32_t*>(ws.depth + at);
-        if (counted) {
-          const IntVector label = hn::PromoteTo(kInt, hn::LoadU(bytes, frame.labels.data() + at));
-          count_pixels(hn::Load(kInt, depth), label, counts);
+  for (const TileRect& rect : touched) {
+    for (int row = rect.top; row <= rect.bottom; ++row) {
+      for (int left = rect.left; left <= rect.right; left += kMostTiles) {
+        const int columns = std::min(rect.right + 1 - left, kMostTiles);
+        tiles += columns;
+        if (counted && tiles > kMostTiles) {
+          flush(counts, r);
+          counts = no_counts();
+          tiles = columns;
         }
-        hn::Store(hn::Zero(kInt), kInt, depth);
+        std::size_t at = static_cast<std::size_t>(row * frame.grid.columns + left) * kTile;
+        const std::size_t end = at + static_cast<std::size_t>(columns) * kTile;
+        for (; at < end; at += kN) {
+          auto* depth = reinterpret_cast<std::int32_t*>(ws.depth.get() + at);
+          if constexpr (counted) {
+            const IntVector label = hn::PromoteTo(kInt, hn::LoadU(bytes, frame.labels.data() + at));
+            count_pixels(hn::Load(kInt, depth), label, counts);
+          }
+          hn::Store(hn::Zero(kInt), kInt, depth);
+        }
       }
     }
   }
-  if (counted) {
+  if constexpr (counted) {
     flush(counts, r);
   }
 }

@@ -2,6 +2,7 @@
 #include "telemime/likelihood/simd/kernel.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 // Highway compiles what follows once for every instruction set.
@@ -21,26 +22,29 @@ namespace telemime::simd::HWY_NAMESPACE {
 // One pose, from its segments' places to its counts.
 inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
   const bool contour = wants(batch.terms, Reduction::contour);
-  Touched touched = nothing_touched();
-  ws.count = 0;
+  // All first: vectors that are stored at one place and read at another wait for each other when they are near
+  // in time.
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    project_segment(batch, batch.model.segments[s], s, lane, ws);
+  }
+  TileRect touched[kSegmentCount];
+  ws.samples = 0;
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
-    project_segment(batch, segment, s, lane, ws);
-    const Facing facing = set_up_quads(segment, batch.frame.grid, touched, ws);
+    const Facing facing = set_up_quads(batch, segment, touched[s], ws);
     draw_quads(batch, segment, facing, ws);
     if (contour) {
       sample_contour(segment, facing, ws);
     }
   }
-  ws.left = hn::GetLane(hn::MinOfLanes(kInt, touched.left));
-  ws.top = hn::GetLane(hn::MinOfLanes(kInt, touched.top));
-  // Quadrilaterals are drawn in 2 x 2 tiles even where they need fewer.
-  ws.right = std::min(hn::GetLane(hn::MaxOfLanes(kInt, touched.right)) + 1, batch.frame.grid.columns - 1);
-  ws.bottom = std::min(hn::GetLane(hn::MaxOfLanes(kInt, touched.bottom)) + 1, batch.frame.grid.rows - 1);
   if (contour) {
     sum_contour(batch.frame, ws, r);
   }
-  count_and_clear(batch.frame, wants(batch.terms, Reduction::overlap), ws, r);
+  if (wants(batch.terms, Reduction::overlap)) {
+    count_and_clear<true>(batch.frame, touched, ws, r);
+  } else {
+    count_and_clear<false>(batch.frame, touched, ws, r);
+  }
 }
 
 void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out, Workspace& ws) {
@@ -61,24 +65,26 @@ HWY_AFTER_NAMESPACE();
 namespace telemime::simd {
 
 void Workspace::fit(const TileGrid& grid) {
-  constexpr std::size_t kLine = 64 / sizeof(std::uint32_t);
-  if (depth_size == grid.pixels()) {
+  if (pixels == grid.pixels()) {
     return;
   }
-  depth_memory.assign(grid.pixels() + kLine, 0);
-  depth_size = grid.pixels();
-  auto address = reinterpret_cast<std::uintptr_t>(depth_memory.data());
-  depth = depth_memory.data() + ((64 - address % 64) % 64) / sizeof(std::uint32_t);
+  pixels = grid.pixels();
+  depth = hwy::AllocateAligned<std::uint32_t>(pixels + 1);
+  std::fill_n(depth.get(), pixels, 0);
+  depth[pixels] = std::bit_cast<std::uint32_t>(1e30F);
 }
 
-void Workspace::grow_samples(std::size_t capacity_at_least) {
-  const std::size_t larger = std::max<std::size_t>({capacity_at_least, 2 * capacity, 4096});
-  std::vector<float> moved(3 * larger);
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::copy_n(samples.begin() + static_cast<std::ptrdiff_t>(k * capacity), count,
-                moved.begin() + static_cast<std::ptrdiff_t>(k * larger));
+void Workspace::grow_samples(std::size_t at_least) {
+  const std::size_t larger = std::max<std::size_t>({at_least, 2 * capacity, 4096});
+  const auto grow = [&]<typename T>(hwy::AlignedFreeUniquePtr<T[]>& array) {
+    auto grown = hwy::AllocateAligned<T>(larger);
+    std::copy_n(array.get(), capacity, grown.get());
+    array = std::move(grown);
+  };
+  for (auto* array : {&sample_x, &sample_y, &sample_w, &sample_nearest, &sample_distance}) {
+    grow(*array);
   }
-  samples = std::move(moved);
+  grow(sample_pixel);
   capacity = larger;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -26,32 +28,35 @@ struct Batch {
   Reduction terms = Reduction::all;
 };
 
-/// Memory that one thread works in. It grows with the image and is used again: an evaluation allocates nothing
-/// once it has the size. Arrays are aligned by hand: `aligned` gives the first 64-byte boundary.
+/// Memory that one thread works in, aligned for vectors. It grows with the image and with how large the person
+/// is in it, and is used again: an evaluation allocates nothing once it has the size.
 struct Workspace {
   static constexpr std::size_t kLanes = PackedSegment::kMostLanes + 64;
+  static constexpr std::size_t kVertices = kSegmentCount * PackedSegment::kMostLanes + 64;
   static constexpr std::size_t kPoses = 16;
   static constexpr std::size_t kNumbers = 12 * kSegmentCount;
 
-  alignas(64) float pose[23][kPoses];               ///< pose numbers of a block, by lane
+  alignas(64) float pose[kPoseSize][kPoses];        ///< pose numbers of a block, by lane
   alignas(64) float transform[kNumbers][kPoses];    ///< camera from segment, 12 numbers each, by lane
-  alignas(64) float u[kLanes], v[kLanes], w[kLanes];  ///< a segment's vertices, px and 1/m
-  alignas(64) float line[15][kLanes];               ///< four edges and the depth plane, a b c each, by lane
+  alignas(64) float u[kVertices], v[kVertices], w[kVertices];  ///< the model's vertices, px and 1/m
+  alignas(64) float line[15][kLanes];               ///< of a segment: four edges and the depth plane, a b c each
   alignas(64) std::int32_t tile[kLanes];            ///< first tile of a lane's quadrilateral
   alignas(64) float tile_x[kLanes], tile_y[kLanes];
   alignas(64) std::int32_t columns[kLanes], rows[kLanes];  ///< its tiles but one
 
-  std::vector<std::uint32_t> depth_memory;
-  std::uint32_t* depth = nullptr;  ///< tiles: bits of 1/z with the class in the lowest five; 0: nothing
-  std::size_t depth_size = 0;
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< tiles that hold something
+  /// Tiles: bits of 1/z with the class in the lowest five; 0: nothing. One more pixel behind the last one is
+  /// nearer than everything: it stands for those outside the image.
+  hwy::AlignedFreeUniquePtr<std::uint32_t[]> depth;
+  std::size_t pixels = 0;
 
-  std::vector<float> samples;  ///< contour points: x, y, w, `capacity` each
+  /// Contour points: px, 1/m; their pixels; what these show.
+  hwy::AlignedFreeUniquePtr<float[]> sample_x, sample_y, sample_w, sample_nearest, sample_distance;
+  hwy::AlignedFreeUniquePtr<std::int32_t[]> sample_pixel;
+  std::size_t samples = 0;
   std::size_t capacity = 0;
-  std::size_t count = 0;
 
   void fit(const TileGrid& grid);
-  void grow_samples(std::size_t capacity_at_least);
+  void grow_samples(std::size_t at_least);
 };
 
 /// Counts of one pose after the other; `observed` is left alone.

@@ -24,6 +24,7 @@ struct Facing {
   LaneSet known[2] = {};
   LaneSet drawn = {};  ///< quadrilaterals that show something in the image
   LaneSet small = {};  ///< those of at most 2 x 2 tiles
+  LaneSet medium = {};  ///< of the others, those of at most 3 x 3
 };
 
 inline void project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s, std::size_t lane,
@@ -37,16 +38,16 @@ inline void project_segment(const Batch& batch, const PackedSegment& segment, st
   const FloatVector fy = number(batch.camera.fy);
   const FloatVector cx = number(batch.camera.cx);
   const FloatVector cy = number(batch.camera.cy);
-  for (std::uint32_t i = 0; i < segment.vertices; i += kN) {
+  const std::uint32_t end = segment.begin + segment.lanes + segment.stride;
+  for (std::uint32_t at = segment.begin; at < end; at += kN) {
     FloatVector u;
     FloatVector v;
     FloatVector w;
-    const std::uint32_t at = segment.begin + i;
     project_vertex(transform, hn::LoadU(kFloat, &batch.model.x[at]), hn::LoadU(kFloat, &batch.model.y[at]),
                    hn::LoadU(kFloat, &batch.model.z[at]), fx, fy, cx, cy, number(kNearest), &u, &v, &w);
-    hn::Store(u, kFloat, ws.u + i);
-    hn::Store(v, kFloat, ws.v + i);
-    hn::Store(w, kFloat, ws.w + i);
+    hn::Store(u, kFloat, ws.u + at);
+    hn::Store(v, kFloat, ws.v + at);
+    hn::Store(w, kFloat, ws.w + at);
   }
 }
 
@@ -74,16 +75,6 @@ HWY_INLINE TileRange tile_range(FloatVector low, FloatVector high, int size) {
           hn::And(hn::RebindMask(kFloat, first < last + hn::Set(kInt, 1)), high >= number(0.0F))};
 }
 
-// Tiles that any quadrilateral of a pose touches, by lane.
-struct Touched {
-  IntVector left, top, right, bottom;
-};
-
-HWY_INLINE Touched nothing_touched() {
-  const IntVector far = hn::Set(kInt, 1 << 20);
-  return {far, far, hn::Zero(kInt), hn::Zero(kInt)};
-}
-
 HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Workspace& ws) {
   const FloatVector side = number(static_cast<float>(TileGrid::kSide));
   hn::Store(line.a * side, kFloat, ws.line[3 * k] + i);
@@ -91,18 +82,25 @@ HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Wor
   hn::Store(line.c, kFloat, ws.line[3 * k + 2] + i);
 }
 
-inline Facing set_up_quads(const PackedSegment& segment, const TileGrid& grid, Touched& touched,
-                           Workspace& ws) {
+inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, TileRect& touched, Workspace& ws) {
+  const TileGrid& grid = batch.frame.grid;
   Facing facing;
+  // Tiles that any quadrilateral touches, by lane.
+  IntVector left = hn::Set(kInt, 1 << 20);
+  IntVector top = left;
+  IntVector right = hn::Set(kInt, -2);
+  IntVector bottom = right;
   const FloatVector zero = hn::Zero(kFloat);
   const IntVector two = hn::Set(kInt, 2);
-  const IntVector top_lanes = hn::Set(kInt, static_cast<std::int32_t>(segment.stride));
-  const IntVector before_bottom = hn::Set(kInt, static_cast<std::int32_t>(segment.lanes - segment.stride) - 1);
+  const IntVector top_mark = hn::Set(kInt, PackedModel::kTop);
+  const IntVector bottom_mark = hn::Set(kInt, PackedModel::kBottom);
+  const auto* marks = reinterpret_cast<const std::int32_t*>(batch.model.surface.data()) + segment.begin;
   for (std::uint32_t i = 0; i < segment.lanes; i += kN) {
-    const Corner a = corner_at(ws, i);
-    const Corner b = corner_at(ws, i + 1);
-    const Corner c = corner_at(ws, i + segment.stride);
-    const Corner d = corner_at(ws, i + segment.stride + 1);
+    const std::uint32_t at = segment.begin + i;
+    const Corner a = corner_at(ws, at);
+    const Corner b = corner_at(ws, at + segment.stride);
+    const Corner c = corner_at(ws, at + 1);
+    const Corner d = corner_at(ws, at + segment.stride + 1);
     const FloatMask inner = hn::And(b.w != zero, c.w != zero);
     const FloatMask known1 = hn::And(inner, a.w != zero);
     const FloatMask known2 = hn::And(inner, d.w != zero);
@@ -115,10 +113,13 @@ inline Facing set_up_quads(const PackedSegment& segment, const TileGrid& grid, T
     facing.front[0][word] |= bits_of(front1) << shift;
     facing.front[1][word] |= bits_of(front2) << shift;
 
+    if (hn::AllFalse(kFloat, hn::Or(front1, front2))) {
+      continue;
+    }
     // At the ends one of the two triangles has no area.
-    const IntVector lane = hn::Iota(kInt, static_cast<std::int32_t>(i));
-    const FloatMask at_top = hn::RebindMask(kFloat, lane < top_lanes);
-    const FloatMask at_bottom = hn::RebindMask(kFloat, lane > before_bottom);
+    const IntVector mark = hn::LoadU(kInt, marks + i);
+    const FloatMask at_top = hn::RebindMask(kFloat, hn::TestBit(mark, top_mark));
+    const FloatMask at_bottom = hn::RebindMask(kFloat, hn::TestBit(mark, bottom_mark));
     const FloatMask whole1 = hn::Or(front1, hn::And(at_top, front2));
     front2 = hn::Or(front2, hn::And(at_bottom, front1));
     front1 = whole1;
@@ -142,20 +143,28 @@ inline Facing set_up_quads(const PackedSegment& segment, const TileGrid& grid, T
     hn::Store(hn::ConvertTo(kFloat, y.first), kFloat, ws.tile_y + i);
     hn::Store(columns, kInt, ws.columns + i);
     hn::Store(rows, kInt, ws.rows + i);
-    const FloatMask small = hn::RebindMask(kFloat, hn::And(columns < two, rows < two));
-    // Lanes of no quadrilateral lie between those of one: their corners are the segment's, too.
+    const IntVector longer = hn::Max(columns, rows);
+    const FloatMask small = hn::RebindMask(kFloat, longer < two);
+    const FloatMask medium = hn::RebindMask(kFloat, longer < hn::Set(kInt, 3));
+    // Lanes of no quadrilateral have no area: three of their corners are two points.
     const auto shown = hn::RebindMask(kInt, drawn);
-    touched.left = hn::IfThenElse(shown, hn::Min(touched.left, x.first), touched.left);
-    touched.top = hn::IfThenElse(shown, hn::Min(touched.top, y.first), touched.top);
-    touched.right = hn::IfThenElse(shown, hn::Max(touched.right, x.last), touched.right);
-    touched.bottom = hn::IfThenElse(shown, hn::Max(touched.bottom, y.last), touched.bottom);
+    left = hn::IfThenElse(shown, hn::Min(left, x.first), left);
+    top = hn::IfThenElse(shown, hn::Min(top, y.first), top);
+    right = hn::IfThenElse(shown, hn::Max(right, x.last), right);
+    bottom = hn::IfThenElse(shown, hn::Max(bottom, y.last), bottom);
     facing.drawn[word] |= bits_of(drawn) << shift;
     facing.small[word] |= bits_of(small) << shift;
+    facing.medium[word] |= bits_of(medium) << shift;
   }
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     facing.drawn[word] &= segment.quads[word];
     facing.small[word] &= facing.drawn[word];
+    facing.medium[word] &= facing.drawn[word] & ~facing.small[word];
   }
+  // Small ones are drawn in 2 x 2 or 3 x 3 tiles even where they need fewer.
+  touched = {hn::GetLane(hn::MinOfLanes(kInt, left)), hn::GetLane(hn::MinOfLanes(kInt, top)),
+             std::min(hn::GetLane(hn::MaxOfLanes(kInt, right)) + TileGrid::kMargin, grid.columns - 1),
+             std::min(hn::GetLane(hn::MaxOfLanes(kInt, bottom)) + TileGrid::kMargin, grid.rows - 1)};
   return facing;
 }
 
@@ -210,7 +219,7 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
   }
   const IntVector code = hn::Set(kInt, static_cast<std::int32_t>(surface));
   for (std::size_t part = 0; part < kParts; ++part) {
-    std::uint32_t* first = ws.depth + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
+    std::uint32_t* first = ws.depth.get() + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
     Pixels start = base[part];
     for (int r = 0; r <= rows; ++r) {
       Pixels here = start;
@@ -226,19 +235,24 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
   }
 }
 
-// Most quadrilaterals of a small image touch at most 2 x 2 tiles: all four are tested, since loops whose length
-// cannot be foreseen would cost more.
+// Most quadrilaterals of a small image touch few tiles: 2 x 2 or 3 x 3 are tested, needed or not, since loops
+// whose length cannot be foreseen would cost more.
 inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing, Workspace& ws) {
   const int tile_columns = batch.frame.grid.columns;
   const std::uint32_t* surface = batch.model.surface.data() + segment.begin;
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     for (std::uint64_t rest = facing.small[word]; rest != 0; rest &= rest - 1) {
       const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i], tile_columns, 1, 1, ws);
+      draw_quad(i, surface[i] & 0x1F, tile_columns, 1, 1, ws);
     }
-    for (std::uint64_t rest = facing.drawn[word] & ~facing.small[word]; rest != 0; rest &= rest - 1) {
+    for (std::uint64_t rest = facing.medium[word]; rest != 0; rest &= rest - 1) {
       const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i], tile_columns, ws.columns[i], ws.rows[i], ws);
+      draw_quad(i, surface[i] & 0x1F, tile_columns, 2, 2, ws);
+    }
+    const std::uint64_t large = facing.drawn[word] & ~facing.small[word] & ~facing.medium[word];
+    for (std::uint64_t rest = large; rest != 0; rest &= rest - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+      draw_quad(i, surface[i] & 0x1F, tile_columns, ws.columns[i], ws.rows[i], ws);
     }
   }
 }

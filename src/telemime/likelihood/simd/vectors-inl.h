@@ -26,8 +26,14 @@ using FloatMask = hn::Mask<Float>;
 constexpr Float kFloat;
 constexpr Int kInt;
 constexpr std::size_t kN = hn::MaxLanes(Float());
+constexpr std::size_t kTile = TileGrid::kPixels;
 // Vectors that make a tile.
-constexpr std::size_t kParts = TileGrid::kPixels / kN;
+constexpr std::size_t kParts = kTile / kN;
+
+// Tiles from (left, top) to (right, bottom), all included.
+struct TileRect {
+  std::int32_t left, top, right, bottom;
+};
 
 HWY_INLINE FloatVector number(float x) {
   return hn::Set(kFloat, x);
@@ -44,9 +50,9 @@ HWY_INLINE IntVector ceil_of(FloatVector x) {
 }
 
 HWY_INLINE std::uint64_t bits_of(FloatMask mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(kFloat, mask, bytes);
-  return bytes[0] | static_cast<std::uint64_t>(bytes[1]) << 8;
+  std::uint64_t bits = 0;  // of a little-endian machine, see kernel.cpp
+  hn::StoreMaskBits(kFloat, mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
 }
 
 // Sine and cosine of |x| < 10^4 rad to 1e-6 or better: Cody and Waite's reduction to a quarter turn and the
