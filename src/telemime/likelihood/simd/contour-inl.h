@@ -42,7 +42,7 @@ inline LaneSet closed(LaneSet set, const PackedSegment& segment) {
   return set;
 }
 
-// Points of one edge, from vertex a to vertex b.
+// Points of one edge, from vertex a to vertex b; in tiles, as the vertices.
 HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   constexpr float kLongest = 4096.0F;
   const float ax = ws.u[a];
@@ -52,7 +52,8 @@ HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   const float dy = ws.v[b] - ay;
   const float dw = ws.w[b] - aw;
   const hn::CappedTag<float, 1> one;
-  const float length = hn::GetLane(hn::Sqrt(hn::Set(one, dx * dx + dy * dy)));
+  const float side = static_cast<float>(TileGrid::kSide);
+  const float length = side * hn::GetLane(hn::Sqrt(hn::Set(one, dx * dx + dy * dy)));
   if (!(length < kLongest)) {
     return;
   }
@@ -62,15 +63,20 @@ HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   if (ws.samples + TileGrid::kPixels > ws.capacity) {
     ws.grow_samples(ws.samples + TileGrid::kPixels);
   }
-  const FloatVector inverse = number(1.0F / static_cast<float>(steps));
+  // Most edges are a few pixels long.
+  const hn::CappedTag<float, 8> few;
+  const auto x0 = hn::Set(few, ax);
+  const auto y0 = hn::Set(few, ay);
+  const auto w0 = hn::Set(few, aw);
+  const auto inverse = hn::Set(few, 1.0F / static_cast<float>(steps));
   std::int32_t i = 0;
   do {
-    const FloatVector t = (hn::Iota(kFloat, 0.5F) + number(static_cast<float>(i))) * inverse;
+    const auto t = (hn::Iota(few, 0.5F) + hn::Set(few, static_cast<float>(i))) * inverse;
     const std::size_t at = first + static_cast<std::size_t>(i);
-    hn::StoreU(number(ax) + number(dx) * t, kFloat, ws.sample_x.get() + at);
-    hn::StoreU(number(ay) + number(dy) * t, kFloat, ws.sample_y.get() + at);
-    hn::StoreU(number(aw) + number(dw) * t, kFloat, ws.sample_w.get() + at);
-    i += static_cast<std::int32_t>(kN);
+    hn::StoreU(hn::MulAdd(hn::Set(few, dx), t, x0), few, ws.sample_x.get() + at);
+    hn::StoreU(hn::MulAdd(hn::Set(few, dy), t, y0), few, ws.sample_y.get() + at);
+    hn::StoreU(hn::MulAdd(hn::Set(few, dw), t, w0), few, ws.sample_w.get() + at);
+    i += static_cast<std::int32_t>(hn::MaxLanes(few));
   } while (i < steps);
 }
 
@@ -128,12 +134,13 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const FloatVector right = number(static_cast<float>(grid.width) - 0.5F);
   const FloatVector bottom = number(static_cast<float>(grid.height) - 0.5F);
   const FloatVector half = number(0.5F);
+  const FloatVector side = number(static_cast<float>(TileGrid::kSide));
   const IntVector three = hn::Set(kInt, 3);
   const IntVector columns = hn::Set(kInt, grid.columns);
   const IntVector outside = hn::Set(kInt, static_cast<std::int32_t>(grid.pixels()));
   for (std::size_t i = 0; i < ws.samples; i += kN) {
-    const FloatVector x = hn::Load(kFloat, ws.sample_x.get() + i);
-    const FloatVector y = hn::Load(kFloat, ws.sample_y.get() + i);
+    const FloatVector x = hn::Load(kFloat, ws.sample_x.get() + i) * side;
+    const FloatVector y = hn::Load(kFloat, ws.sample_y.get() + i) * side;
     const FloatMask inside = hn::And(hn::And(x > low, x < right), hn::And(y > low, y < bottom));
     const IntVector px = hn::ConvertTo(kInt, x + half);
     const IntVector py = hn::ConvertTo(kInt, y + half);

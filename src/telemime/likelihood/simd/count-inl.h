@@ -7,7 +7,7 @@
 #define TELEMIME_SIMD_COUNT_INL_H
 #endif
 
-#include "telemime/likelihood/simd/vectors-inl.h"
+#include "telemime/likelihood/simd/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
@@ -43,12 +43,17 @@ HWY_INLINE void count_pixels(IntVector drawn, IntVector label, ByteCounts& count
 // Counts (if asked to) what lies in the tiles that each segment touched, and empties them: what two segments
 // touched is empty when it is met again.
 template <bool counted>
-HWY_NOINLINE void count_and_clear(const TiledPlanes& frame, std::span<const TileRect> touched, Workspace& ws, Reductions& r) {
+void count_and_clear(const TiledPlanes& frame, std::span<const Projection> segments, Workspace& ws,
+                     Reductions& r) {
   constexpr int kMostTiles = 255 / static_cast<int>(kParts);  // so that no byte runs over
   const hn::Rebind<std::uint8_t, Int> bytes;
   ByteCounts counts = no_counts();
   int tiles = 0;
-  for (const TileRect& rect : touched) {
+  for (const Projection& segment : segments) {
+    const TileRect& rect = segment.tiles;
+    if (rect.right < rect.left) {
+      continue;
+    }
     for (int row = rect.top; row <= rect.bottom; ++row) {
       for (int left = rect.left; left <= rect.right; left += kMostTiles) {
         const int columns = std::min(rect.right + 1 - left, kMostTiles);

@@ -24,14 +24,14 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
   const bool contour = wants(batch.terms, Reduction::contour);
   // All first: vectors that are stored at one place and read at another wait for each other when they are near
   // in time.
+  Projection projections[kSegmentCount];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
-    project_segment(batch, batch.model.segments[s], s, lane, ws);
+    projections[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
   }
-  TileRect touched[kSegmentCount];
   ws.samples = 0;
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
-    const Facing facing = set_up_quads(batch, segment, touched[s], ws);
+    const Facing facing = set_up_quads(batch, segment, projections[s], ws);
     draw_quads(batch, segment, facing, ws);
     if (contour) {
       sample_contour(segment, facing, ws);
@@ -41,9 +41,9 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
     sum_contour(batch.frame, ws, r);
   }
   if (wants(batch.terms, Reduction::overlap)) {
-    count_and_clear<true>(batch.frame, touched, ws, r);
+    count_and_clear<true>(batch.frame, projections, ws, r);
   } else {
-    count_and_clear<false>(batch.frame, touched, ws, r);
+    count_and_clear<false>(batch.frame, projections, ws, r);
   }
 }
 

@@ -8,7 +8,9 @@
 #define TELEMIME_SIMD_SURFACE_INL_H
 #endif
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "telemime/likelihood/simd/vectors-inl.h"
 
@@ -27,17 +29,46 @@ struct Facing {
   LaneSet medium = {};  ///< of the others, those of at most 3 x 3
 };
 
-inline void project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s, std::size_t lane,
-                            Workspace& ws) {
+// A segment in the image. Coordinates of vertices are in tiles: pixels over 4.
+struct Projection {
+  TileRect tiles;  ///< that it may touch, at least 3 x 3 unless there is none
+  bool behind;     ///< some vertices are not in front of the camera
+};
+
+HWY_INLINE float smallest_of(FloatVector v) {
+  return hn::GetLane(hn::MinOfLanes(kFloat, v));
+}
+HWY_INLINE float largest_of(FloatVector v) {
+  return hn::GetLane(hn::MaxOfLanes(kFloat, v));
+}
+
+// Tiles of the pixels in [low, high] (in tiles) of an image of `size` pixels; none: last < first.
+HWY_INLINE void tile_interval(float low, float high, int size, std::int32_t& first, std::int32_t& last) {
+  const float end = static_cast<float>(size - 1) * 0.25F;
+  first = static_cast<std::int32_t>(std::clamp(low, 0.0F, end));
+  last = high < 0.0F || low > end ? first - 1
+                                  : std::max(static_cast<std::int32_t>(std::clamp(high, 0.0F, end)), first + 2);
+}
+
+inline Projection project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s,
+                                  std::size_t lane, Workspace& ws) {
   constexpr float kNearest = 0.05F;
+  constexpr float kFar = 1e30F;
   FloatVector transform[12];
   for (std::size_t k = 0; k < 12; ++k) {
     transform[k] = number(ws.transform[12 * s + k][lane]);
   }
-  const FloatVector fx = number(batch.camera.fx);
-  const FloatVector fy = number(batch.camera.fy);
-  const FloatVector cx = number(batch.camera.cx);
-  const FloatVector cy = number(batch.camera.cy);
+  const float scale = 1.0F / static_cast<float>(TileGrid::kSide);
+  const FloatVector fx = number(batch.camera.fx * scale);
+  const FloatVector fy = number(batch.camera.fy * scale);
+  const FloatVector cx = number(batch.camera.cx * scale);
+  const FloatVector cy = number(batch.camera.cy * scale);
+  FloatVector left = number(kFar);
+  FloatVector top = left;
+  FloatVector right = number(-kFar);
+  FloatVector bottom = right;
+  FloatVector farthest = left;
+  // Vertices behind the last one are at the segment's origin.
   const std::uint32_t end = segment.begin + segment.lanes + segment.stride;
   for (std::uint32_t at = segment.begin; at < end; at += kN) {
     FloatVector u;
@@ -48,7 +79,19 @@ inline void project_segment(const Batch& batch, const PackedSegment& segment, st
     hn::Store(u, kFloat, ws.u + at);
     hn::Store(v, kFloat, ws.v + at);
     hn::Store(w, kFloat, ws.w + at);
+    left = hn::Min(left, u);
+    right = hn::Max(right, u);
+    top = hn::Min(top, v);
+    bottom = hn::Max(bottom, v);
+    farthest = hn::Min(farthest, w);
   }
+  Projection projection;
+  const TileGrid& grid = batch.frame.grid;
+  TileRect& tiles = projection.tiles;
+  tile_interval(smallest_of(left), largest_of(right), grid.width, tiles.left, tiles.right);
+  tile_interval(smallest_of(top), largest_of(bottom), grid.height, tiles.top, tiles.bottom);
+  projection.behind = smallest_of(farthest) <= 0.0F;
+  return projection;
 }
 
 HWY_INLINE Corner corner_at(const Workspace& ws, std::size_t i) {
@@ -62,60 +105,68 @@ HWY_INLINE FloatVector largest(FloatVector a, FloatVector b, FloatVector c, Floa
   return hn::Max(hn::Max(a, b), hn::Max(c, d));
 }
 
-// First and last tile of the pixel centres in [low, high], within an image of `size` pixels. A range without a
-// centre has its last pixel before its first.
+// First and last tile of the pixel centres in [low, high] (in tiles), within an image that ends at `end`.
 struct TileRange {
   IntVector first, last;
   FloatMask any;
 };
-HWY_INLINE TileRange tile_range(FloatVector low, FloatVector high, int size) {
-  const IntVector first = ceil_of(hn::Max(low, number(0.0F)));
-  const IntVector last = floor_of(hn::Min(high, number(static_cast<float>(size - 1))));
-  return {hn::ShiftRight<2>(first), hn::ShiftRight<2>(last),
-          hn::And(hn::RebindMask(kFloat, first < last + hn::Set(kInt, 1)), high >= number(0.0F))};
+HWY_INLINE TileRange tile_range(FloatVector low, FloatVector high, FloatVector end) {
+  const FloatVector side = number(static_cast<float>(TileGrid::kSide));
+  const FloatVector quarter = number(0.25F);
+  const FloatVector first = hn::Ceil(hn::Max(low, hn::Zero(kFloat)) * side) * quarter;
+  const FloatVector last = hn::Floor(hn::Min(high, end) * side) * quarter;
+  return {hn::ConvertTo(kInt, first), hn::ConvertTo(kInt, last), first <= last};
 }
 
 HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Workspace& ws) {
-  const FloatVector side = number(static_cast<float>(TileGrid::kSide));
-  hn::Store(line.a * side, kFloat, ws.line[3 * k] + i);
-  hn::Store(line.b * side, kFloat, ws.line[3 * k + 1] + i);
+  hn::Store(line.a, kFloat, ws.line[3 * k] + i);
+  hn::Store(line.b, kFloat, ws.line[3 * k + 1] + i);
   hn::Store(line.c, kFloat, ws.line[3 * k + 2] + i);
 }
 
-inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, TileRect& touched, Workspace& ws) {
-  const TileGrid& grid = batch.frame.grid;
+// Lines, planes and tiles of a segment's quadrilaterals, for draw_quads().
+inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, const Projection& projection,
+                           Workspace& ws) {
   Facing facing;
-  // Tiles that any quadrilateral touches, by lane.
-  IntVector left = hn::Set(kInt, 1 << 20);
-  IntVector top = left;
-  IntVector right = hn::Set(kInt, -2);
-  IntVector bottom = right;
   const FloatVector zero = hn::Zero(kFloat);
   const IntVector two = hn::Set(kInt, 2);
   const IntVector top_mark = hn::Set(kInt, PackedModel::kTop);
   const IntVector bottom_mark = hn::Set(kInt, PackedModel::kBottom);
+  const IntVector tile_columns = hn::Set(kInt, batch.frame.grid.columns);
+  const FloatVector image_right = number(static_cast<float>(batch.frame.grid.width - 1) * 0.25F);
+  const FloatVector image_bottom = number(static_cast<float>(batch.frame.grid.height - 1) * 0.25F);
+  // Where a block of 2 x 2 or 3 x 3 tiles begins at last.
+  const IntVector last_x[2] = {hn::Set(kInt, projection.tiles.right - 1), hn::Set(kInt, projection.tiles.right - 2)};
+  const IntVector last_y[2] = {hn::Set(kInt, projection.tiles.bottom - 1),
+                               hn::Set(kInt, projection.tiles.bottom - 2)};
   const auto* marks = reinterpret_cast<const std::int32_t*>(batch.model.surface.data()) + segment.begin;
+  if (!projection.behind) {
+    facing.known[0] = facing.known[1] = segment.quads;
+  }
   for (std::uint32_t i = 0; i < segment.lanes; i += kN) {
     const std::uint32_t at = segment.begin + i;
     const Corner a = corner_at(ws, at);
     const Corner b = corner_at(ws, at + segment.stride);
     const Corner c = corner_at(ws, at + 1);
     const Corner d = corner_at(ws, at + segment.stride + 1);
-    const FloatMask inner = hn::And(b.w != zero, c.w != zero);
-    const FloatMask known1 = hn::And(inner, a.w != zero);
-    const FloatMask known2 = hn::And(inner, d.w != zero);
-    FloatMask front1 = hn::And(known1, doubled_area(&a, &b, &c) < zero);
-    FloatMask front2 = hn::And(known2, doubled_area(&b, &d, &c) < zero);
     const std::size_t word = i / 64;
     const std::uint32_t shift = i % 64;
-    facing.known[0][word] |= bits_of(known1) << shift;
-    facing.known[1][word] |= bits_of(known2) << shift;
-    facing.front[0][word] |= bits_of(front1) << shift;
-    facing.front[1][word] |= bits_of(front2) << shift;
-
+    FloatMask front1 = doubled_area(&a, &b, &c) < zero;
+    FloatMask front2 = doubled_area(&b, &d, &c) < zero;
+    if (projection.behind) {
+      const FloatMask inner = hn::And(b.w != zero, c.w != zero);
+      const FloatMask known1 = hn::And(inner, a.w != zero);
+      const FloatMask known2 = hn::And(inner, d.w != zero);
+      front1 = hn::And(front1, known1);
+      front2 = hn::And(front2, known2);
+      facing.known[0][word] |= bits_of(known1) << shift;
+      facing.known[1][word] |= bits_of(known2) << shift;
+    }
     if (hn::AllFalse(kFloat, hn::Or(front1, front2))) {
       continue;
     }
+    facing.front[0][word] |= bits_of(front1) << shift;
+    facing.front[1][word] |= bits_of(front2) << shift;
     // At the ends one of the two triangles has no area.
     const IntVector mark = hn::LoadU(kInt, marks + i);
     const FloatMask at_top = hn::RebindMask(kFloat, hn::TestBit(mark, top_mark));
@@ -133,38 +184,35 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, Til
 
     const Corner p = select_corner(front1, a, b);
     const Corner q = select_corner(front2, d, b);
-    const TileRange x = tile_range(smallest(p.u, q.u, b.u, c.u), largest(p.u, q.u, b.u, c.u), grid.width);
-    const TileRange y = tile_range(smallest(p.v, q.v, b.v, c.v), largest(p.v, q.v, b.v, c.v), grid.height);
+    const TileRange x = tile_range(smallest(p.u, q.u, b.u, c.u), largest(p.u, q.u, b.u, c.u), image_right);
+    const TileRange y = tile_range(smallest(p.v, q.v, b.v, c.v), largest(p.v, q.v, b.v, c.v), image_bottom);
+    // Lanes of no quadrilateral have no area: three of their corners are two points.
     const FloatMask drawn = hn::And(hn::Or(front1, front2), hn::And(x.any, y.any));
     const IntVector columns = x.last - x.first;
     const IntVector rows = y.last - y.first;
-    hn::Store(y.first * hn::Set(kInt, grid.columns) + x.first, kInt, ws.tile + i);
-    hn::Store(hn::ConvertTo(kFloat, x.first), kFloat, ws.tile_x + i);
-    hn::Store(hn::ConvertTo(kFloat, y.first), kFloat, ws.tile_y + i);
+    const IntVector longer = hn::Max(columns, rows);
+    const auto small = longer < two;
+    const auto medium = longer < hn::Set(kInt, 3);
+    const auto block = [&](IntVector first, const IntVector* last) {
+      const IntVector moved = hn::Min(first, hn::IfThenElse(small, last[0], last[1]));
+      return hn::IfThenElse(medium, moved, first);
+    };
+    const IntVector tile_x = block(x.first, last_x);
+    const IntVector tile_y = block(y.first, last_y);
+    hn::Store(tile_y * tile_columns + tile_x, kInt, ws.tile + i);
+    hn::Store(hn::ConvertTo(kFloat, tile_x), kFloat, ws.tile_x + i);
+    hn::Store(hn::ConvertTo(kFloat, tile_y), kFloat, ws.tile_y + i);
     hn::Store(columns, kInt, ws.columns + i);
     hn::Store(rows, kInt, ws.rows + i);
-    const IntVector longer = hn::Max(columns, rows);
-    const FloatMask small = hn::RebindMask(kFloat, longer < two);
-    const FloatMask medium = hn::RebindMask(kFloat, longer < hn::Set(kInt, 3));
-    // Lanes of no quadrilateral have no area: three of their corners are two points.
-    const auto shown = hn::RebindMask(kInt, drawn);
-    left = hn::IfThenElse(shown, hn::Min(left, x.first), left);
-    top = hn::IfThenElse(shown, hn::Min(top, y.first), top);
-    right = hn::IfThenElse(shown, hn::Max(right, x.last), right);
-    bottom = hn::IfThenElse(shown, hn::Max(bottom, y.last), bottom);
     facing.drawn[word] |= bits_of(drawn) << shift;
-    facing.small[word] |= bits_of(small) << shift;
-    facing.medium[word] |= bits_of(medium) << shift;
+    facing.small[word] |= bits_of(hn::RebindMask(kFloat, small)) << shift;
+    facing.medium[word] |= bits_of(hn::RebindMask(kFloat, medium)) << shift;
   }
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     facing.drawn[word] &= segment.quads[word];
     facing.small[word] &= facing.drawn[word];
     facing.medium[word] &= facing.drawn[word] & ~facing.small[word];
   }
-  // Small ones are drawn in 2 x 2 or 3 x 3 tiles even where they need fewer.
-  touched = {hn::GetLane(hn::MinOfLanes(kInt, left)), hn::GetLane(hn::MinOfLanes(kInt, top)),
-             std::min(hn::GetLane(hn::MaxOfLanes(kInt, right)) + TileGrid::kMargin, grid.columns - 1),
-             std::min(hn::GetLane(hn::MaxOfLanes(kInt, bottom)) + TileGrid::kMargin, grid.rows - 1)};
   return facing;
 }
 
@@ -208,10 +256,10 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
   for (std::size_t k = 0; k < 5; ++k) {
     across[k] = number(ws.line[3 * k][i]);
     down[k] = number(ws.line[3 * k + 1][i]);
-    const FloatVector along = across[k] * x + number(ws.line[3 * k + 2][i]);
+    const FloatVector along = hn::MulAdd(across[k], x, number(ws.line[3 * k + 2][i]));
     for (std::size_t part = 0; part < kParts; ++part) {
       const FloatVector below = row + number(static_cast<float>(part * kN / 4) * 0.25F);
-      base[part].at[k] = along + down[k] * below;
+      base[part].at[k] = hn::MulAdd(down[k], below, along);
       if constexpr (kN < 4) {  // a vector is shorter than a tile's row
         base[part].at[k] = base[part].at[k] + across[k] * number(static_cast<float>(part * kN % 4) * 0.25F);
       }

@@ -39,16 +39,6 @@ HWY_INLINE FloatVector number(float x) {
   return hn::Set(kFloat, x);
 }
 
-// Exact for |x| < 2^31; NaN and larger ones give any number.
-HWY_INLINE IntVector floor_of(FloatVector x) {
-  const IntVector whole = hn::ConvertTo(kInt, x);
-  return whole - hn::IfThenElseZero(hn::RebindMask(kInt, hn::ConvertTo(kFloat, whole) > x), hn::Set(kInt, 1));
-}
-HWY_INLINE IntVector ceil_of(FloatVector x) {
-  const IntVector whole = hn::ConvertTo(kInt, x);
-  return whole + hn::IfThenElseZero(hn::RebindMask(kInt, hn::ConvertTo(kFloat, whole) < x), hn::Set(kInt, 1));
-}
-
 HWY_INLINE std::uint64_t bits_of(FloatMask mask) {
   std::uint64_t bits = 0;  // of a little-endian machine, see kernel.cpp
   hn::StoreMaskBits(kFloat, mask, reinterpret_cast<std::uint8_t*>(&bits));
@@ -83,6 +73,7 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #define REAL FloatVector
 #define MASK FloatMask
 #define NUMBER(x) number(x)
+#define FUSED(a, b, c) hn::MulAdd(a, b, c)
 #define SELECT(m, a, b) hn::IfThenElse(m, a, b)
 #define BOTH(m, n) hn::And(m, n)
 #define LESS(a, b) hn::Lt(a, b)
@@ -92,6 +83,7 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #undef REAL
 #undef MASK
 #undef NUMBER
+#undef FUSED
 #undef SELECT
 #undef BOTH
 #undef LESS
