@@ -26,6 +26,7 @@ struct Facing {
   LaneSet known[2] = {};
   LaneSet drawn = {};  ///< quadrilaterals that show something in the image
   LaneSet small = {};  ///< those of at most 2 x 2 tiles
+  LaneSet narrow = {};  ///< of these, those of one column
   LaneSet medium = {};  ///< of the others, those of at most 3 x 3
 };
 
@@ -197,7 +198,8 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
       const IntVector moved = hn::Min(first, hn::IfThenElse(small, last[0], last[1]));
       return hn::IfThenElse(medium, moved, first);
     };
-    const IntVector tile_x = block(x.first, last_x);
+    const auto narrow = columns < hn::Set(kInt, 1);
+    const IntVector tile_x = hn::IfThenElse(hn::And(narrow, small), x.first, block(x.first, last_x));
     const IntVector tile_y = block(y.first, last_y);
     hn::Store(tile_y * tile_columns + tile_x, kInt, ws.tile + i);
     hn::Store(hn::ConvertTo(kFloat, tile_x), kFloat, ws.tile_x + i);
@@ -206,11 +208,13 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     hn::Store(rows, kInt, ws.rows + i);
     facing.drawn[word] |= bits_of(drawn) << shift;
     facing.small[word] |= bits_of(hn::RebindMask(kFloat, small)) << shift;
+    facing.narrow[word] |= bits_of(hn::RebindMask(kFloat, narrow)) << shift;
     facing.medium[word] |= bits_of(hn::RebindMask(kFloat, medium)) << shift;
   }
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     facing.drawn[word] &= segment.quads[word];
     facing.small[word] &= facing.drawn[word];
+    facing.narrow[word] &= facing.small[word];
     facing.medium[word] &= facing.drawn[word] & ~facing.small[word];
   }
   return facing;
@@ -289,7 +293,11 @@ inline void draw_quads(const Batch& batch, const PackedSegment& segment, const F
   const int tile_columns = batch.frame.grid.columns;
   const std::uint32_t* surface = batch.model.surface.data() + segment.begin;
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
-    for (std::uint64_t rest = facing.small[word]; rest != 0; rest &= rest - 1) {
+    for (std::uint64_t rest = facing.narrow[word]; rest != 0; rest &= rest - 1) {
+      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
+      draw_quad(i, surface[i] & 0x1F, tile_columns, 0, 1, ws);
+    }
+    for (std::uint64_t rest = facing.small[word] & ~facing.narrow[word]; rest != 0; rest &= rest - 1) {
       const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
       draw_quad(i, surface[i] & 0x1F, tile_columns, 1, 1, ws);
     }
