@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -39,6 +40,13 @@ struct Score {
   Reductions reductions;
 };
 
+/// Where the time of a batch on a device went, s.
+struct DeviceTimes {
+  double upload = 0.0;    ///< poses, frame and model to the device
+  double kernel = 0.0;    ///< counting there
+  double download = 0.0;  ///< counts back
+};
+
 /// Evaluates batches of poses. One virtual call a batch, no hidden current frame. Implementations must agree
 /// with `scalar`, which is the definition.
 class Backend {
@@ -51,14 +59,16 @@ class Backend {
   /// scores[i] for poses[i]; terms that are not asked for keep their defaults. Sizes must match.
   virtual void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                         Reduction terms, std::span<Score> scores) = 0;
+  /// Of the last batch; nothing from back ends that run on the processor.
+  virtual std::optional<DeviceTimes> device_times() const { return std::nullopt; }
 };
 
-/// `camera` is the one of the working image that the observation has.
+/// `camera` is the one of the working image that the observation has. Throws Error(usage) when they do not
+/// match.
 PreparedFrame prepare(const Observation& observation, const Camera& camera);
 
-/// The same scores up to rounding, many times faster: vector instructions over vertices, surfaces and pixels.
-/// One for each thread.
-std::unique_ptr<Backend> make_simd_backend();
+/// The same into a frame whose memory is used again.
+void prepare(const Observation& observation, const Camera& camera, PreparedFrame& frame);
 
 /// The definition: exact z-buffered meshes, one pose after the other.
 std::unique_ptr<Backend> make_scalar_backend();

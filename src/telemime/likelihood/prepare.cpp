@@ -12,13 +12,20 @@ Model make_model(const Shape& shape) {
 }
 
 PreparedFrame prepare(const Observation& observation, const Camera& camera) {
+  PreparedFrame frame;
+  prepare(observation, camera, frame);
+  return frame;
+}
+
+void prepare(const Observation& observation, const Camera& camera, PreparedFrame& frame) {
   const cv::Size size(camera.width, camera.height);
   if (observation.labels.size() != size || observation.distance.size() != size ||
       observation.labels.type() != CV_8UC1 || observation.distance.type() != CV_32FC1) {
     throw Error(ErrorKind::usage, "the observation has another size or type than the camera's image");
   }
-  PreparedFrame frame;
   frame.camera = camera;
+  frame.observed = {};
+  frame.distance_cap = 0.0;
   frame.labels = observation.labels.isContinuous() ? observation.labels : observation.labels.clone();
   frame.distance = observation.distance.isContinuous() ? observation.distance : observation.distance.clone();
   const std::uint8_t* label = frame.labels.ptr<std::uint8_t>();
@@ -30,7 +37,6 @@ PreparedFrame prepare(const Observation& observation, const Camera& camera) {
     frame.distance_cap = std::max(frame.distance_cap, static_cast<double>(distance[i]));
   }
   tile(frame.labels, frame.distance, frame.tiles);
-  return frame;
 }
 
 }  // namespace telemime

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible occluding contour: edges where a triangle that faces the camera meets one that does not, a point
-// about every pixel, those that nothing hides looked up in the distance map.
+// The visible occluding contour: edges where a triangle that faces the camera meets one that does not, a
+// point about every pixel, those that nothing hides looked up in the distance map.
 #if defined(TELEMIME_SIMD_CONTOUR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_CONTOUR_INL_H
 #undef TELEMIME_SIMD_CONTOUR_INL_H
@@ -123,9 +123,11 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
   sample_edges(
       along, [at](std::size_t i, Workspace& w) { sample_edge(at + i, at + i + 1, w); }, ws);
   sample_edges(
-      diagonal, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + stride, at + i + 1, w); }, ws);
+      diagonal, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + stride, at + i + 1, w); },
+      ws);
   sample_edges(
-      ring, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + 1, at + i + stride + 1, w); }, ws);
+      ring, [at, stride](std::size_t i, Workspace& w) { sample_edge(at + i + 1, at + i + stride + 1, w); },
+      ws);
 }
 
 // The pixel that each point lies in, and kNoPixel for those outside the image.

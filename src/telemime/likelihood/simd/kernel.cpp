@@ -22,23 +22,29 @@ namespace telemime::simd::HWY_NAMESPACE {
 // One pose, from its segments' places to its counts.
 inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
   const bool contour = wants(batch.terms, Reduction::contour);
-  // All first: vectors that are stored at one place and read at another wait for each other when they are near
-  // in time.
+  const SimdStage last = batch.last_stage;
+  // All first: vectors that are stored at one place and read at another wait for each other when they are
+  // near in time.
   Projection projections[kSegmentCount];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     projections[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
   }
   ws.samples = 0;
-  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+  for (std::size_t s = 0; s < kSegmentCount && last >= SimdStage::set_up; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
     const Facing facing = set_up_quads(batch, segment, projections[s], ws);
-    draw_quads(batch, segment, facing, ws);
-    if (contour) {
+    if (last >= SimdStage::draw) {
+      draw_quads(batch, segment, facing, ws);
+    }
+    if (contour && last >= SimdStage::sample) {
       sample_contour(segment, facing, ws);
     }
   }
-  if (contour) {
+  if (contour && last >= SimdStage::look_up) {
     sum_contour(batch.frame, ws, r);
+  }
+  if (last < SimdStage::count) {
+    return;
   }
   if (wants(batch.terms, Reduction::overlap)) {
     count_and_clear<true>(batch.frame, projections, ws, r);
@@ -52,7 +58,7 @@ void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Redu
   for (std::size_t first = 0; first < poses.size(); first += kN) {
     const std::size_t size = std::min(kN, poses.size() - first);
     place_segments(batch.model.skeleton, poses.subspan(first, size), ws);
-    for (std::size_t lane = 0; lane < size; ++lane) {
+    for (std::size_t lane = 0; lane < size && batch.last_stage > SimdStage::place; ++lane) {
       count_pose(batch, lane, ws, out[first + lane]);
     }
   }

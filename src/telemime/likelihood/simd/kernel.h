@@ -11,6 +11,7 @@
 #include "telemime/body/pose.h"
 #include "telemime/cues/reductions.h"
 #include "telemime/likelihood/packed_model.h"
+#include "telemime/likelihood/simd/simd_backend.h"
 #include "telemime/likelihood/tiled_planes.h"
 
 namespace telemime::simd {
@@ -26,21 +27,22 @@ struct Batch {
   const TiledPlanes& frame;
   Pinhole camera;
   Reduction terms = Reduction::all;
+  SimdStage last_stage = SimdStage::count;
 };
 
-/// Memory that one thread works in, aligned for vectors. It grows with the image and with how large the person
-/// is in it, and is used again: an evaluation allocates nothing once it has the size.
+/// Memory that one thread works in, aligned for vectors. It grows with the image and with how large the
+/// person is in it, and is used again: an evaluation allocates nothing once it has the size.
 struct Workspace {
   static constexpr std::size_t kLanes = PackedSegment::kMostLanes + 64;
   static constexpr std::size_t kVertices = kSegmentCount * PackedSegment::kMostLanes + 64;
   static constexpr std::size_t kPoses = 16;
   static constexpr std::size_t kNumbers = 12 * kSegmentCount;
 
-  alignas(64) float pose[kPoseSize][kPoses];        ///< pose numbers of a block, by lane
-  alignas(64) float transform[kNumbers][kPoses];    ///< camera from segment, 12 numbers each, by lane
+  alignas(64) float pose[kPoseSize][kPoses];      ///< pose numbers of a block, by lane
+  alignas(64) float transform[kNumbers][kPoses];  ///< camera from segment, 12 numbers each, by lane
   alignas(64) float u[kVertices], v[kVertices], w[kVertices];  ///< the model's vertices, px and 1/m
-  alignas(64) float line[15][kLanes];               ///< of a segment: four edges and the depth plane, a b c each
-  alignas(64) std::int32_t tile[kLanes];            ///< first tile of a lane's quadrilateral
+  alignas(64) float line[15][kLanes];     ///< of a segment: four edges and the depth plane, a b c each
+  alignas(64) std::int32_t tile[kLanes];  ///< first tile of a lane's quadrilateral
   alignas(64) float tile_x[kLanes], tile_y[kLanes];
   alignas(64) std::int32_t columns[kLanes], rows[kLanes];  ///< its tiles but one
 

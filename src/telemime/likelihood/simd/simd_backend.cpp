@@ -1,17 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "telemime/likelihood/simd/simd_backend.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 
 #include "telemime/core/errors.h"
 #include "telemime/cues/all.h"
-#include "telemime/likelihood/backend.h"
 #include "telemime/likelihood/simd/kernel.h"
 
 namespace telemime {
 namespace {
 
+// Poses that a thread takes at a time: whole blocks of the kernel, and long enough to be worth a task.
+constexpr std::size_t kGrain = 4 * simd::Workspace::kPoses;
+
+simd::InstructionSet chosen(const std::string& name) {
+  const std::vector<simd::InstructionSet> sets = simd::instruction_sets();
+  if (name.empty()) {
+    return sets.front();
+  }
+  const auto found = std::find_if(sets.begin(), sets.end(),
+                                  [&](const simd::InstructionSet& set) { return set.name == name; });
+  if (found == sets.end()) {
+    std::string all;
+    for (const simd::InstructionSet& set : sets) {
+      all += (all.empty() ? "" : ", ") + std::string(set.name);
+    }
+    throw Error(ErrorKind::usage, "no instruction set " + name + " here", "There are " + all + ".");
+  }
+  return *found;
+}
+
+int checked_threads(int threads) {
+  if (threads < 0 || threads > 1024) {
+    throw Error(ErrorKind::usage, std::to_string(threads) + " threads are impossible",
+                "Give a number from 0 (as many as the machine has) to 1024.");
+  }
+  return threads == 0 ? tbb::info::default_concurrency() : threads;
+}
+
 class SimdBackend final : public Backend {
  public:
-  explicit SimdBackend(simd::InstructionSet set) : set_(set) {}
+  explicit SimdBackend(const SimdOptions& options)
+      : set_(chosen(options.instruction_set)),
+        last_stage_(options.last_stage),
+        arena_(checked_threads(options.threads)) {
+    for (int i = 0; i < arena_.max_concurrency(); ++i) {
+      workspaces_.push_back(std::make_unique<simd::Workspace>());
+    }
+  }
+
   std::string_view name() const override { return "simd"; }
 
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
@@ -21,35 +63,66 @@ class SimdBackend final : public Backend {
     }
     const simd::Pinhole camera = {static_cast<float>(frame.camera.fx), static_cast<float>(frame.camera.fy),
                                   static_cast<float>(frame.camera.cx), static_cast<float>(frame.camera.cy)};
-    const simd::Batch batch = {models_.of(model.body, model.mesh), frame.tiles, camera, terms};
-    counts_.resize(poses.size());
-    std::fill(counts_.begin(), counts_.end(), Reductions{});
-    set_.kernel(batch, poses, counts_, *workspace_);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      Score score;
-      score.reductions = counts_[i];
-      if (wants(terms, Reduction::overlap)) {
-        score.reductions.observed = frame.observed;
-        score.region = non_overlapping_ratio(score.reductions);
-      }
-      if (wants(terms, Reduction::contour)) {
-        score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
-      }
-      scores[i] = score;
+    const simd::Batch batch = {models_.of(model.body, model.mesh), frame.tiles, camera, terms, last_stage_};
+    if (workspaces_.size() == 1 || poses.size() <= kGrain) {
+      evaluate_some(batch, frame, poses, scores, *workspaces_.front());
+      return;
     }
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), kGrain), [&](const auto& range) {
+        const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+        evaluate_some(batch, frame, poses.subspan(range.begin(), range.size()),
+                      scores.subspan(range.begin(), range.size()), *workspaces_[thread]);
+      });
+    });
   }
 
  private:
+  void evaluate_some(const simd::Batch& batch, const PreparedFrame& frame, std::span<const Pose> poses,
+                     std::span<Score> scores, simd::Workspace& workspace) const {
+    std::array<Reductions, simd::Workspace::kPoses> counts;
+    for (std::size_t first = 0; first < poses.size(); first += counts.size()) {
+      const std::size_t size = std::min(counts.size(), poses.size() - first);
+      counts.fill({});
+      set_.kernel(batch, poses.subspan(first, size), std::span(counts).first(size), workspace);
+      for (std::size_t i = 0; i < size; ++i) {
+        scores[first + i] = score_of(frame, counts[i], batch.terms);
+      }
+    }
+  }
+
+  static Score score_of(const PreparedFrame& frame, const Reductions& counts, Reduction terms) {
+    Score score;
+    score.reductions = counts;
+    if (wants(terms, Reduction::overlap)) {
+      score.reductions.observed = frame.observed;
+      score.region = non_overlapping_ratio(score.reductions);
+    }
+    if (wants(terms, Reduction::contour)) {
+      score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
+    }
+    return score;
+  }
+
   simd::InstructionSet set_;
+  SimdStage last_stage_;
+  tbb::task_arena arena_;
   PackedModelCache models_;
-  std::unique_ptr<simd::Workspace> workspace_ = std::make_unique<simd::Workspace>();
-  std::vector<Reductions> counts_;
+  std::vector<std::unique_ptr<simd::Workspace>> workspaces_;  ///< by the arena's thread
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> make_simd_backend() {
-  return std::make_unique<SimdBackend>(simd::instruction_sets().front());
+std::vector<std::string> simd_instruction_sets() {
+  std::vector<std::string> names;
+  for (const simd::InstructionSet& set : simd::instruction_sets()) {
+    names.emplace_back(set.name);
+  }
+  return names;
+}
+
+std::unique_ptr<Backend> make_simd_backend(const SimdOptions& options) {
+  return std::make_unique<SimdBackend>(options);
 }
 
 }  // namespace telemime

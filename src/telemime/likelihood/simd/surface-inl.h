@@ -19,13 +19,13 @@ namespace telemime::simd::HWY_NAMESPACE {
 
 using LaneSet = PackedSegment::LaneSet;
 
-// Which triangles of a segment are drawn (in front of the camera) and which of them face it: the first and the
-// second of each lane's quadrilateral.
+// Which triangles of a segment are drawn (in front of the camera) and which of them face it: the first and
+// the second of each lane's quadrilateral.
 struct Facing {
   LaneSet front[2] = {};
   LaneSet known[2] = {};
-  LaneSet drawn = {};  ///< quadrilaterals that show something in the image
-  LaneSet small = {};  ///< those of at most 2 x 2 tiles
+  LaneSet drawn = {};   ///< quadrilaterals that show something in the image
+  LaneSet small = {};   ///< those of at most 2 x 2 tiles
   LaneSet narrow = {};  ///< of these, those of one column
   LaneSet medium = {};  ///< of the others, those of at most 3 x 3
 };
@@ -47,8 +47,9 @@ HWY_INLINE float largest_of(FloatVector v) {
 HWY_INLINE void tile_interval(float low, float high, int size, std::int32_t& first, std::int32_t& last) {
   const float end = static_cast<float>(size - 1) * 0.25F;
   first = static_cast<std::int32_t>(std::clamp(low, 0.0F, end));
-  last = high < 0.0F || low > end ? first - 1
-                                  : std::max(static_cast<std::int32_t>(std::clamp(high, 0.0F, end)), first + 2);
+  last = high < 0.0F || low > end
+             ? first - 1
+             : std::max(static_cast<std::int32_t>(std::clamp(high, 0.0F, end)), first + 2);
 }
 
 inline Projection project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s,
@@ -137,7 +138,8 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
   const FloatVector image_right = number(static_cast<float>(batch.frame.grid.width - 1) * 0.25F);
   const FloatVector image_bottom = number(static_cast<float>(batch.frame.grid.height - 1) * 0.25F);
   // Where a block of 2 x 2 or 3 x 3 tiles begins at last.
-  const IntVector last_x[2] = {hn::Set(kInt, projection.tiles.right - 1), hn::Set(kInt, projection.tiles.right - 2)};
+  const IntVector last_x[2] = {hn::Set(kInt, projection.tiles.right - 1),
+                               hn::Set(kInt, projection.tiles.right - 2)};
   const IntVector last_y[2] = {hn::Set(kInt, projection.tiles.bottom - 1),
                                hn::Set(kInt, projection.tiles.bottom - 2)};
   const auto* marks = reinterpret_cast<const std::int32_t*>(batch.model.surface.data()) + segment.begin;
@@ -233,8 +235,8 @@ HWY_INLINE Pixels operator+(const Pixels& p, const FloatVector* step) {
   return sum;
 }
 
-// The z-buffer test: the larger of two positive floats is the larger of their bits as integers, and one with its
-// sign bit set, because it is outside of an edge, is smaller than all.
+// The z-buffer test: the larger of two positive floats is the larger of their bits as integers, and one with
+// its sign bit set, because it is outside of an edge, is smaller than all.
 HWY_INLINE void test_pixels(const Pixels& p, IntVector surface, std::uint32_t* depth) {
   const IntVector keep = hn::Set(kInt, ~0x1F);
   const IntVector sign = hn::Set(kInt, std::numeric_limits<std::int32_t>::min());
@@ -271,7 +273,8 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
   }
   const IntVector code = hn::Set(kInt, static_cast<std::int32_t>(surface));
   for (std::size_t part = 0; part < kParts; ++part) {
-    std::uint32_t* first = ws.depth.get() + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
+    std::uint32_t* first =
+        ws.depth.get() + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
     Pixels start = base[part];
     for (int r = 0; r <= rows; ++r) {
       Pixels here = start;
@@ -289,7 +292,8 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
 
 // Most quadrilaterals of a small image touch few tiles: 2 x 2 or 3 x 3 are tested, needed or not, since loops
 // whose length cannot be foreseen would cost more.
-inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing, Workspace& ws) {
+inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing,
+                       Workspace& ws) {
   const int tile_columns = batch.frame.grid.columns;
   const std::uint32_t* surface = batch.model.surface.data() + segment.begin;
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {

@@ -52,15 +52,16 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
   const FloatVector half = hn::CopySign(number(0.5F), turns);
   const IntVector quarter = hn::ConvertTo(kInt, turns + half);
   const FloatVector q = hn::ConvertTo(kFloat, quarter);
-  const FloatVector r =
-      ((x - q * number(1.5703125F)) - q * number(4.837512969970703125e-4F)) - q * number(7.54978995489188216e-8F);
+  const FloatVector r = ((x - q * number(1.5703125F)) - q * number(4.837512969970703125e-4F)) -
+                        q * number(7.54978995489188216e-8F);
   const FloatVector r2 = r * r;
   const FloatVector s =
-      r + r * r2 * ((number(-1.9515295891e-4F) * r2 + number(8.3321608736e-3F)) * r2 - number(1.6666654611e-1F));
-  const FloatVector c =
-      number(1.0F) - number(0.5F) * r2 +
-      r2 * r2 *
-          ((number(2.443315711809948e-5F) * r2 - number(1.388731625493765e-3F)) * r2 + number(4.166664568298827e-2F));
+      r +
+      r * r2 * ((number(-1.9515295891e-4F) * r2 + number(8.3321608736e-3F)) * r2 - number(1.6666654611e-1F));
+  const FloatVector c = number(1.0F) - number(0.5F) * r2 +
+                        r2 * r2 *
+                            ((number(2.443315711809948e-5F) * r2 - number(1.388731625493765e-3F)) * r2 +
+                             number(4.166664568298827e-2F));
   const IntVector one = hn::Set(kInt, 1);
   const FloatMask swapped = hn::RebindMask(kFloat, (quarter & one) == one);
   const IntVector sine_sign = hn::ShiftLeft<30>(quarter & hn::Set(kInt, 2));

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "telemime/likelihood/backend.h"
+
+namespace telemime {
+
+struct BackendOptions {
+  /// Threads that share a batch, where the back end can; 0: as many as the machine has.
+  int threads = 1;
+};
+
+/// A back end by name.
+struct BackendKind {
+  std::string_view name;
+  std::string_view what;  ///< for help and documents
+  std::unique_ptr<Backend> (*make)(const BackendOptions& options);
+  /// Why it cannot run here, in words; empty: it can.
+  std::string (*missing)();
+};
+
+/// Every back end, one line each.
+inline constexpr std::size_t kBackendCount = 3;
+extern const std::array<BackendKind, kBackendCount> kBackends;
+
+/// Throws Error(usage) that names the choices for an unknown name, and Error(missing...) that says why for
+/// one that cannot run here.
+std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options = {});
+
+}  // namespace telemime
