@@ -2,8 +2,11 @@
 #include "telemime/likelihood/all.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "telemime/core/errors.h"
+#include "telemime/likelihood/auto_backend.h"
+#include "telemime/likelihood/gpu/device_backend.h"
 #include "telemime/likelihood/simd/simd_backend.h"
 
 namespace telemime {
@@ -13,14 +16,35 @@ std::string nothing_missing() {
   return {};
 }
 
+std::unique_ptr<Backend> simd(const BackendOptions& options) {
+  return make_simd_backend({options.threads, {}, SimdStage::count});
+}
+std::unique_ptr<Backend> opencl(const BackendOptions&) {
+  return gpu::make_device_backend("opencl", gpu::make_opencl_device());
+}
+std::unique_ptr<Backend> cuda(const BackendOptions&) {
+  return gpu::make_device_backend("cuda", gpu::make_cuda_device());
+}
+
+// A driver that offers the processor itself is never faster than simd.
+std::unique_ptr<Backend> fastest(const BackendOptions& options) {
+  const bool has_cuda = gpu::cuda_missing().empty();
+  if (!has_cuda && !gpu::opencl_is_gpu()) {
+    return simd(options);
+  }
+  const auto seconds = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  return make_auto_backend(simd(options), has_cuda ? cuda(options) : opencl(options), seconds);
+}
+
 }  // namespace
 
 const std::array<BackendKind, kBackendCount> kBackends = {{
-    {"simd", "vector instructions of the processor",
-     [](const BackendOptions& options) {
-       return make_simd_backend({options.threads, {}, SimdStage::count});
-     },
-     nothing_missing},
+    {"simd", "vector instructions of the processor", simd, nothing_missing},
+    {"opencl", "a GPU, or any device that has an OpenCL driver", opencl, gpu::opencl_missing},
+    {"cuda", "an NVIDIA GPU whose driver has no OpenCL", cuda, gpu::cuda_missing},
+    {"auto", "a GPU for batches that it does faster, else simd", fastest, nothing_missing},
     {"scalar", "the definition: one exact z-buffered mesh after the other",
      [](const BackendOptions&) { return make_scalar_backend(); }, nothing_missing},
     {"parts", "the definition, drawing again only what moved",

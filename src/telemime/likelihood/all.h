@@ -23,7 +23,7 @@ struct BackendKind {
 };
 
 /// Every back end, one line each.
-inline constexpr std::size_t kBackendCount = 3;
+inline constexpr std::size_t kBackendCount = 6;
 extern const std::array<BackendKind, kBackendCount> kBackends;
 
 /// Throws Error(usage) that names the choices for an unknown name, and Error(missing...) that says why for

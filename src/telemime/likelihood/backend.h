@@ -11,6 +11,7 @@
 #include "telemime/core/camera.h"
 #include "telemime/cues/reductions.h"
 #include "telemime/image/observation.h"
+#include "telemime/likelihood/device_times.h"
 #include "telemime/likelihood/tiled_planes.h"
 
 namespace telemime {
@@ -38,13 +39,6 @@ struct Score {
   double region = 1.0;   ///< F, in [0, 1]
   double contour = 0.0;  ///< D_C, px of the working image
   Reductions reductions;
-};
-
-/// Where the time of a batch on a device went, s.
-struct DeviceTimes {
-  double upload = 0.0;    ///< poses, frame and model to the device
-  double kernel = 0.0;    ///< counting there
-  double download = 0.0;  ///< counts back
 };
 
 /// Evaluates batches of poses. One virtual call a batch, no hidden current frame. Implementations must agree

@@ -11,10 +11,11 @@
 namespace telemime {
 
 /// A person's surface laid out for processors that do many things at once. A segment is a grid of vertices,
-/// one side after the other: from its top end down its rings to its bottom end (each end is a ring that is one
-/// point). The first side stands once more at the end. So the quadrilateral of lane i always has the corners
-/// i, i + stride (on the next side) and, below them, i + 1 and i + stride + 1: nothing has to be looked up, and
-/// the sides that face away lie together. The last lane of each side holds none; `quads` says which do.
+/// one side after the other: from its top end down its rings to its bottom end (each end is a ring that is
+/// one point). The first side stands once more at the end. So the quadrilateral of lane i always has the
+/// corners i, i + stride (on the next side) and, below them, i + 1 and i + stride + 1: nothing has to be
+/// looked up, and the sides that face away lie together. The last lane of each side holds none; `quads` says
+/// which do.
 struct PackedSegment {
   static constexpr std::uint32_t kMostLanes = 256;
   using LaneSet = std::array<std::uint64_t, kMostLanes / 64>;

@@ -7,10 +7,10 @@
 
 namespace telemime {
 
-/// Where pixels lie in planes of 4 x 4 tiles: tile after tile from left to right and from the top down, the 16
-/// pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of a projected
-/// surface touch few tiles. The grid is `kMargin` tiles wider and higher than the image, so that blocks of tiles
-/// that begin in it end in the grid.
+/// Where pixels lie in planes of 4 x 4 tiles: tile after tile from left to right and from the top down, the
+/// 16 pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of a projected
+/// surface touch few tiles. The grid is `kMargin` tiles wider and higher than the image, so that blocks of
+/// tiles that begin in it end in the grid.
 struct TileGrid {
   static constexpr int kSide = 4;
   static constexpr int kPixels = kSide * kSide;
