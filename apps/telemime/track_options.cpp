@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "telemime/core/errors.h"
+#include "telemime/likelihood/all.h"
 
 namespace telemime {
 namespace {
@@ -44,6 +45,7 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command.add_option("--budget", o.budget_ms,
                      "search time a frame in ms, instead of --iterations (see `telemime tune`)");
   command.add_option("--limits", o.limits, "joint limits: reference, anatomical or a JSON file [anatomical]");
+  command.add_option("--backend", o.backend, "what evaluates poses: " + backend_names() + " [simd]");
   command.add_option("--smoothing", o.smoothing, "none, recursive or one-euro [one-euro]");
   command.add_option("--config", o.config_file, "JSON file of settings (`telemime config` prints one)");
   command.add_option("--seed", o.seed, "of every random draw [1]");
@@ -66,6 +68,7 @@ TrackRequest make_request(const TrackOptions& o) {
   config.registration.iterations = o.iterations.value_or(config.registration.iterations);
   config.budget_ms = o.budget_ms ? o.budget_ms : config.budget_ms;
   config.limits = o.limits.empty() ? config.limits : o.limits;
+  config.backend = o.backend.empty() ? config.backend : o.backend;
   config.seed = o.seed.value_or(config.seed);
   config.smoothing.name = o.smoothing.empty() ? config.smoothing.name : o.smoothing;
   config.validate();

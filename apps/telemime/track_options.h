@@ -21,6 +21,7 @@ struct TrackOptions {
   std::optional<int> iterations;
   std::optional<double> budget_ms;
   std::string limits;
+  std::string backend;
   std::optional<std::uint64_t> seed;
   std::string smoothing;
   bool show = false;

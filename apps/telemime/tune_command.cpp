@@ -9,6 +9,8 @@
 #include <string>
 
 #include "telemime/experiments/report.h"
+#include "telemime/likelihood/all.h"
+#include "telemime/pipeline/config.h"
 #include "telemime/registration/budget.h"
 #include "thread_clock.h"
 
@@ -25,7 +27,7 @@ void run_tune(const TuneArguments& arguments) {
   Tuning tuning;
   tuning.fit = arguments.fit.empty() ? default_fit() : read_tuning(arguments.fit).fit;
   const Model model = make_model(Shape{});
-  const auto backend = make_scalar_backend();
+  const auto backend = make_backend(Config{}.backend);
   Table table{"", {"size", "F us", "D_C us", "region iterations", "edge iterations"}, {}};
   constexpr int kRepeats = 15;
   for (const auto& [width, height] : {std::array{160, 120}, std::array{320, 240}, std::array{640, 480}}) {

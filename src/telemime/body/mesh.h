@@ -36,6 +36,7 @@ struct RingStack {
   std::uint32_t rings = 0;
   std::uint32_t sides = 0;
   std::vector<SurfaceClass> surface;  ///< rings + 1
+  bool operator==(const RingStack&) const = default;
 };
 
 /// Closed polygon meshes of the eight segments (thesis 2.4.1), each in its segment's frame, metres. Vertices,

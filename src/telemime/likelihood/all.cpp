@@ -51,15 +51,20 @@ const std::array<BackendKind, kBackendCount> kBackends = {{
      [](const BackendOptions&) { return make_part_backend(); }, nothing_missing},
 }};
 
+std::string backend_names() {
+  std::string names;
+  for (const BackendKind& kind : kBackends) {
+    names += (names.empty() ? "" : ", ") + std::string(kind.name);
+  }
+  return names;
+}
+
 std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options) {
   const auto kind = std::find_if(kBackends.begin(), kBackends.end(),
                                  [&](const BackendKind& candidate) { return candidate.name == name; });
   if (kind == kBackends.end()) {
-    std::string names;
-    for (const BackendKind& candidate : kBackends) {
-      names += (names.empty() ? "" : ", ") + std::string(candidate.name);
-    }
-    throw Error(ErrorKind::usage, "there is no back end " + std::string(name), "Give one of: " + names + ".");
+    throw Error(ErrorKind::usage, "there is no back end " + std::string(name),
+                "Give one of: " + backend_names() + ".");
   }
   const std::string missing = kind->missing();
   if (!missing.empty()) {

@@ -26,8 +26,10 @@ struct BackendKind {
 inline constexpr std::size_t kBackendCount = 6;
 extern const std::array<BackendKind, kBackendCount> kBackends;
 
-/// Throws Error(usage) that names the choices for an unknown name, and Error(missing...) that says why for
-/// one that cannot run here.
+/// "simd, opencl, ...".
+std::string backend_names();
+
+/// Throws Error(usage): for an unknown name with the choices, for one that cannot run here with the reason.
 std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options = {});
 
 }  // namespace telemime

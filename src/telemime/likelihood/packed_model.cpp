@@ -105,14 +105,13 @@ void pack(const Body& body, const BodyMesh& mesh, PackedModel& out) {
 const PackedModel& PackedModelCache::of(const Body& body, const BodyMesh& mesh) {
   bool same = packed_skeleton(body) == packed_.skeleton && mesh.vertices == vertices_;
   for (std::size_t s = 0; s < kSegmentCount && same; ++s) {
-    same = mesh.stacks[s].surface == surfaces_[s];
+    same = mesh.stacks[s] == stacks_[s];
   }
   if (!same) {
+    vertices_.clear();  // nothing is known until all of it is packed
     pack(body, mesh, packed_);
+    stacks_ = mesh.stacks;
     vertices_ = mesh.vertices;
-    for (std::size_t s = 0; s < kSegmentCount; ++s) {
-      surfaces_[s] = mesh.stacks[s].surface;
-    }
   }
   return packed_;
 }

@@ -68,7 +68,7 @@ class PackedModelCache {
  private:
   PackedModel packed_;
   std::vector<Eigen::Vector3f> vertices_;
-  std::array<std::vector<SurfaceClass>, kSegmentCount> surfaces_;
+  std::array<RingStack, kSegmentCount> stacks_;
 };
 
 }  // namespace telemime

@@ -25,8 +25,8 @@ struct TileGrid {
   std::size_t pixels() const { return tiles() * kPixels; }
   /// Index of a pixel of the image.
   std::size_t index(int x, int y) const {
-    const int tile = (y / kSide) * columns + x / kSide;
-    return static_cast<std::size_t>(tile * kPixels + (y % kSide) * kSide + x % kSide);
+    const auto tile = static_cast<std::size_t>((y / kSide) * columns + x / kSide);
+    return tile * kPixels + static_cast<std::size_t>((y % kSide) * kSide + x % kSide);
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/pipeline/config.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/likelihood/all.h"
 #include "telemime/smoothing/two_way_smoother.h"
 
 namespace telemime {
@@ -26,6 +28,7 @@ template <typename C, typename Visit>
 void each_setting(C& c, Visit&& visit) {
   visit("seed", c.seed);
   visit("limits", c.limits);
+  visit("backend", c.backend);
   visit("camera/field_of_view", c.field_of_view);
   visit("budget_ms", c.budget_ms);
   visit("image/width", c.image.width);
@@ -192,6 +195,9 @@ void Config::validate() const {
   TwoWaySmoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
   require(field_of_view > 1.0 && field_of_view < 179.0,
           "camera.field_of_view must be between 1 and 179 degrees");
+  require(std::any_of(kBackends.begin(), kBackends.end(),
+                      [&](const BackendKind& kind) { return kind.name == backend; }),
+          "backend must be one of " + backend_names());
   require(!budget_ms || (*budget_ms > 0.0 && *budget_ms < 1e5), "budget_ms must be above 0 and below 100000");
   require(tracking.lost_region > 0.0 && tracking.lost_region <= 1.0,
           "tracking.lost_region must be in (0, 1]");

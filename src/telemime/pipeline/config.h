@@ -32,6 +32,7 @@ struct Config {
   std::uint64_t seed = 1;
   std::string limits = "anatomical";  ///< reference, anatomical or a file
   double field_of_view = 60.0;        ///< degrees, horizontal; used when there is no camera file
+  std::string backend = "simd";       ///< what evaluates poses: a name of kBackends
   std::optional<double>
       budget_ms;  ///< time for the search in each frame: replaces registration.iterations (tune)
   ImageConfig image;

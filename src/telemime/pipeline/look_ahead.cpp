@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "telemime/likelihood/all.h"
+
 namespace telemime {
 namespace {
 
@@ -57,8 +59,8 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   // The pose in the first frame is needed for the new shape, too.
   keyframes.insert(keyframes.begin(), candidates.front());
   const ShapeRefinement refined =
-      refine_shape(make_part_backend, keyframes, found.start.person.shape, scout.limits(),
-                   config.calibration.shape, config.calibration.refine);
+      refine_shape([&config] { return make_backend(config.backend); }, keyframes, found.start.person.shape,
+                   scout.limits(), config.calibration.shape, config.calibration.refine);
   found.start.person.shape = refined.shape;
   found.start.pose = refined.poses.front();
   found.cost_before = refined.cost_before;

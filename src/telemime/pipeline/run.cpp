@@ -9,6 +9,7 @@
 #include <set>
 
 #include "telemime/core/errors.h"
+#include "telemime/likelihood/all.h"
 #include "telemime/pipeline/look_ahead.h"
 #include "telemime/pipeline/overlay.h"
 #include "telemime/pipeline/person_file.h"
@@ -243,7 +244,7 @@ Config with_budget(const Config& config, const Camera& camera) {
   if (!config.budget_ms) {
     return config;
   }
-  const auto backend = make_scalar_backend();
+  const auto backend = make_backend(config.backend);
   Random random(config.seed);
   const auto seconds = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
   constexpr int kRepeats = 5;

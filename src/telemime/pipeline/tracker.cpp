@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "telemime/likelihood/all.h"
+
 namespace telemime {
 namespace {
 
@@ -53,7 +55,7 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       working_camera_(camera.scaled_to(config.image.width, config.image.height)),
       limits_(load_limits(config.limits)),
       features_(config.image),
-      backend_(make_part_backend()),
+      backend_(make_backend(config.backend)),
       random_(config.seed) {
   config_.validate();
   Shape average;
@@ -120,11 +122,11 @@ TrackedFrame Tracker::step(const Frame& frame) {
     since_ = frame.index + 1;
   }
   if (coloured) {
-    const PreparedFrame prepared = prepare(result.observation, working_camera_);
+    prepare(result.observation, working_camera_, prepared_);
     if (phase_ == Phase::tracking) {
-      follow(prepared, result);
+      follow(prepared_, result);
     } else if (++waited_; --frames_until_search_ <= 0 || (known_ && frame.index == known_->frame)) {
-      search(prepared, result.observation, result);
+      search(prepared_, result.observation, result);
     }
   }
   motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;

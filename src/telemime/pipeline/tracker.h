@@ -91,6 +91,7 @@ class Tracker {
   JointLimits limits_;
   FeatureExtractor features_;
   std::unique_ptr<Backend> backend_;
+  PreparedFrame prepared_;  ///< the last frame, for its memory
   Random random_;
   Model model_;
   std::optional<TrackerCalibration> calibration_;

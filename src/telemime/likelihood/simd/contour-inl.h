@@ -155,6 +155,9 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
 // Sums in 16 columns whatever the vectors' length, so that the order of additions is the same.
 inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) {
   constexpr float kThickness = 0.015F;
+  if (ws.samples == 0) {
+    return;
+  }
   find_pixels(frame.grid, ws);
   const auto* depth = reinterpret_cast<const float*>(ws.depth.get());
   const float* map = frame.distance.data();

@@ -70,7 +70,8 @@ struct InstructionSet {
   Kernel kernel = nullptr;
 };
 
-/// What this processor can run, the fastest first. All give the same bits.
+/// What this processor can run, the fastest first. Those with fused multiply-add (avx512, avx2, neon) give
+/// the same bits, and so do the others.
 std::vector<InstructionSet> instruction_sets();
 
 }  // namespace telemime::simd

@@ -40,7 +40,8 @@ int checked_threads(int threads) {
     throw Error(ErrorKind::usage, std::to_string(threads) + " threads are impossible",
                 "Give a number from 0 (as many as the machine has) to 1024.");
   }
-  return threads == 0 ? tbb::info::default_concurrency() : threads;
+  const int most = tbb::info::default_concurrency();
+  return threads == 0 ? most : std::min(threads, most);
 }
 
 class SimdBackend final : public Backend {

@@ -13,7 +13,8 @@ namespace telemime {
 enum class SimdStage { place, project, set_up, draw, sample, look_up, count };
 
 struct SimdOptions {
-  /// Threads that share a batch; scores do not depend on it. 0: as many as the machine has.
+  /// Threads that share a batch; scores do not depend on it. 0: as many as the machine has, which is the
+  /// most.
   int threads = 1;
   /// One of simd_instruction_sets(); empty: the first.
   std::string instruction_set;

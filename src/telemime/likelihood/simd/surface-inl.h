@@ -189,7 +189,6 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     const Corner q = select_corner(front2, d, b);
     const TileRange x = tile_range(smallest(p.u, q.u, b.u, c.u), largest(p.u, q.u, b.u, c.u), image_right);
     const TileRange y = tile_range(smallest(p.v, q.v, b.v, c.v), largest(p.v, q.v, b.v, c.v), image_bottom);
-    // Lanes of no quadrilateral have no area: three of their corners are two points.
     const FloatMask drawn = hn::And(hn::Or(front1, front2), hn::And(x.any, y.any));
     const IntVector columns = x.last - x.first;
     const IntVector rows = y.last - y.first;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses and images as trackers meet them.
+#include <numeric>
+
+#include "equivalence/every_backend.h"
+
+namespace telemime::equivalence {
+namespace {
+
+class Typical : public EveryBackend {};
+INSTANTIATE_TEST_SUITE_P(Backends, Typical, ::testing::ValuesIn(kBackends), name_of);
+
+std::vector<Pose> random_poses(std::size_t size, Random& random) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < size; ++i) {
+    poses.push_back(random_pose(anatomical_limits(), random));
+  }
+  return poses;
+}
+
+TEST_P(Typical, RandomPosesOfThreePeople) {
+  const Camera camera = camera_of(160, 120);
+  Random random(1);
+  Deviations all;
+  for (const Model& model : people()) {
+    for (int frame = 0; frame < 3; ++frame) {
+      const std::vector<Pose> poses = random_poses(200, random);
+      compare(frame_of(model, poses.front(), camera), model, poses, all);
+    }
+  }
+  // What every back end has to keep is 0.005 and 0.15 px in the mean.
+  expect_within("random_poses", all, {0.00015, 0.05, 0.03, 0.4, 35, 27});
+}
+
+TEST_P(Typical, AllSizesOfImages) {
+  const Model model = make_model(Shape{});
+  Random random(2);
+  struct Case {
+    int width, height;
+    Tolerance tolerance;
+  };
+  // Distances grow with the image; in very small ones a pixel or its depth decides about a whole class or
+  // most of the contour.
+  for (const auto& [width, height, tolerance] :
+       {Case{160, 120, {0.00015, 0.06, 0.003, 0.5, 15, 20}},
+        Case{320, 240, {0.00015, 0.09, 0.002, 0.5, 40, 25}},
+        Case{640, 480, {0.00012, 0.14, 0.002, 0.6, 130, 80}},
+        Case{161, 121, {0.00015, 0.06, 0.003, 0.5, 15, 20}}, Case{33, 240, {0.0006, 0.02, 0.02, 0.15, 4, 12}},
+        Case{240, 33, {0.015, 0.15, 0.7, 1.5, 27, 15}}, Case{7, 5, {0.008, 0.012, 0.34, 0.45, 2, 100}},
+        Case{1, 1, {0.06, 0.0001, 1.0, 0.001, 1, 400}}}) {
+    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    const std::vector<Pose> poses = random_poses(60, random);
+    const Deviations d = compared(frame_of(model, poses.front(), camera_of(width, height)), model, poses);
+    expect_within("image_" + size, d, tolerance);
+  }
+}
+
+// Ranks from 0 on; equal values share the mean of theirs.
+std::vector<double> ranks(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<double> rank(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t end = first;
+    while (end < order.size() && values[order[end]] == values[order[first]]) {
+      ++end;
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      rank[order[i]] = 0.5 * static_cast<double>(first + end - 1);
+    }
+    first = end;
+  }
+  return rank;
+}
+
+// Spearman's correlation of ranks.
+double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const std::vector<double> x = ranks(a);
+  const std::vector<double> y = ranks(b);
+  const double mean = 0.5 * static_cast<double>(a.size() - 1);
+  double xx = 0.0;
+  double yy = 0.0;
+  double xy = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+    xy += (x[i] - mean) * (y[i] - mean);
+  }
+  return xy / std::sqrt(xx * yy);
+}
+
+TEST(RankCorrelation, AsByHand) {
+  EXPECT_NEAR(rank_correlation({1, 5, 9, 20}, {2, 3, 4, 5}), 1.0, 1e-12);
+  EXPECT_NEAR(rank_correlation({1, 2, 3}, {3, 2, 1}), -1.0, 1e-12);
+  EXPECT_NEAR(rank_correlation({1, 2, 3, 4, 5}, {2, 1, 4, 3, 5}), 0.8, 1e-12);  // 1 - 6 * 4 / (5 * 24)
+}
+
+TEST_P(Typical, RankPosesNearTheTruthAlike) {
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_of(160, 120);
+  Random random(3);
+  double least_region = 1.0;
+  double least_contour = 1.0;
+  Deviations all;
+  for (const Pose& truth : support::gestures()) {
+    const PreparedFrame frame = frame_of(model, truth, camera);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 200; ++i) {
+      Pose pose = truth;
+      pose.root += Eigen::Vector3d(random.normal(0, 0.005), random.normal(0, 0.005), random.normal(0, 0.02));
+      for (double& angle : pose.angles) {
+        angle += random.normal(0, 3 * testing_poses::kDegree);
+      }
+      poses.push_back(anatomical_limits().clamp(pose));
+    }
+    const std::vector<Score> scores = scores_of(*backend_, frame, model, poses);
+    const std::vector<Score> definition = scores_of(*scalar_, frame, model, poses);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      all.add(scores[i], definition[i]);
+    }
+    const auto correlation = [&](double Score::*term) {
+      std::vector<double> a;
+      std::vector<double> b;
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        a.push_back(scores[i].*term);
+        b.push_back(definition[i].*term);
+      }
+      return rank_correlation(a, b);
+    };
+    least_region = std::min(least_region, correlation(&Score::region));
+    least_contour = std::min(least_contour, correlation(&Score::contour));
+  }
+  RecordProperty("region", std::to_string(least_region));
+  RecordProperty("contour", std::to_string(least_contour));
+  expect_within("near_truth", all, {0.0013, 0.012, 0.008, 0.15, 12, 24});
+  EXPECT_GE(least_region, 0.99);
+  EXPECT_GE(least_contour, 0.99);
+}
+
+}  // namespace
+}  // namespace telemime::equivalence
