@@ -8,7 +8,7 @@
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
 
-#include "kernel_source.h"
+#include "telemime/likelihood/gpu/kernel_source.h"
 #endif
 
 namespace telemime::gpu {

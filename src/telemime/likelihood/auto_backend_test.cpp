@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/likelihood/auto_backend.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "telemime/likelihood/all.h"
+
+namespace telemime {
+namespace {
+
+// Time that passes only when somebody works.
+struct Clock {
+  double now = 0.0;
+  int processor_batches = 0;
+  int device_batches = 0;
+};
+
+// Costs a start and so much for each pose; its scores say who made them.
+class Worker final : public Backend {
+ public:
+  Worker(Clock& clock, int& batches, double start, double each, double mark)
+      : clock_(clock), batches_(batches), start_(start), each_(each), mark_(mark) {}
+  std::string_view name() const override { return "worker"; }
+  void evaluate(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
+                std::span<Score> scores) override {
+    ++batches_;
+    clock_.now += start_ + each_ * static_cast<double>(poses.size());
+    for (Score& score : scores) {
+      score.region = mark_;
+    }
+  }
+  std::optional<DeviceTimes> device_times() const override { return DeviceTimes{start_, each_, 0.0}; }
+
+ private:
+  Clock& clock_;
+  int& batches_;
+  double start_, each_, mark_;
+};
+
+constexpr double kProcessor = 0.25;
+constexpr double kDevice = 0.75;
+
+class Auto : public ::testing::Test {
+ protected:
+  double evaluate(std::size_t size, int width = 160) {
+    frame_.camera.width = width;
+    const std::vector<Pose> poses(size);
+    std::vector<Score> scores(size);
+    backend_->evaluate(frame_, model_, poses, Reduction::all, scores);
+    return scores.empty() ? 0.0 : scores.front().region;
+  }
+
+  Clock clock_;
+  PreparedFrame frame_;
+  Model model_;
+  std::unique_ptr<Backend> backend_ =
+      make_auto_backend(std::make_unique<Worker>(clock_, clock_.processor_batches, 0.0, 6e-6, kProcessor),
+                        std::make_unique<Worker>(clock_, clock_.device_batches, 1e-3, 1e-7, kDevice),
+                        [this] { return clock_.now; });
+};
+
+TEST_F(Auto, GivesLargeBatchesToTheDevice) {
+  EXPECT_EQ(evaluate(10000), kProcessor) << "the first batch of a kind is measured";
+  EXPECT_EQ(evaluate(10000), kDevice);
+  EXPECT_TRUE(backend_->device_times().has_value());
+  EXPECT_EQ(evaluate(10), kProcessor);
+  EXPECT_EQ(evaluate(10), kProcessor);
+  EXPECT_FALSE(backend_->device_times().has_value());
+}
+
+TEST_F(Auto, MeasuresEachKindOfBatchOnce) {
+  evaluate(1000);
+  const int measured = clock_.device_batches;
+  for (int i = 0; i < 5; ++i) {
+    evaluate(1);
+    evaluate(600);
+  }
+  EXPECT_EQ(clock_.device_batches, measured + 2 + 5) << "two runs to measure 1; 600 is of the kind of 1000";
+  const int before = clock_.device_batches;
+  evaluate(600, 320);
+  EXPECT_EQ(clock_.device_batches, before + 2) << "another image size is another kind";
+}
+
+TEST(Backends, AreFoundByName) {
+  for (const BackendKind& kind : kBackends) {
+    if (kind.missing().empty()) {
+      EXPECT_NE(make_backend(kind.name), nullptr) << kind.name;
+    }
+    EXPECT_NE(backend_names().find(kind.name), std::string::npos);
+  }
+  EXPECT_THROW(make_backend("abacus"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace telemime
