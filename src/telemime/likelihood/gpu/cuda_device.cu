@@ -33,7 +33,6 @@ namespace kernel {
 #define SQRT(x) sqrtf(x)
 #define FMIN(a, b) fminf(a, b)
 #define FMAX(a, b) fmaxf(a, b)
-#define ABSOLUTE(x) fabsf(x)
 #define SELECT(m, a, b) ((m) ? (a) : (b))
 #define REAL float
 #define MASK int

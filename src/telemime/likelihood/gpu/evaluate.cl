@@ -107,18 +107,30 @@ FN void draw_quad(const Corner* a, const Corner* b, const Corner* c, const Corne
   const int front1 = (facing & FRONT1) != 0u;
   const int front2 = (facing & FRONT2) != 0u;
   const Corner p = front1 ? *a : *b;
-  const Corner q = front2 ? *d : *b;
+  const Corner q = front2 ? *d : *c;
   const float scale = 1.0f / UNIT;
-  const float low_x = FMAX(FMIN(FMIN(p.u, q.u), FMIN(b->u, c->u)) * scale, (float)left);
-  const float high_x = FMIN(FMAX(FMAX(p.u, q.u), FMAX(b->u, c->u)) * scale, (float)right);
-  const float low_y = FMAX(FMIN(FMIN(p.v, q.v), FMIN(b->v, c->v)) * scale, (float)top);
-  const float high_y = FMIN(FMAX(FMAX(p.v, q.v), FMAX(b->v, c->v)) * scale, (float)bottom);
+  const float low_u = FMIN(FMIN(p.u, q.u), FMIN(b->u, c->u));
+  const float high_u = FMAX(FMAX(p.u, q.u), FMAX(b->u, c->u));
+  const float low_v = FMIN(FMIN(p.v, q.v), FMIN(b->v, c->v));
+  const float high_v = FMAX(FMAX(p.v, q.v), FMAX(b->v, c->v));
+  const float low_x = FMAX(low_u * scale, (float)left);
+  const float high_x = FMIN(high_u * scale, (float)right);
+  const float low_y = FMAX(low_v * scale, (float)top);
+  const float high_y = FMIN(high_v * scale, (float)bottom);
   if (!(low_x <= high_x && low_y <= high_y)) {
     return;
   }
   Linear edge[4];
-  quad_lines(a, b, c, d, front1, front2, edge);
-  const Linear plane = depth_plane(a, b, c, d, front1, front2);
+  quad_lines(&p, b, c, &q, quad_margin(high_u - low_u, high_v - low_v), edge);
+  // The plane of the larger triangle that is seen; beyond the diagonal, the other's.
+  const float area1 = doubled_area(a, b, c);
+  const float area2 = doubled_area(b, d, c);
+  const int two = area1 < 0.0f && area2 < 0.0f && front1 && front2;
+  const int first = area1 < 0.0f && front1 && (!two || area1 <= area2);
+  const Linear plane = depth_plane(a, b, c, d, first, 1.0f / (first ? area1 : area2));
+  const Corner left_out = first ? *d : *a;
+  const Linear fold = fold_line(b, c, first);
+  const float bend = two ? depth_gap(&plane, &left_out) / (first ? area2 : area1) : 0.0f;
   const int x0 = (int)CEIL(low_x);
   const int x1 = (int)FLOOR(high_x);
   const int y1 = (int)FLOOR(high_y);
@@ -132,7 +144,8 @@ FN void draw_quad(const Corner* a, const Corner* b, const Corner* c, const Corne
         least = FMIN(least, FUSED(edge[k].b, v, FUSED(edge[k].a, u, edge[k].c)));
       }
       if (least >= 0.0f) {
-        const float w = FMAX(FUSED(plane.b, v, FUSED(plane.a, u, plane.c)), 0.0f);
+        const float beyond = FMIN(FUSED(fold.b, v, FUSED(fold.a, u, fold.c)), 0.0f);
+        const float w = FMAX(FUSED(bend, beyond, FUSED(plane.b, v, FUSED(plane.a, u, plane.c))), 0.0f);
         ATOMIC_MAX(&depth[row + x], (BITS_OF(w) & ~CLASS_BITS) | surface);
       }
     }

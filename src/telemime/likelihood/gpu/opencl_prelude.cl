@@ -21,7 +21,6 @@
 #define SQRT(x) sqrt(x)
 #define FMIN(a, b) fmin(a, b)
 #define FMAX(a, b) fmax(a, b)
-#define ABSOLUTE(x) fabs(x)
 #define SELECT(m, a, b) ((m) ? (a) : (b))
 #define SHARED __local
 #define REAL float

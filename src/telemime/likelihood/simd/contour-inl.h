@@ -42,42 +42,45 @@ inline LaneSet closed(LaneSet set, const PackedSegment& segment) {
   return set;
 }
 
-// Points of one edge, from vertex a to vertex b; in tiles, as the vertices.
+// Points of one edge, from vertex a to vertex b; in tiles, as the vertices. Most edges are a few pixels long,
+// so short vectors do.
 HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   constexpr float kLongest = 4096.0F;
-  const float ax = ws.u[a];
-  const float ay = ws.v[a];
-  const float aw = ws.w[a];
-  const float dx = ws.u[b] - ax;
-  const float dy = ws.v[b] - ay;
-  const float dw = ws.w[b] - aw;
+  const hn::CappedTag<float, 8> few;
+  const auto x = hn::Set(few, ws.u[a]);
+  const auto y = hn::Set(few, ws.v[a]);
+  const auto w = hn::Set(few, ws.w[a]);
+  const auto dx = hn::Set(few, ws.u[b]) - x;
+  const auto dy = hn::Set(few, ws.v[b]) - y;
+  const auto dw = hn::Set(few, ws.w[b]) - w;
   const hn::CappedTag<float, 1> one;
-  const float side = static_cast<float>(TileGrid::kSide);
-  const float length = side * hn::GetLane(hn::Sqrt(hn::Set(one, dx * dx + dy * dy)));
+  const auto square = hn::Set(one, hn::GetLane(hn::MulAdd(dx, dx, dy * dy)));
+  const float length = static_cast<float>(TileGrid::kSide) * hn::GetLane(hn::Sqrt(square));
   if (!(length < kLongest)) {
     return;
   }
   const std::int32_t steps = std::max(1, static_cast<std::int32_t>(length + 0.5F));
-  const std::size_t first = ws.samples;
-  ws.samples = first + static_cast<std::size_t>(steps);
+  std::size_t at = ws.samples;
+  ws.samples = at + static_cast<std::size_t>(steps);
   if (ws.samples + TileGrid::kPixels > ws.capacity) {
     ws.grow_samples(ws.samples + TileGrid::kPixels);
   }
-  // Most edges are a few pixels long.
-  const hn::CappedTag<float, 8> few;
-  const auto x0 = hn::Set(few, ax);
-  const auto y0 = hn::Set(few, ay);
-  const auto w0 = hn::Set(few, aw);
+  float* const xs = ws.sample_x.get();
+  float* const ys = ws.sample_y.get();
+  float* const ws_of_points = ws.sample_w.get();
   const auto inverse = hn::Set(few, 1.0F / static_cast<float>(steps));
-  std::int32_t i = 0;
-  do {
-    const auto t = (hn::Iota(few, 0.5F) + hn::Set(few, static_cast<float>(i))) * inverse;
-    const std::size_t at = first + static_cast<std::size_t>(i);
-    hn::StoreU(hn::MulAdd(hn::Set(few, dx), t, x0), few, ws.sample_x.get() + at);
-    hn::StoreU(hn::MulAdd(hn::Set(few, dy), t, y0), few, ws.sample_y.get() + at);
-    hn::StoreU(hn::MulAdd(hn::Set(few, dw), t, w0), few, ws.sample_w.get() + at);
-    i += static_cast<std::int32_t>(hn::MaxLanes(few));
-  } while (i < steps);
+  auto place = hn::Iota(few, 0.5F);
+  while (true) {
+    const auto t = place * inverse;
+    hn::StoreU(hn::MulAdd(dx, t, x), few, xs + at);
+    hn::StoreU(hn::MulAdd(dy, t, y), few, ys + at);
+    hn::StoreU(hn::MulAdd(dw, t, w), few, ws_of_points + at);
+    at += hn::MaxLanes(few);
+    if (at >= ws.samples) {
+      return;
+    }
+    place = place + hn::Set(few, static_cast<float>(hn::MaxLanes(few)));
+  }
 }
 
 template <typename Ends>

@@ -5,6 +5,8 @@
 #include <bit>
 #include <limits>
 
+// Vectors whose length the compiler does not know cannot stand in structs.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 // Highway compiles what follows once for every instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "telemime/likelihood/simd/kernel.cpp"

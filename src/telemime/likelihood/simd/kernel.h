@@ -41,7 +41,8 @@ struct Workspace {
   alignas(64) float pose[kPoseSize][kPoses];      ///< pose numbers of a block, by lane
   alignas(64) float transform[kNumbers][kPoses];  ///< camera from segment, 12 numbers each, by lane
   alignas(64) float u[kVertices], v[kVertices], w[kVertices];  ///< the model's vertices, px and 1/m
-  alignas(64) float line[15][kLanes];     ///< of a segment: four edges and the depth plane, a b c each
+  alignas(64) float line[18][kLanes];     ///< of a segment: four edges, depth plane and fold, a b c each
+  alignas(64) float bend[kLanes];         ///< 1/z is plane + bend * min(fold, 0)
   alignas(64) std::int32_t tile[kLanes];  ///< first tile of a lane's quadrilateral
   alignas(64) float tile_x[kLanes], tile_y[kLanes];
   alignas(64) std::int32_t columns[kLanes], rows[kLanes];  ///< its tiles but one

@@ -25,6 +25,7 @@ struct Facing {
   LaneSet front[2] = {};
   LaneSet known[2] = {};
   LaneSet drawn = {};   ///< quadrilaterals that show something in the image
+  LaneSet folded = {};  ///< those whose triangles lie in two planes
   LaneSet small = {};   ///< those of at most 2 x 2 tiles
   LaneSet narrow = {};  ///< of these, those of one column
   LaneSet medium = {};  ///< of the others, those of at most 3 x 3
@@ -130,6 +131,8 @@ HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Wor
 inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, const Projection& projection,
                            Workspace& ws) {
   Facing facing;
+  // m: what is flatter counts as flat.
+  constexpr float kFlat = 1e-3F;
   const FloatVector zero = hn::Zero(kFloat);
   const IntVector two = hn::Set(kInt, 2);
   const IntVector top_mark = hn::Set(kInt, PackedModel::kTop);
@@ -154,8 +157,10 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     const Corner d = corner_at(ws, at + segment.stride + 1);
     const std::size_t word = i / 64;
     const std::uint32_t shift = i % 64;
-    FloatMask front1 = doubled_area(&a, &b, &c) < zero;
-    FloatMask front2 = doubled_area(&b, &d, &c) < zero;
+    const FloatVector area1 = doubled_area(&a, &b, &c);
+    const FloatVector area2 = doubled_area(&b, &d, &c);
+    FloatMask front1 = area1 < zero;
+    FloatMask front2 = area2 < zero;
     if (projection.behind) {
       const FloatMask inner = hn::And(b.w != zero, c.w != zero);
       const FloatMask known1 = hn::And(inner, a.w != zero);
@@ -170,6 +175,26 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     }
     facing.front[0][word] |= bits_of(front1) << shift;
     facing.front[1][word] |= bits_of(front2) << shift;
+    // The depth is that of the larger triangle of those that face the camera.
+    const FloatMask from_first = hn::And(front1, hn::Or(hn::Not(front2), area1 <= area2));
+    // One division for both areas; the other triangle's counts only where it is seen.
+    const FloatMask both = hn::And(front1, front2);
+    const FloatVector own_area = hn::IfThenElse(from_first, area1, area2);
+    const FloatVector other_area =
+        hn::IfThenElse(both, hn::IfThenElse(from_first, area2, area1), number(-1.0F));
+    const FloatVector inverse = number(1.0F) / (own_area * other_area);
+    const Linear plane = depth_plane(&a, &b, &c, &d, from_first, other_area * inverse);
+    store_line(plane, 4, i, ws);
+    const Corner left_out = select_corner(from_first, d, a);
+    const FloatVector gap = depth_gap(&plane, &left_out);
+    const FloatVector bound = number(kFlat) * left_out.w * left_out.w;
+    const FloatMask folded = hn::And(both, hn::Abs(gap) > bound);
+    {
+      const Linear fold = fold_line(&b, &c, from_first);
+      store_line(fold, 5, i, ws);
+      hn::Store(gap * own_area * inverse, kFloat, ws.bend + i);
+      facing.folded[word] |= bits_of(folded) << shift;
+    }
     // At the ends one of the two triangles has no area.
     const IntVector mark = hn::LoadU(kInt, marks + i);
     const FloatMask at_top = hn::RebindMask(kFloat, hn::TestBit(mark, top_mark));
@@ -178,17 +203,19 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     front2 = hn::Or(front2, hn::And(at_bottom, front1));
     front1 = whole1;
 
+    const Corner p = select_corner(front1, a, b);
+    const Corner q = select_corner(front2, d, c);
+    const FloatVector low_u = smallest(p.u, q.u, b.u, c.u);
+    const FloatVector low_v = smallest(p.v, q.v, b.v, c.v);
+    const FloatVector high_u = largest(p.u, q.u, b.u, c.u);
+    const FloatVector high_v = largest(p.v, q.v, b.v, c.v);
     Linear edge[4];
-    quad_lines(&a, &b, &c, &d, front1, front2, edge);
+    quad_lines(&p, &b, &c, &q, quad_margin(high_u - low_u, high_v - low_v), edge);
     for (std::size_t k = 0; k < 4; ++k) {
       store_line(edge[k], k, i, ws);
     }
-    store_line(depth_plane(&a, &b, &c, &d, front1, front2), 4, i, ws);
-
-    const Corner p = select_corner(front1, a, b);
-    const Corner q = select_corner(front2, d, b);
-    const TileRange x = tile_range(smallest(p.u, q.u, b.u, c.u), largest(p.u, q.u, b.u, c.u), image_right);
-    const TileRange y = tile_range(smallest(p.v, q.v, b.v, c.v), largest(p.v, q.v, b.v, c.v), image_bottom);
+    const TileRange x = tile_range(low_u, high_u, image_right);
+    const TileRange y = tile_range(low_v, high_v, image_bottom);
     const FloatMask drawn = hn::And(hn::Or(front1, front2), hn::And(x.any, y.any));
     const IntVector columns = x.last - x.first;
     const IntVector rows = y.last - y.first;
@@ -214,6 +241,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
   }
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     facing.drawn[word] &= segment.quads[word];
+    facing.folded[word] &= facing.drawn[word];
     facing.small[word] &= facing.drawn[word];
     facing.narrow[word] &= facing.small[word];
     facing.medium[word] &= facing.drawn[word] & ~facing.small[word];
@@ -221,14 +249,17 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
   return facing;
 }
 
-// The five linear functions of one quadrilateral at kN pixels, and their steps to the next tile.
+// The linear functions of one quadrilateral at kN pixels: four edges, the depth plane, and the fold if it has
+// one.
+template <std::size_t size>
 struct Pixels {
-  FloatVector at[5];
+  FloatVector at[size];
 };
 
-HWY_INLINE Pixels operator+(const Pixels& p, const FloatVector* step) {
-  Pixels sum;
-  for (std::size_t k = 0; k < 5; ++k) {
+template <std::size_t size>
+HWY_INLINE Pixels<size> operator+(const Pixels<size>& p, const FloatVector* step) {
+  Pixels<size> sum;
+  for (std::size_t k = 0; k < size; ++k) {
     sum.at[k] = p.at[k] + step[k];
   }
   return sum;
@@ -236,29 +267,37 @@ HWY_INLINE Pixels operator+(const Pixels& p, const FloatVector* step) {
 
 // The z-buffer test: the larger of two positive floats is the larger of their bits as integers, and one with
 // its sign bit set, because it is outside of an edge, is smaller than all.
-HWY_INLINE void test_pixels(const Pixels& p, IntVector surface, std::uint32_t* depth) {
+template <std::size_t size>
+HWY_INLINE void test_pixels(const Pixels<size>& p, FloatVector bend, IntVector surface,
+                            std::uint32_t* depth) {
   const IntVector keep = hn::Set(kInt, ~0x1F);
   const IntVector sign = hn::Set(kInt, std::numeric_limits<std::int32_t>::min());
+  FloatVector w = p.at[4];
+  if constexpr (size > 5) {
+    w = hn::MulAdd(bend, hn::Min(p.at[5], hn::Zero(kFloat)), w);
+  }
   const IntVector outside =
       hn::Or3(hn::BitCast(kInt, p.at[0]), hn::BitCast(kInt, p.at[1]), hn::BitCast(kInt, p.at[2]));
-  IntVector value = hn::OrAnd(surface, hn::BitCast(kInt, p.at[4]), keep);
+  IntVector value = hn::OrAnd(surface, hn::BitCast(kInt, w), keep);
   value = hn::OrAnd(value, hn::Or(outside, hn::BitCast(kInt, p.at[3])), sign);
   auto* pixels = reinterpret_cast<std::int32_t*>(depth);
   hn::Store(hn::Max(value, hn::Load(kInt, pixels)), kInt, pixels);
 }
 
+// Draws a quadrilateral of 5 linear functions, or of 6 when it is folded.
+template <std::size_t size>
 HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns, int columns, int rows,
                           Workspace& ws) {
-  FloatVector across[5];
-  FloatVector down[5];
-  Pixels base[kParts];
+  FloatVector across[size];
+  FloatVector down[size];
+  Pixels<size> base[kParts];
   const FloatVector lane = hn::Iota(kFloat, 0.0F);
   const FloatVector in_row = hn::ConvertTo(kFloat, hn::Iota(kInt, 0) & hn::Set(kInt, 3));
   const FloatVector quarter = number(0.25F);
   const FloatVector x = in_row * quarter + number(ws.tile_x[i]);
   // Rows of a vector's lanes, in tiles.
   const FloatVector row = (lane - in_row) * number(0.0625F) + number(ws.tile_y[i]);
-  for (std::size_t k = 0; k < 5; ++k) {
+  for (std::size_t k = 0; k < size; ++k) {
     across[k] = number(ws.line[3 * k][i]);
     down[k] = number(ws.line[3 * k + 1][i]);
     const FloatVector along = hn::MulAdd(across[k], x, number(ws.line[3 * k + 2][i]));
@@ -270,18 +309,18 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
       }
     }
   }
+  const FloatVector bend = size > 5 ? number(ws.bend[i]) : hn::Zero(kFloat);
   const IntVector code = hn::Set(kInt, static_cast<std::int32_t>(surface));
   for (std::size_t part = 0; part < kParts; ++part) {
-    std::uint32_t* first =
-        ws.depth.get() + static_cast<std::size_t>(ws.tile[i]) * TileGrid::kPixels + part * kN;
-    Pixels start = base[part];
+    std::uint32_t* first = ws.depth.get() + static_cast<std::size_t>(ws.tile[i]) * kTile + part * kN;
+    Pixels<size> start = base[part];
     for (int r = 0; r <= rows; ++r) {
-      Pixels here = start;
+      Pixels<size> here = start;
       std::uint32_t* depth = first;
       for (int c = 0; c <= columns; ++c) {
-        test_pixels(here, code, depth);
+        test_pixels(here, bend, code, depth);
         here = here + across;
-        depth += TileGrid::kPixels;
+        depth += kTile;
       }
       start = start + down;
       first += static_cast<std::ptrdiff_t>(tile_columns) * TileGrid::kPixels;
@@ -289,30 +328,44 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
   }
 }
 
-// Most quadrilaterals of a small image touch few tiles: 2 x 2 or 3 x 3 are tested, needed or not, since loops
-// whose length cannot be foreseen would cost more.
+template <std::size_t size, typename Tiles>
+HWY_INLINE void draw_some(std::uint64_t lanes, std::size_t first, const std::uint32_t* surface,
+                          int tile_columns, Workspace& ws, const Tiles& tiles) {
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(lanes));
+    const auto [columns, rows] = tiles(i);
+    draw_quad<size>(i, surface[i] & 0x1FU, tile_columns, columns, rows, ws);
+  }
+}
+
+// Most quadrilaterals of a small image touch few tiles: 1 x 2, 2 x 2 or 3 x 3 are tested, needed or not,
+// since loops whose length cannot be foreseen would cost more.
 inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing,
                        Workspace& ws) {
+  struct Size {
+    int columns, rows;  ///< but one
+  };
   const int tile_columns = batch.frame.grid.columns;
   const std::uint32_t* surface = batch.model.surface.data() + segment.begin;
+  const auto own = [&ws](std::size_t i) { return Size{ws.columns[i], ws.rows[i]}; };
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
-    for (std::uint64_t rest = facing.narrow[word]; rest != 0; rest &= rest - 1) {
-      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i] & 0x1F, tile_columns, 0, 1, ws);
-    }
-    for (std::uint64_t rest = facing.small[word] & ~facing.narrow[word]; rest != 0; rest &= rest - 1) {
-      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i] & 0x1F, tile_columns, 1, 1, ws);
-    }
-    for (std::uint64_t rest = facing.medium[word]; rest != 0; rest &= rest - 1) {
-      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i] & 0x1F, tile_columns, 2, 2, ws);
-    }
-    const std::uint64_t large = facing.drawn[word] & ~facing.small[word] & ~facing.medium[word];
-    for (std::uint64_t rest = large; rest != 0; rest &= rest - 1) {
-      const std::size_t i = 64 * word + static_cast<std::size_t>(std::countr_zero(rest));
-      draw_quad(i, surface[i] & 0x1F, tile_columns, ws.columns[i], ws.rows[i], ws);
-    }
+    const std::size_t first = 64 * word;
+    const std::uint64_t narrow = facing.narrow[word];
+    const std::uint64_t small = facing.small[word];
+    const std::uint64_t medium = facing.medium[word];
+    const std::uint64_t folded = facing.folded[word];
+    const std::uint64_t large = facing.drawn[word] & ~small & ~medium;
+    const auto one_by_two = [](std::size_t) { return Size{0, 1}; };
+    const auto two_by_two = [](std::size_t) { return Size{1, 1}; };
+    const auto three_by_three = [](std::size_t) { return Size{2, 2}; };
+    draw_some<5>(narrow & ~folded, first, surface, tile_columns, ws, one_by_two);
+    draw_some<5>(small & ~narrow & ~folded, first, surface, tile_columns, ws, two_by_two);
+    draw_some<5>(medium & ~folded, first, surface, tile_columns, ws, three_by_three);
+    draw_some<5>(large & ~folded, first, surface, tile_columns, ws, own);
+    draw_some<6>(narrow & folded, first, surface, tile_columns, ws, one_by_two);
+    draw_some<6>(small & ~narrow & folded, first, surface, tile_columns, ws, two_by_two);
+    draw_some<6>(medium & folded, first, surface, tile_columns, ws, three_by_three);
+    draw_some<6>(large & folded, first, surface, tile_columns, ws, own);
   }
 }
 

@@ -75,7 +75,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #define MASK FloatMask
 #define NUMBER(x) number(x)
 #define FUSED(a, b, c) hn::MulAdd(a, b, c)
-#define ABSOLUTE(a) hn::Abs(a)
 #define SELECT(m, a, b) hn::IfThenElse(m, a, b)
 #define BOTH(m, n) hn::And(m, n)
 #define LESS(a, b) hn::Lt(a, b)
@@ -86,7 +85,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #undef MASK
 #undef NUMBER
 #undef FUSED
-#undef ABSOLUTE
 #undef SELECT
 #undef BOTH
 #undef LESS
