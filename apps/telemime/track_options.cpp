@@ -41,7 +41,7 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command.add_option("--height", o.height, "the person's height in metres: sets the absolute scale");
   command.add_option("--size", o.size, "working image, WIDTHxHEIGHT [320x240]");
   command.add_option("--method", o.method, "regions, edges or two-step [two-step]");
-  command.add_option("--iterations", o.iterations, "cost evaluations a frame [1000]");
+  command.add_option("--iterations", o.iterations, "cost evaluations a frame [2000]");
   command.add_option("--budget", o.budget_ms,
                      "search time a frame in ms, instead of --iterations (see `telemime tune`)");
   command.add_option("--limits", o.limits, "joint limits: reference, anatomical or a JSON file [anatomical]");

@@ -50,6 +50,9 @@ Json other_value(const std::string& pointer, const Json& value) {
   if (pointer == "/limits") {
     return "reference";
   }
+  if (pointer == "/backend") {
+    return "parts";
+  }
   if (pointer == "/registration/method") {
     return "regions";
   }
@@ -188,6 +191,7 @@ TEST(Config, WhatIsNoObjectIsRefused) {
 TEST(Config, ValuesOutOfRangeAreRefusedByName) {
   const std::pair<std::string, Json> faults[] = {{"/camera/field_of_view", 0.0},
                                                  {"/camera/field_of_view", 180.0},
+                                                 {"/backend", "abacus"},
                                                  {"/budget_ms", 0.0},
                                                  {"/tracking/lost_region", 0.0},
                                                  {"/tracking/found_region", 1.5},

@@ -16,7 +16,7 @@ enum class Method { regions, edges, two_step };
 struct RegistrationConfig {
   Method method = Method::two_step;
   /// Cost evaluations a frame, both steps together.
-  int iterations = 1000;
+  int iterations = 2000;
   /// Share of them that goes to the region step in two_step; negative: the split that `tune` fitted.
   double region_share = 0.6;
   /// Initial simplex size, times each number's typical frame-to-frame change (thesis Fig. 2-22).
