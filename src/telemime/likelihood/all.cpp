@@ -35,7 +35,11 @@ std::unique_ptr<Backend> fastest(const BackendOptions& options) {
   const auto seconds = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
-  return make_auto_backend(simd(options), has_cuda ? cuda(options) : opencl(options), seconds);
+  try {
+    return make_auto_backend(simd(options), has_cuda ? cuda(options) : opencl(options), seconds);
+  } catch (const Error&) {  // a driver that cannot do it
+    return simd(options);
+  }
 }
 
 }  // namespace

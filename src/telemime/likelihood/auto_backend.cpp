@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <vector>
+
+#include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
@@ -46,7 +49,11 @@ class AutoBackend final : public Backend {
       backend.evaluate(frame, model, poses, terms, scores);
       return seconds_() - begin;
     };
-    const double device = seconds_of(*device_);
+    double device = std::numeric_limits<double>::infinity();
+    try {
+      device = seconds_of(*device_);
+    } catch (const Error&) {  // what the device cannot do, the processor does
+    }
     return device < seconds_of(*processor_);
   }
 

@@ -24,7 +24,8 @@ struct Model {
 
 Model make_model(const Shape& shape);
 
-/// One frame made ready for evaluation. Holds no pose; may be used by many threads.
+/// One frame made ready for evaluation by prepare(); its parts belong together and are not to be changed.
+/// Holds no pose; may be used by many threads.
 struct PreparedFrame {
   Camera camera;     ///< of the working image
   cv::Mat labels;    ///< (h x w) CV_8UC1, Label

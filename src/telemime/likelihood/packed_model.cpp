@@ -46,7 +46,7 @@ void pack_segment(const BodyMesh& mesh, std::size_t s, std::uint32_t begin, Pack
   segment.begin = begin;
   segment.stride = stride_of(stack);
   segment.lanes = stack.sides * segment.stride;
-  if (stack.rings == 0 || segment.stride > 64 || vertices_of(stack) > PackedSegment::kMostLanes) {
+  if (stack.rings == 0 || segment.stride >= 64 || vertices_of(stack) > PackedSegment::kMostLanes) {
     throw Error(ErrorKind::usage, "the mesh of " + std::string(kSegmentNames[s]) +
                                       " is no stack of rings or has too many of them");
   }
@@ -103,15 +103,16 @@ void pack(const Body& body, const BodyMesh& mesh, PackedModel& out) {
 }
 
 const PackedModel& PackedModelCache::of(const Body& body, const BodyMesh& mesh) {
-  bool same = packed_skeleton(body) == packed_.skeleton && mesh.vertices == vertices_;
+  bool same = known_ && packed_skeleton(body) == packed_.skeleton && mesh.vertices == vertices_;
   for (std::size_t s = 0; s < kSegmentCount && same; ++s) {
     same = mesh.stacks[s] == stacks_[s];
   }
   if (!same) {
-    vertices_.clear();  // nothing is known until all of it is packed
+    known_ = false;  // until all of it is packed
     pack(body, mesh, packed_);
     stacks_ = mesh.stacks;
     vertices_ = mesh.vertices;
+    known_ = true;
   }
   return packed_;
 }

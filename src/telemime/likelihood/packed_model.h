@@ -22,7 +22,7 @@ struct PackedSegment {
 
   std::uint32_t begin = 0;   ///< of its vertices and lanes in the model's arrays, a multiple of 16
   std::uint32_t lanes = 0;   ///< sides x stride; there are `stride` more vertices
-  std::uint32_t stride = 0;  ///< rings + 2, at most 64
+  std::uint32_t stride = 0;  ///< rings + 2, at most 63
   LaneSet quads{};           ///< lanes that hold a quadrilateral
   LaneSet top{};             ///< those at the top end: (a, b, c) is no triangle
   LaneSet bottom{};          ///< those at the bottom end: (b, d, c) is none
@@ -67,6 +67,7 @@ class PackedModelCache {
 
  private:
   PackedModel packed_;
+  bool known_ = false;
   std::vector<Eigen::Vector3f> vertices_;
   std::array<RingStack, kSegmentCount> stacks_;
 };

@@ -58,8 +58,11 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   found.start.person.refusal.clear();  // whatever the first frame hid, these show
   // The pose in the first frame is needed for the new shape, too.
   keyframes.insert(keyframes.begin(), candidates.front());
+  // Single poses on many threads suit no device.
+  const bool own = config.backend == "scalar" || config.backend == "parts";
+  const std::string backend = own ? config.backend : "simd";
   const ShapeRefinement refined =
-      refine_shape([&config] { return make_backend(config.backend); }, keyframes, found.start.person.shape,
+      refine_shape([&backend] { return make_backend(backend); }, keyframes, found.start.person.shape,
                    scout.limits(), config.calibration.shape, config.calibration.refine);
   found.start.person.shape = refined.shape;
   found.start.pose = refined.poses.front();

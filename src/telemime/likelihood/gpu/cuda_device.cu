@@ -37,7 +37,6 @@ namespace kernel {
 #define REAL float
 #define MASK int
 #define NUMBER(x) (x)
-#define BOTH(m, n) ((m) && (n))
 #define LESS(a, b) ((a) < (b))
 #include "telemime/likelihood/formulas.inc"
 #include "telemime/likelihood/gpu/evaluate.cl"
@@ -155,7 +154,7 @@ std::string cuda_missing() {
   int devices = 0;
   const cudaError_t status = cudaGetDeviceCount(&devices);
   if (status != cudaSuccess || devices == 0) {
-    return "no NVIDIA GPU with a driver for CUDA is here";
+    return std::string("no NVIDIA GPU with a driver for CUDA is here (") + cudaGetErrorString(status) + ")";
   }
   return {};
 }

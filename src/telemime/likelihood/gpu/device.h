@@ -49,7 +49,8 @@ struct DeviceInput {
   std::span<const float> distance;
 };
 
-/// A processor beside the processor. Throws Error(usage) when it fails, with the driver's words.
+/// A processor beside the processor. Not to be used by two threads at a time. Throws Error(usage) when it
+/// fails, with the driver's words.
 class Device {
  public:
   Device() = default;

@@ -112,6 +112,9 @@ class DeviceBackend final : public Backend {
     if (poses.size() != scores.size()) {
       throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
     }
+    if (frame.camera.width > kBandPixels) {
+      throw Error(ErrorKind::usage, "the image is too wide for this back end", "Use the back end simd.");
+    }
     times_ = DeviceTimes{};
     const PackedModel& packed = models_.of(model.body, model.mesh);
     pack_lanes(packed, input_);

@@ -145,8 +145,10 @@ FN void draw_quad(const Corner* a, const Corner* b, const Corner* c, const Corne
       }
       if (least >= 0.0f) {
         const float beyond = FMIN(FUSED(fold.b, v, FUSED(fold.a, u, fold.c)), 0.0f);
-        const float w = FMAX(FUSED(bend, beyond, FUSED(plane.b, v, FUSED(plane.a, u, plane.c))), 0.0f);
-        ATOMIC_MAX(&depth[row + x], (BITS_OF(w) & ~CLASS_BITS) | surface);
+        const float w = FUSED(bend, beyond, FUSED(plane.b, v, FUSED(plane.a, u, plane.c)));
+        if (w > 0.0f) {
+          ATOMIC_MAX(&depth[row + x], (BITS_OF(w) & ~CLASS_BITS) | surface);
+        }
       }
     }
   }
@@ -268,7 +270,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   int model1 = 0, model2 = 0, model3 = 0, both1 = 0, both2 = 0, both3 = 0, points = 0;
   float sum = 0.0f;
   const int span = right + 1 - left;
-  const int band_rows = span > 0 ? BAND_PIXELS / span : 1;
+  const int band_rows = span > 0 ? max(BAND_PIXELS / span, 1) : 1;
   for (int top = first_row; span > 0 && top <= last_row; top += band_rows) {
     const int bottom = min(top + band_rows - 1, last_row);
     const int pixels = (bottom + 1 - top) * span;

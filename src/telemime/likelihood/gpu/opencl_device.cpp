@@ -20,6 +20,10 @@ Error failed(const std::string& what) {
   return {ErrorKind::usage, "OpenCL: " + what, "Use the back end simd, or look at the device's driver."};
 }
 
+bool is_gpu(const cl::Device& device) {
+  return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
+}
+
 // The first GPU, or else the first device that has the memory that a group needs.
 std::vector<cl::Device> usable_devices() {
   std::vector<cl::Platform> platforms;
@@ -38,11 +42,14 @@ std::vector<cl::Device> usable_devices() {
       continue;
     }
     for (const cl::Device& device : devices) {
-      if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_TRUE &&
-          device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() >= 48U * 1024U &&
-          device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>() >= static_cast<std::size_t>(kGroupSize)) {
-        const bool gpu = (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
-        (gpu ? gpus : others).push_back(device);
+      try {
+        if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_TRUE &&
+            device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() >= 48U * 1024U &&
+            device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>() >= static_cast<std::size_t>(kGroupSize)) {
+          (is_gpu(device) ? gpus : others).push_back(device);
+        }
+      } catch (const cl::Error&) {  // one that does not answer is none
+        continue;
       }
     }
   }
@@ -62,8 +69,9 @@ class Buffer {
 
   const cl::Buffer& of_size(std::size_t bytes) {
     if (bytes > size_) {
+      size_ = 0;
+      buffer_ = cl::Buffer(context_, flags_, bytes);
       size_ = bytes;
-      buffer_ = cl::Buffer(context_, flags_, size_);
     }
     return buffer_;
   }
@@ -97,6 +105,7 @@ class OpenClDevice final : public Device {
     try {
       return run_checked(input, counts);
     } catch (const cl::Error& error) {
+      clFinish(queue_());  // writes that were begun read the caller's memory
       throw failed(std::string(error.what()) + " failed with " + std::to_string(error.err()));
     }
   }
@@ -167,7 +176,7 @@ std::string opencl_missing() {
 
 bool opencl_is_gpu() {
   const std::vector<cl::Device> devices = usable_devices();
-  return !devices.empty() && (devices.front().getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
+  return !devices.empty() && is_gpu(devices.front());
 }
 #else
 std::unique_ptr<Device> make_opencl_device() {

@@ -26,5 +26,4 @@
 #define REAL float
 #define MASK int
 #define NUMBER(x) (x)
-#define BOTH(m, n) ((m) && (n))
 #define LESS(a, b) ((a) < (b))

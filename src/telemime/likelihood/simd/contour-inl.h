@@ -133,7 +133,7 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
       ws);
 }
 
-// The pixel that each point lies in, and kNoPixel for those outside the image.
+// The pixel that each point lies in; for those outside the image the one behind the last.
 inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const FloatVector low = number(-0.5F);
   const FloatVector right = number(static_cast<float>(grid.width) - 0.5F);
@@ -142,13 +142,15 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const FloatVector side = number(static_cast<float>(TileGrid::kSide));
   const IntVector three = hn::Set(kInt, 3);
   const IntVector columns = hn::Set(kInt, grid.columns);
+  const IntVector last_column = hn::Set(kInt, grid.width - 1);
+  const IntVector last_row = hn::Set(kInt, grid.height - 1);
   const IntVector outside = hn::Set(kInt, static_cast<std::int32_t>(grid.pixels()));
   for (std::size_t i = 0; i < ws.samples; i += kN) {
     const FloatVector x = hn::Load(kFloat, ws.sample_x.get() + i) * side;
     const FloatVector y = hn::Load(kFloat, ws.sample_y.get() + i) * side;
     const FloatMask inside = hn::And(hn::And(x > low, x < right), hn::And(y > low, y < bottom));
-    const IntVector px = hn::ConvertTo(kInt, x + half);
-    const IntVector py = hn::ConvertTo(kInt, y + half);
+    const IntVector px = hn::Min(hn::ConvertTo(kInt, x + half), last_column);
+    const IntVector py = hn::Min(hn::ConvertTo(kInt, y + half), last_row);
     const IntVector tile = hn::ShiftRight<2>(py) * columns + hn::ShiftRight<2>(px);
     const IntVector pixel = hn::ShiftLeft<4>(tile) + hn::ShiftLeft<2>(py & three) + (px & three);
     hn::Store(hn::IfThenElse(hn::RebindMask(kInt, inside), pixel, outside), kInt, ws.sample_pixel.get() + i);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <new>
+#include <utility>
 
 // Vectors whose length the compiler does not know cannot stand in structs.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -57,6 +59,8 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
 
 void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out, Workspace& ws) {
   ws.fit(batch.frame.grid);
+  // Until all is counted and emptied: memory for more contour points may not be had.
+  const std::size_t pixels = std::exchange(ws.pixels, 0);
   for (std::size_t first = 0; first < poses.size(); first += kN) {
     const std::size_t size = std::min(kN, poses.size() - first);
     place_segments(batch.model.skeleton, poses.subspan(first, size), ws);
@@ -64,6 +68,7 @@ void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Redu
       count_pose(batch, lane, ws, out[first + lane]);
     }
   }
+  ws.pixels = pixels;
 }
 
 }  // namespace telemime::simd::HWY_NAMESPACE
@@ -71,13 +76,26 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace telemime::simd {
+namespace {
+
+template <typename T>
+hwy::AlignedFreeUniquePtr<T[]> allocated(std::size_t size) {
+  auto array = hwy::AllocateAligned<T>(size);
+  if (!array) {
+    throw std::bad_alloc();
+  }
+  return array;
+}
+
+}  // namespace
 
 void Workspace::fit(const TileGrid& grid) {
   if (pixels == grid.pixels()) {
     return;
   }
+  pixels = 0;
+  depth = allocated<std::uint32_t>(grid.pixels() + 1);
   pixels = grid.pixels();
-  depth = hwy::AllocateAligned<std::uint32_t>(pixels + 1);
   std::fill_n(depth.get(), pixels, 0);
   depth[pixels] = std::bit_cast<std::uint32_t>(1e30F);
 }
@@ -85,7 +103,7 @@ void Workspace::fit(const TileGrid& grid) {
 void Workspace::grow_samples(std::size_t at_least) {
   const std::size_t larger = std::max<std::size_t>({at_least, 2 * capacity, 4096});
   const auto grow = [&]<typename T>(hwy::AlignedFreeUniquePtr<T[]>& array) {
-    auto grown = hwy::AllocateAligned<T>(larger);
+    auto grown = allocated<T>(larger);
     std::copy_n(array.get(), capacity, grown.get());
     array = std::move(grown);
   };
@@ -104,6 +122,9 @@ std::vector<InstructionSet> instruction_sets() {
       sets.push_back({name, kernel});
     }
   };
+#if (HWY_TARGETS & HWY_AVX3_DL) != 0
+  offer(HWY_AVX3_DL, "avx512", &N_AVX3_DL::count_poses);
+#endif
 #if (HWY_TARGETS & HWY_AVX3) != 0
   offer(HWY_AVX3, "avx512", &N_AVX3::count_poses);
 #endif
@@ -125,6 +146,9 @@ std::vector<InstructionSet> instruction_sets() {
 #if (HWY_TARGETS & HWY_SCALAR) != 0
   sets.push_back({"portable", &N_SCALAR::count_poses});
 #endif
+  if (sets.empty()) {  // what the compiler was told to take for granted
+    sets.push_back({"baseline", &HWY_STATIC_DISPATCH(count_poses)});
+  }
   return sets;
 }
 

@@ -7,6 +7,8 @@
 #define TELEMIME_SIMD_PLACE_INL_H
 #endif
 
+#include <cmath>
+
 #include "telemime/likelihood/simd/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,6 +20,12 @@ inline void store_transform(const FloatVector* transform, Segment segment, Works
   }
 }
 
+// sine_cosine() is exact for a few thousand turns; more than one is rare.
+inline double within_a_turn(double angle) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  return std::abs(angle) <= kTurn ? angle : std::remainder(angle, kTurn);
+}
+
 // Poses beyond the last one are copies of it.
 inline void load_poses(std::span<const Pose> poses, Workspace& ws) {
   for (std::size_t lane = 0; lane < kN; ++lane) {
@@ -26,7 +34,7 @@ inline void load_poses(std::span<const Pose> poses, Workspace& ws) {
       ws.pose[i][lane] = static_cast<float>(pose.root[static_cast<Eigen::Index>(i)]);
     }
     for (std::size_t i = 0; i < kAngleCount; ++i) {
-      ws.pose[3 + i][lane] = static_cast<float>(pose.angles[i]);
+      ws.pose[3 + i][lane] = static_cast<float>(within_a_turn(pose.angles[i]));
     }
   }
 }

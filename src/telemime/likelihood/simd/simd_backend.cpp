@@ -4,6 +4,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -15,8 +16,9 @@
 namespace telemime {
 namespace {
 
-// Poses that a thread takes at a time: whole blocks of the kernel, and long enough to be worth a task.
-constexpr std::size_t kGrain = 4 * simd::Workspace::kPoses;
+constexpr std::size_t kBlock = simd::Workspace::kPoses;
+// Blocks that a thread takes at a time, enough to be worth a task.
+constexpr std::size_t kGrain = 4;
 
 simd::InstructionSet chosen(const std::string& name) {
   const std::vector<simd::InstructionSet> sets = simd::instruction_sets();
@@ -65,16 +67,23 @@ class SimdBackend final : public Backend {
     const simd::Pinhole camera = {static_cast<float>(frame.camera.fx), static_cast<float>(frame.camera.fy),
                                   static_cast<float>(frame.camera.cx), static_cast<float>(frame.camera.cy)};
     const simd::Batch batch = {models_.of(model.body, model.mesh), frame.tiles, camera, terms, last_stage_};
-    if (workspaces_.size() == 1 || poses.size() <= kGrain) {
+    if (workspaces_.size() == 1 || poses.size() <= kGrain * kBlock) {
       evaluate_some(batch, frame, poses, scores, *workspaces_.front());
       return;
     }
+    // Whole blocks of the kernel, some at a time.
+    const std::size_t blocks = (poses.size() + kBlock - 1) / kBlock;
     arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, poses.size(), kGrain), [&](const auto& range) {
-        const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-        evaluate_some(batch, frame, poses.subspan(range.begin(), range.size()),
-                      scores.subspan(range.begin(), range.size()), *workspaces_[thread]);
-      });
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, blocks, kGrain),
+          [&](const auto& range) {
+            const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+            const std::size_t first = range.begin() * kBlock;
+            const std::size_t size = std::min(range.end() * kBlock, poses.size()) - first;
+            evaluate_some(batch, frame, poses.subspan(first, size), scores.subspan(first, size),
+                          *workspaces_[thread]);
+          },
+          tbb::simple_partitioner());
     });
   }
 

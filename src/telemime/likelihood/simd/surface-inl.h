@@ -47,10 +47,11 @@ HWY_INLINE float largest_of(FloatVector v) {
 // Tiles of the pixels in [low, high] (in tiles) of an image of `size` pixels; none: last < first.
 HWY_INLINE void tile_interval(float low, float high, int size, std::int32_t& first, std::int32_t& last) {
   const float end = static_cast<float>(size - 1) * 0.25F;
-  first = static_cast<std::int32_t>(std::clamp(low, 0.0F, end));
-  last = high < 0.0F || low > end
-             ? first - 1
-             : std::max(static_cast<std::int32_t>(std::clamp(high, 0.0F, end)), first + 2);
+  first = low > 0.0F ? static_cast<std::int32_t>(std::min(low, end)) : 0;
+  last = first - 1;
+  if (high >= 0.0F && low <= end) {
+    last = std::max(static_cast<std::int32_t>(std::min(high, end)), first + 2);
+  }
 }
 
 inline Projection project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s,
@@ -71,7 +72,7 @@ inline Projection project_segment(const Batch& batch, const PackedSegment& segme
   FloatVector right = number(-kFar);
   FloatVector bottom = right;
   FloatVector farthest = left;
-  // Vertices behind the last one are at the segment's origin.
+  // Vertices behind the last one are at the segment's origin. One that is no number counts nowhere.
   const std::uint32_t end = segment.begin + segment.lanes + segment.stride;
   for (std::uint32_t at = segment.begin; at < end; at += kN) {
     FloatVector u;
@@ -82,11 +83,11 @@ inline Projection project_segment(const Batch& batch, const PackedSegment& segme
     hn::Store(u, kFloat, ws.u + at);
     hn::Store(v, kFloat, ws.v + at);
     hn::Store(w, kFloat, ws.w + at);
-    left = hn::Min(left, u);
-    right = hn::Max(right, u);
-    top = hn::Min(top, v);
-    bottom = hn::Max(bottom, v);
-    farthest = hn::Min(farthest, w);
+    left = hn::IfThenElse(u < left, u, left);
+    right = hn::IfThenElse(u > right, u, right);
+    top = hn::IfThenElse(v < top, v, top);
+    bottom = hn::IfThenElse(v > bottom, v, bottom);
+    farthest = hn::IfThenElse(w < farthest, w, farthest);
   }
   Projection projection;
   const TileGrid& grid = batch.frame.grid;
@@ -189,12 +190,10 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     const FloatVector gap = depth_gap(&plane, &left_out);
     const FloatVector bound = number(kFlat) * left_out.w * left_out.w;
     const FloatMask folded = hn::And(both, hn::Abs(gap) > bound);
-    {
-      const Linear fold = fold_line(&b, &c, from_first);
-      store_line(fold, 5, i, ws);
-      hn::Store(gap * own_area * inverse, kFloat, ws.bend + i);
-      facing.folded[word] |= bits_of(folded) << shift;
-    }
+    const Linear fold = fold_line(&b, &c, from_first);
+    store_line(fold, 5, i, ws);
+    hn::Store(gap * own_area * inverse, kFloat, ws.bend + i);
+    facing.folded[word] |= bits_of(folded) << shift;
     // At the ends one of the two triangles has no area.
     const IntVector mark = hn::LoadU(kInt, marks + i);
     const FloatMask at_top = hn::RebindMask(kFloat, hn::TestBit(mark, top_mark));

@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include <bit>
 #include <numbers>
 
 #include "telemime/likelihood/simd/kernel.h"
@@ -40,7 +41,8 @@ HWY_INLINE FloatVector number(float x) {
 }
 
 HWY_INLINE std::uint64_t bits_of(FloatMask mask) {
-  std::uint64_t bits = 0;  // of a little-endian machine, see kernel.cpp
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bits = 0;
   hn::StoreMaskBits(kFloat, mask, reinterpret_cast<std::uint8_t*>(&bits));
   return bits;
 }
@@ -76,7 +78,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #define NUMBER(x) number(x)
 #define FUSED(a, b, c) hn::MulAdd(a, b, c)
 #define SELECT(m, a, b) hn::IfThenElse(m, a, b)
-#define BOTH(m, n) hn::And(m, n)
 #define LESS(a, b) hn::Lt(a, b)
 #define SINE_COSINE(angle, sine, cosine) sine_cosine(angle, sine, cosine)
 #include "telemime/likelihood/formulas.inc"
@@ -86,7 +87,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #undef NUMBER
 #undef FUSED
 #undef SELECT
-#undef BOTH
 #undef LESS
 #undef SINE_COSINE
 
