@@ -25,8 +25,9 @@ struct TileGrid {
   std::size_t pixels() const { return tiles() * kPixels; }
   /// Index of a pixel of the image.
   std::size_t index(int x, int y) const {
-    const auto tile = static_cast<std::size_t>((y / kSide) * columns + x / kSide);
-    return tile * kPixels + static_cast<std::size_t>((y % kSide) * kSide + x % kSide);
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    const std::size_t tile = at(y / kSide) * at(columns) + at(x / kSide);
+    return tile * kPixels + at(y % kSide) * kSide + at(x % kSide);
   }
 };
 

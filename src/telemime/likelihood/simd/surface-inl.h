@@ -301,7 +301,8 @@ HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns
     down[k] = number(ws.line[3 * k + 1][i]);
     const FloatVector along = hn::MulAdd(across[k], x, number(ws.line[3 * k + 2][i]));
     for (std::size_t part = 0; part < kParts; ++part) {
-      const FloatVector below = row + number(static_cast<float>(part * kN / 4) * 0.25F);
+      const std::size_t rows_above = part * kN / 4;
+      const FloatVector below = row + number(static_cast<float>(rows_above) * 0.25F);
       base[part].at[k] = hn::MulAdd(down[k], below, along);
       if constexpr (kN < 4) {  // a vector is shorter than a tile's row
         base[part].at[k] = base[part].at[k] + across[k] * number(static_cast<float>(part * kN % 4) * 0.25F);
