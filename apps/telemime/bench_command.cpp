@@ -17,8 +17,8 @@
 #include "measurement_clips.h"
 #include "telemime/experiments/report.h"
 #include "telemime/experiments/timing.h"
+#include "telemime/likelihood/all.h"
 #include "thread_clock.h"
-#include "wall_clock.h"
 
 namespace telemime {
 namespace {
@@ -70,7 +70,7 @@ void run_bench(BenchArguments arguments) {
   engine.backends = arguments.backends;
   engine.quick = arguments.lab.quick;
   engine.seed = arguments.lab.seed;
-  engine.seconds = wall_seconds;
+  engine.seconds = steady_seconds;
   engine_backends(engine);  // says what is wrong with a name before anything is measured
   nlohmann::json json = nlohmann::json::array();
   const auto show = [&](const Table& table) {

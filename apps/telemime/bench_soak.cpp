@@ -15,7 +15,6 @@
 #include "telemime/experiments/table.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/registration/budget.h"
-#include "wall_clock.h"
 
 namespace telemime {
 namespace {
@@ -70,21 +69,21 @@ void run_soak(double minutes) {
     std::cout << std::endl;  // at once: the next line may be an hour away
   };
   print({"part", "frames", "evaluations a second", "memory KiB", "new for each frame"});
-  const double start = wall_seconds();
+  const double start = steady_seconds();
   long first_kib = 0;
   long kib = 0;
   std::size_t t = 0;
   for (int tenth = 1; tenth <= kTenths; ++tenth) {
     const auto allocations = heap_allocations();
     const std::size_t before = t;
-    const double began = wall_seconds();
+    const double began = steady_seconds();
     do {
       prepare(seen[t % seen.size()], camera, frame);
       backend->evaluate(frame, model, std::span(poses).subspan(t % 100, kBatch), Reduction::all, scores);
       ++t;
-    } while (wall_seconds() - start < 60.0 * minutes * tenth / kTenths);
+    } while (steady_seconds() - start < 60.0 * minutes * tenth / kTenths);
     const auto frames = static_cast<double>(t - before);
-    const double taken = wall_seconds() - began;
+    const double taken = steady_seconds() - began;
     const auto allocated = heap_allocations();
     kib = resident_kib();
     first_kib = tenth == 1 ? kib : first_kib;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses and images as trackers meet them.
-#include <numeric>
 
 #include "equivalence/every_backend.h"
+#include "telemime/experiments/engine_agreement.h"
 
 namespace telemime::equivalence {
 namespace {
@@ -55,47 +55,6 @@ TEST_P(Typical, AllSizesOfImages) {
   }
 }
 
-// Ranks from 0 on; equal values share the mean of theirs.
-std::vector<double> ranks(const std::vector<double>& values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> rank(values.size());
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t end = first;
-    while (end < order.size() && values[order[end]] == values[order[first]]) {
-      ++end;
-    }
-    for (std::size_t i = first; i < end; ++i) {
-      rank[order[i]] = 0.5 * static_cast<double>(first + end - 1);
-    }
-    first = end;
-  }
-  return rank;
-}
-
-// Spearman's correlation of ranks.
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const std::vector<double> x = ranks(a);
-  const std::vector<double> y = ranks(b);
-  const double mean = 0.5 * static_cast<double>(a.size() - 1);
-  double xx = 0.0;
-  double yy = 0.0;
-  double xy = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    xx += (x[i] - mean) * (x[i] - mean);
-    yy += (y[i] - mean) * (y[i] - mean);
-    xy += (x[i] - mean) * (y[i] - mean);
-  }
-  return xy / std::sqrt(xx * yy);
-}
-
-TEST(RankCorrelation, AsByHand) {
-  EXPECT_NEAR(rank_correlation({1, 5, 9, 20}, {2, 3, 4, 5}), 1.0, 1e-12);
-  EXPECT_NEAR(rank_correlation({1, 2, 3}, {3, 2, 1}), -1.0, 1e-12);
-  EXPECT_NEAR(rank_correlation({1, 2, 3, 4, 5}, {2, 1, 4, 3, 5}), 0.8, 1e-12);  // 1 - 6 * 4 / (5 * 24)
-}
-
 TEST_P(Typical, RankPosesNearTheTruthAlike) {
   const Model model = make_model(Shape{});
   const Camera camera = camera_of(160, 120);
@@ -126,7 +85,7 @@ TEST_P(Typical, RankPosesNearTheTruthAlike) {
         a.push_back(scores[i].*term);
         b.push_back(definition[i].*term);
       }
-      return rank_correlation(a, b);
+      return spearman(a, b);
     };
     least_region = std::min(least_region, correlation(&Score::region));
     least_contour = std::min(least_contour, correlation(&Score::contour));

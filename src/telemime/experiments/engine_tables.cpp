@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "telemime/experiments/opencv_baseline.h"
+#include "telemime/experiments/report.h"
 #include "telemime/experiments/timing.h"
 #include "telemime/likelihood/simd/simd_backend.h"
 
@@ -49,16 +50,7 @@ EngineScene scene_of(const Camera& camera, const EngineOptions& options) {
   return engine_scene(camera, options.quick ? kBatch / 10 : kBatch, options.seed);
 }
 
-// Where a column of the thesis's Table 4-1 was measured, and its times, ms.
-struct PublishedTimes {
-  const char* machine;
-  std::array<double, 4> ms;
-};
 constexpr std::array<std::size_t, 4> kHistograms = {100, 300, 500, 700};
-constexpr std::array<PublishedTimes, 4> kPublished = {{{"thesis: CPU, C++", {27.1, 40.3, 75.9, 110.3}},
-                                                       {"CPU, OpenCL", {12.2, 19.8, 28.3, 50.4}},
-                                                       {"GPU 1", {1.5, 2.7, 6.9, 20.8}},
-                                                       {"GPU 2", {1.4, 2.5, 6.5, 16.8}}}};
 
 }  // namespace
 
@@ -138,10 +130,6 @@ Table overlap_time_table(const EngineOptions& options) {
   for (const Column& column : columns) {
     table.columns.push_back(column.title);
   }
-  Table published{"", {"histograms"}, {}};
-  for (const PublishedTimes& machine : kPublished) {
-    published.columns.emplace_back(machine.machine);
-  }
   const EngineScene scene = engine_scene(engine_cameras().front(), 10 * kHistograms.back(), options.seed);
   for (std::size_t h = 0; h < kHistograms.size(); ++h) {
     table.rows.push_back({std::to_string(kHistograms[h])});
@@ -150,12 +138,8 @@ Table overlap_time_table(const EngineOptions& options) {
                                              options.quick ? 0.01 : 0.2, options.seconds);
       table.rows.back().push_back(number(1e3 * time.seconds));
     }
-    published.rows.push_back({std::to_string(kHistograms[h])});
-    for (const PublishedTimes& machine : kPublished) {
-      published.rows.back().push_back(number(machine.ms[h]));
-    }
   }
-  return beside(table, published);
+  return beside(table, published_values("T4-1"));
 }
 
 }  // namespace telemime

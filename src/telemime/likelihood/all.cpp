@@ -32,11 +32,8 @@ std::unique_ptr<Backend> fastest(const BackendOptions& options) {
   if (!has_cuda && !gpu::opencl_is_gpu()) {
     return simd(options);
   }
-  const auto seconds = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
   try {
-    return make_auto_backend(simd(options), has_cuda ? cuda(options) : opencl(options), seconds);
+    return make_auto_backend(simd(options), has_cuda ? cuda(options) : opencl(options), options.seconds);
   } catch (const Error&) {  // a driver that cannot do it
     return simd(options);
   }
@@ -54,6 +51,10 @@ const std::array<BackendKind, kBackendCount> kBackends = {{
     {"parts", "the definition, drawing again only what moved",
      [](const BackendOptions&) { return make_part_backend(); }, nothing_missing},
 }};
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::string backend_names() {
   std::string names;

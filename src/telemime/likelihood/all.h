@@ -2,15 +2,21 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 
 #include "telemime/likelihood/backend.h"
 
 namespace telemime {
 
+/// The machine's clock, s from some moment on.
+double steady_seconds();
+
 struct BackendOptions {
   /// Threads that share a batch, where the back end can; 0: as many as the machine has.
   int threads = 1;
+  /// The clock by which `auto` measures, s.
+  std::function<double()> seconds = steady_seconds;
 };
 
 /// A back end by name.

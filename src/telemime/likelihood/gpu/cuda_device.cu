@@ -100,12 +100,6 @@ class Moment {
 
 class CudaDevice final : public Device {
  public:
-  std::string description() const override {
-    cudaDeviceProp properties{};
-    check(cudaGetDeviceProperties(&properties, 0), "asking for the device");
-    return properties.name;
-  }
-
   DeviceTimes run(const DeviceInput& input, std::span<PoseCounts> counts) override {
     begin_.now();
     const auto* poses = upload<float>(poses_, input.poses);

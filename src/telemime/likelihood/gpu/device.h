@@ -57,8 +57,6 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   virtual ~Device() = default;
-  /// Its name, as the driver says it.
-  virtual std::string description() const = 0;
   /// Evaluates input.poses.size() / 23 poses, at most kMostPoses; one PoseCounts each.
   virtual DeviceTimes run(const DeviceInput& input, std::span<PoseCounts> counts) = 0;
 };

@@ -99,8 +99,6 @@ class OpenClDevice final : public Device {
     kernel_ = cl::Kernel(program, "evaluate_poses");
   }
 
-  std::string description() const override { return device_.getInfo<CL_DEVICE_NAME>(); }
-
   DeviceTimes run(const DeviceInput& input, std::span<PoseCounts> counts) override {
     try {
       return run_checked(input, counts);

@@ -7,6 +7,7 @@
 #define TELEMIME_SIMD_PLACE_INL_H
 #endif
 
+#include <algorithm>
 #include <cmath>
 
 #include "telemime/likelihood/simd/vectors-inl.h"
@@ -28,14 +29,17 @@ inline double within_a_turn(double angle) {
 
 // Poses beyond the last one are copies of it.
 inline void load_poses(std::span<const Pose> poses, Workspace& ws) {
-  for (std::size_t lane = 0; lane < kN; ++lane) {
-    const Pose& pose = poses[std::min(lane, poses.size() - 1)];
+  for (std::size_t lane = 0; lane < poses.size(); ++lane) {
+    const Pose& pose = poses[lane];
     for (std::size_t i = 0; i < 3; ++i) {
       ws.pose[i][lane] = static_cast<float>(pose.root[static_cast<Eigen::Index>(i)]);
     }
     for (std::size_t i = 0; i < kAngleCount; ++i) {
       ws.pose[3 + i][lane] = static_cast<float>(within_a_turn(pose.angles[i]));
     }
+  }
+  for (auto& number_of_lanes : ws.pose) {
+    std::fill(number_of_lanes + poses.size(), number_of_lanes + kN, number_of_lanes[poses.size() - 1]);
   }
 }
 
