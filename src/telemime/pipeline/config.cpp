@@ -29,6 +29,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("seed", c.seed);
   visit("limits", c.limits);
   visit("backend", c.backend);
+  visit("threads", c.threads);
   visit("camera/field_of_view", c.field_of_view);
   visit("budget_ms", c.budget_ms);
   visit("image/width", c.image.width);
@@ -92,6 +93,22 @@ void each_setting(C& c, Visit&& visit) {
   };
   weights("registration/region_step", c.registration.region);
   weights("registration/edge_step", c.registration.edge);
+  visit("filter/particles", c.filter.particles);
+  visit("filter/heuristics", c.filter.heuristics);
+  visit("filter/estimate", c.filter.estimate);
+  visit("filter/model", c.filter.model);
+  visit("filter/diffusion", c.filter.diffusion);
+  visit("filter/memory", c.filter.memory);
+  visit("filter/natural", c.filter.natural);
+  visit("filter/temporal", c.filter.temporal);
+  visit("filter/invalid", c.filter.invalid);
+  visit("filter/modes", c.filter.modes);
+  visit("filter/mode_radius", c.filter.mode_radius);
+  visit("filter/mode_least", c.filter.mode_least);
+  visit("filter/mode_most", c.filter.mode_most);
+  visit("filter/blocks", c.filter.blocks);
+  visit("filter/alternatives", c.filter.alternatives);
+  visit("tracking/method", c.tracking.method);
   visit("tracking/lost_region", c.tracking.lost_region);
   visit("tracking/found_region", c.tracking.found_region);
   visit("tracking/patience", c.tracking.patience);
@@ -192,6 +209,7 @@ void Config::validate() const {
   image.validate();
   calibration.validate();
   registration.validate();
+  filter.validate();
   TwoWaySmoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
   require(field_of_view > 1.0 && field_of_view < 179.0,
           "camera.field_of_view must be between 1 and 179 degrees");
@@ -199,6 +217,10 @@ void Config::validate() const {
                       [&](const BackendKind& kind) { return kind.name == backend; }),
           "backend must be one of " + backend_names());
   require(!budget_ms || (*budget_ms > 0.0 && *budget_ms < 1e5), "budget_ms must be above 0 and below 100000");
+  require(
+      tracking.method == "heuristics" || tracking.method == "condensation" || tracking.method == "two-step",
+      "tracking.method must be heuristics, condensation or two-step");
+  require(threads >= 0 && threads <= 1024, "threads must be between 0 and 1024");
   require(tracking.lost_region > 0.0 && tracking.lost_region <= 1.0,
           "tracking.lost_region must be in (0, 1]");
   require(tracking.found_region > 0.0 && tracking.found_region <= 1.0,

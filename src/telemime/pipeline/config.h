@@ -12,11 +12,15 @@
 #include "telemime/registration/calibration.h"
 #include "telemime/registration/two_step.h"
 #include "telemime/smoothing/smoother.h"
+#include "telemime/tracking/filter_config.h"
 
 namespace telemime {
 
 /// When a person counts as found, and when as lost.
 struct TrackingConfig {
+  /// heuristics and condensation: the particle filter with FilterConfig's heuristics and with none; two-step:
+  /// the search of RegistrationConfig alone.
+  std::string method = "heuristics";
   double lost_region = 0.62;   ///< F above this for `patience` frames: lost
   double found_region = 0.55;  ///< F at or below this after a search: found
   int patience = 8;            ///< frames
@@ -33,11 +37,13 @@ struct Config {
   std::string limits = "anatomical";  ///< reference, anatomical or a file
   double field_of_view = 60.0;        ///< degrees, horizontal; used when there is no camera file
   std::string backend = "simd";       ///< what evaluates poses: a name of kBackends
+  int threads = 0;                    ///< for the search; 0: as many as the machine has
   std::optional<double>
       budget_ms;  ///< time for the search in each frame: replaces registration.iterations (tune)
   ImageConfig image;
   CalibrationConfig calibration;
   RegistrationConfig registration;
+  FilterConfig filter;
   TrackingConfig tracking;
   SmoothingOptions smoothing;
 

@@ -58,6 +58,16 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       backend_(make_backend(config.backend)),
       random_(config.seed) {
   config_.validate();
+  if (config_.tracking.method != "two-step") {
+    FilterConfig filter = config_.filter;
+    if (config_.tracking.method == "condensation") {
+      filter = reference_filter("");
+      filter.particles = config_.filter.particles;
+    }
+    evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads);
+    filter_ =
+        std::make_unique<ParticleFilter>(filter, config_.registration, limits_, *evaluators_, config_.seed);
+  }
   Shape average;
   average.stature = config.calibration.stature.value_or(average.stature);
   model_ = make_model(average);
@@ -123,7 +133,9 @@ TrackedFrame Tracker::step(const Frame& frame) {
   }
   if (coloured) {
     prepare(result.observation, working_camera_, prepared_);
-    if (phase_ == Phase::tracking) {
+    if (phase_ == Phase::tracking && filter_) {
+      follow_with_filter(prepared_, result);
+    } else if (phase_ == Phase::tracking) {
       follow(prepared_, result);
     } else if (++waited_; --frames_until_search_ <= 0 || (known_ && frame.index == known_->frame)) {
       search(prepared_, result.observation, result);
@@ -206,12 +218,26 @@ void Tracker::follow(const PreparedFrame& prepared, TrackedFrame& result) {
   result.motion.stage_ms.emplace_back("edges", found.edge_ms);
   previous_ = pose_;
   adopt(found.pose, found.score, result);
+  watch(found.score, result);
+}
 
+void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& result) {
+  if (!filter_->started()) {
+    filter_->start(pose_);
+  }
+  const FilterResult found = filter_->step(prepared, model_, config_.tracking.velocity);
+  result.motion.evaluations += found.evaluations;
+  previous_ = pose_;
+  adopt(found.pose, found.score, result);
+  watch(found.score, result);
+}
+
+void Tracker::watch(const Score& score, TrackedFrame& result) {
   if (!features_.status().person) {
     lose("nobody is in the picture", result);
     return;
   }
-  const bool bad = found.score.region > config_.tracking.lost_region || !result.observation.head;
+  const bool bad = score.region > config_.tracking.lost_region || !result.observation.head;
   bad_frames_ = bad ? bad_frames_ + 1 : 0;
   if (bad_frames_ >= config_.tracking.patience) {
     lose("the body no longer fits the picture", result);
@@ -228,6 +254,9 @@ void Tracker::adopt(const Pose& pose, const Score& score, TrackedFrame& result) 
 void Tracker::lose(const std::string& why, TrackedFrame& result) {
   phase_ = calibration_ ? Phase::lost : Phase::waiting;
   bad_frames_ = 0;
+  if (filter_) {
+    filter_->stop();
+  }
   frames_until_search_ = config_.tracking.retry_every;
   result.note = why;
 }

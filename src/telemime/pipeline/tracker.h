@@ -14,6 +14,7 @@
 #include "telemime/image/features.h"
 #include "telemime/likelihood/backend.h"
 #include "telemime/pipeline/config.h"
+#include "telemime/tracking/particle_filter.h"
 
 namespace telemime {
 
@@ -82,6 +83,8 @@ class Tracker {
   bool person_colours(const Frame& frame, std::string& note);
   void search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result);
   void follow(const PreparedFrame& prepared, TrackedFrame& result);
+  void follow_with_filter(const PreparedFrame& prepared, TrackedFrame& result);
+  void watch(const Score& score, TrackedFrame& result);
   void adopt(const Pose& pose, const Score& score, TrackedFrame& result);
   void lose(const std::string& why, TrackedFrame& result);
 
@@ -91,7 +94,9 @@ class Tracker {
   JointLimits limits_;
   FeatureExtractor features_;
   std::unique_ptr<Backend> backend_;
-  PreparedFrame prepared_;  ///< the last frame, for its memory
+  std::unique_ptr<Evaluators> evaluators_;
+  std::unique_ptr<ParticleFilter> filter_;  ///< null: registration alone
+  PreparedFrame prepared_;                  ///< the last frame, for its memory
   Random random_;
   Model model_;
   std::optional<TrackerCalibration> calibration_;

@@ -18,13 +18,6 @@ struct Candidate {
   double cost = 0.0;
 };
 
-// The other point of the ray through `point` at the same distance from `parent`.
-Eigen::Vector3d other_on_ray(const Eigen::Vector3d& point, const Eigen::Vector3d& parent) {
-  const Eigen::Vector3d ray = point.normalized();
-  const double near_parent = ray.dot(parent);
-  return ray * (2.0 * near_parent - point.norm());
-}
-
 }  // namespace
 
 Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random) {
@@ -115,34 +108,6 @@ Pose search_arm(Objective& objective, const Pose& pose, Side side, const Objecti
     }
   }
   return best.pose;
-}
-
-std::vector<Pose> depth_flips(const Body& body, const Pose& pose, Side side, const JointLimits& limits) {
-  const bool left = side == Side::left;
-  const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-  const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
-  const double fore = (wrist - elbow).norm();
-  const Eigen::Vector3d other_elbow = other_on_ray(elbow, shoulder);
-  // The wrist's ray meets the sphere about the moved elbow where it can: near and far.
-  const Eigen::Vector3d ray = wrist.normalized();
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> places = {{elbow, other_on_ray(wrist, elbow)}};
-  const double along = ray.dot(other_elbow);
-  const double across = (other_elbow - ray * along).norm();
-  const double half = std::sqrt(std::max(0.0, fore * fore - across * across));
-  places.emplace_back(other_elbow, ray * (along - half));
-  places.emplace_back(other_elbow, ray * (along + half));
-  std::vector<Pose> flips;
-  for (const auto& [e, w] : places) {
-    Pose flipped = pose;
-    set_arm_angles(flipped, side, arm_through(body, pose, side, e, w, limits));
-    if (e.z() > 0.1 && w.z() > 0.1 && limits.contains(flipped, 1e-6) &&
-        interpenetration(body, forward_kinematics(body, flipped)) < kInvalidInterpenetration) {
-      flips.push_back(flipped);
-    }
-  }
-  return flips;
 }
 
 }  // namespace telemime

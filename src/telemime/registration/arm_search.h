@@ -30,9 +30,4 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
 Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,
                 const ArmSearchConfig& config, Random& random);
 
-/// The other poses of one arm that look nearly the same in the image (thesis 4.4.2.2.3): the elbow and the
-/// wrist each have a second place on their viewing ray at the same distance from their parent joint. Up to 3
-/// poses, inside the limits and without interpenetration.
-std::vector<Pose> depth_flips(const Body& body, const Pose& pose, Side side, const JointLimits& limits);
-
 }  // namespace telemime

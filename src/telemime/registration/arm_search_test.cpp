@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/testing_poses.h"
@@ -130,7 +131,7 @@ TEST(DepthFlips, LookTheSameButLieElsewhere) {
     Pose pose = random_pose(limits, random, 0.1);
     for (const Side side : kSides) {
       const JointPositions here = forward_kinematics(body, pose).joints;
-      for (const Pose& flip : depth_flips(body, pose, side, limits)) {
+      for (const Pose& flip : arm_flips(body, pose, side, limits)) {
         const JointPositions there = forward_kinematics(body, flip).joints;
         ++flips;
         ASSERT_TRUE(limits.contains(flip, 1e-6));
@@ -162,7 +163,7 @@ TEST(DepthFlips, OfAnElbowBeforeTheBodyLiesBehindIt) {
       return j[testing_poses::shoulder_of(side)].z() - j[elbow_of(side)].z();
     };
     ASSERT_GT(elbow_ahead(pose), 0.1);
-    const auto flips = depth_flips(body, pose, side, anatomical_limits());
+    const auto flips = arm_flips(body, pose, side, anatomical_limits());
     EXPECT_TRUE(std::any_of(flips.begin(), flips.end(), [&](const Pose& p) { return elbow_ahead(p) < 0.0; }));
   }
 }

@@ -104,13 +104,13 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
   return block;
 }
 
-namespace {
-
 std::array<Angle, 3> hand_angles(Side side) {
   return side == Side::left
              ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot, Angle::l_wrist_twisting}
              : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot, Angle::r_wrist_twisting};
 }
+
+namespace {
 
 // A block of 7 numbers whose last three are the hand's angles; the first four are the caller's.
 SearchBlock with_hand(std::string_view name, const Pose& pose, Side side, const JointLimits& limits,
@@ -206,12 +206,18 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
   block.bounds.low.head<4>() << -4.0, -4.0, kNearest, target.swivel - std::numbers::pi;
   block.bounds.high.head<4>() << 4.0, 4.0, kFarthest, target.swivel + std::numbers::pi;
   block.decode = [&body, pose, side, &limits](const Eigen::VectorXd& x) {
-    const ArmTarget wanted = {Eigen::Vector3d(x[0] * x[2], x[1] * x[2], x[2]), wrap_angle(x[3])};
-    Pose moved = with_wrist(body, pose, side, wanted, limits);
-    set_hand(moved, side, x);
-    return moved;
+    return with_arm(body, pose, side, x, limits);
   };
   return block;
+}
+
+Pose with_arm(const Body& body, const Pose& pose, Side side, const Eigen::VectorXd& point,
+              const JointLimits& limits) {
+  const ArmTarget wanted = {Eigen::Vector3d(point[0] * point[2], point[1] * point[2], point[2]),
+                            wrap_angle(point[3])};
+  Pose moved = with_wrist(body, pose, side, wanted, limits);
+  set_hand(moved, side, point);
+  return moved;
 }
 
 }  // namespace telemime

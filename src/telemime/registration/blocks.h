@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <string_view>
 
@@ -32,6 +33,13 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
 /// flexion, pivot and twisting (7 numbers). A wrist out of reach is drawn into reach.
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor);
+
+/// The hand's three numbers in arm_block and bones_block: flexion, pivot, twisting.
+std::array<Angle, 3> hand_angles(Side side);
+
+/// A point of arm_block() as a pose.
+Pose with_arm(const Body& body, const Pose& pose, Side side, const Eigen::VectorXd& point,
+              const JointLimits& limits);
 
 /// One arm by the directions of its bones: upper arm and forearm each turned within the image plane and in
 /// depth (rad), and the hand's flexion, pivot and twisting (7 numbers). The forearm keeps its direction when

@@ -10,10 +10,10 @@
 namespace telemime {
 namespace {
 
-// The head of the model at 1.70 m, from the neck (mesh.cpp): chin at 0.030, crown at 0.256, centre 0.045
-// ahead.
+// The head of the model at 1.70 m, from the neck (mesh.cpp): chin at 0.030, crown with hair at 0.271, centre
+// 0.045 ahead.
 constexpr double kChin = 0.030;
-constexpr double kCrown = 0.256;
+constexpr double kCrown = 0.271;
 constexpr double kAhead = 0.045;
 constexpr double kDesignStature = 1.70;
 

@@ -24,16 +24,6 @@ double outside_limits(const JointLimits& limits, const Pose& pose) {
 // What a joint far from where it was expected costs at most: one that was lost must be able to come back.
 constexpr double kFarthest = 2.0;
 
-double distance_from_expected(const Kinematics& k, const JointPositions& expected) {
-  constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
-  double sum = 0.0;
-  for (const Joint j : kArms) {
-    const double way = (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
-    sum += way / (1.0 + way / kFarthest);
-  }
-  return sum / static_cast<double>(kArms.size());
-}
-
 double trunk_change(const Pose& pose, const Pose& expected) {
   double sum = (pose.root - expected.root).squaredNorm() / square(0.03);
   for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_torsion,
@@ -54,6 +44,16 @@ double depth_of_arms(const Kinematics& k) {
 }
 
 }  // namespace
+
+double distance_from_expected(const Kinematics& k, const JointPositions& expected) {
+  constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
+  double sum = 0.0;
+  for (const Joint j : kArms) {
+    const double way = (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
+    sum += way / (1.0 + way / kFarthest);
+  }
+  return sum / static_cast<double>(kArms.size());
+}
 
 double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
   const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();

@@ -30,6 +30,10 @@ struct ObjectiveWeights {
 /// Panero & Zelnik, Human Dimension and Interior Space, 1979 (zones of convenient reach).
 double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics);
 
+/// Mean over elbows and wrists of the squared way (over 0.15 m) from where they are expected, each counted as
+/// 2 at most: an arm that was lost must be able to come back.
+double distance_from_expected(const Kinematics& kinematics, const JointPositions& expected);
+
 /// Cost of one pose against one frame. Counts its evaluations. Holds references: use it within one frame.
 class Objective {
  public:

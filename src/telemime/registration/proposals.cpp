@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "telemime/body/arm_flips.h"
 #include "telemime/core/errors.h"
 #include "telemime/registration/arm_search.h"
 #include "telemime/registration/blocks.h"
@@ -76,7 +77,7 @@ std::vector<Pose> arms_from_elsewhere(const Objective& objective, const Pose& fr
     arms.push_back(random_arm(body, from, side, limits, random));
   }
   if (config.flips) {
-    const std::vector<Pose> flips = depth_flips(body, from, side, limits);
+    const std::vector<Pose> flips = arm_flips(body, from, side, limits);
     arms.insert(arms.end(), flips.begin(), flips.end());
   }
   return arms;

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/context.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "telemime/body/interpenetration.h"
+#include "telemime/likelihood/all.h"
+
+namespace telemime {
+
+Evaluators::Evaluators(const std::string& backend, int threads)
+    : threads_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
+  batch_ = make_backend(backend, {threads_});
+  // Single poses suit no device, and `parts` remembers the pose before.
+  const std::string single = backend == "scalar" || backend == "parts" ? "scalar" : "simd";
+  for (int i = 0; i < threads_; ++i) {
+    singles_.push_back(make_backend(single));
+  }
+}
+
+void Evaluators::evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+                          std::span<Score> scores) {
+  batch_->evaluate(frame, model, poses, Reduction::all, scores);
+}
+
+void Evaluators::each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work) {
+  tbb::task_arena arena(threads_);
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      work(i, *singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+    });
+  });
+}
+
+Random FilterContext::random(std::uint64_t purpose, std::uint64_t index) const {
+  return Random(seed, (purpose << 32U) ^ index);
+}
+
+double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
+  const double region = score.region / c.numbers.sigma_region;
+  const double contour = score.contour / (c.numbers.sigma_contour * c.frame.camera.width);
+  double sum = -0.5 * region * region - 0.5 * contour * contour;
+  if (c.config.invalid <= 0.0 && c.config.natural <= 0.0 && c.config.temporal <= 0.0) {
+    return sum;
+  }
+  const Body& body = c.model.body;
+  const Kinematics k = forward_kinematics(body, pose);
+  sum -= c.config.invalid * interpenetration(body, k);
+  sum -= c.config.natural > 0.0 ? c.config.natural * natural_cost(body, pose, k) : 0.0;
+  if (c.config.temporal > 0.0) {
+    sum -= c.config.temporal * distance_from_expected(k, forward_kinematics(body, c.expected).joints);
+  }
+  return sum;
+}
+
+void measure(const FilterContext& context, std::span<Particle> particles) {
+  std::vector<std::size_t> which;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (!particles[i].measured) {
+      which.push_back(i);
+      poses.push_back(particles[i].pose);
+    }
+  }
+  std::vector<Score> scores(poses.size());
+  context.evaluators.evaluate(context.frame, context.model, poses, scores);
+  context.evaluators.each(which.size(), [&](std::size_t i, Backend&) {
+    Particle& p = particles[which[i]];
+    p.score = scores[i];
+    p.log_likelihood = log_likelihood(context, p.pose, p.score);
+    p.measured = true;
+  });
+}
+
+}  // namespace telemime

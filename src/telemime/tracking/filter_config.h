@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "telemime/registration/two_step.h"
+
+namespace telemime {
+
+/// Settings of the particle filter. The defaults are ours; reference_filter() gives the thesis's.
+struct FilterConfig {
+  /// Particles of a frame; each is one evaluation, those that a local search spends included.
+  int particles = 2000;
+  std::string heuristics = "modes,wd,lo,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
+  std::string estimate = "heaviest";          ///< or mean
+  std::string model;       ///< file of the numbers that `telemime learn` writes; empty: data/filter.json
+  double diffusion = 1.0;  ///< S of equation 4.13: multiplies every standard deviation
+  /// Share of a generation's log weights that the next one remembers: 1 is a Markov chain with independent
+  /// frames; errors of the model last for many frames, so less is nearer to the truth.
+  double memory = 0.7;
+  /// What is known without the image, as log likelihood: nats for each unit of natural_cost, for the squared
+  /// way of elbows and wrists from where they are expected (ObjectiveWeights::temporal), for each metre of
+  /// interpenetration.
+  double natural = 4.0;
+  double temporal = 2.0;
+  double invalid = 400.0;
+  int modes = 4;  ///< that are kept apart
+  double mode_radius =
+      0.08;              ///< m, farthest that an elbow or wrist of one mode may be from its best particle
+  int mode_least = 100;  ///< evaluations that each mode gets at least
+  int mode_most = 1200;  ///< at most, for its local search
+  /// false: the local search is the thesis's single simplex over all moving numbers. true:
+  /// RegistrationConfig.
+  bool blocks = true;
+  int alternatives = 2;  ///< families whose best particle is flipped
+
+  /// Throws Error(config) with what to change.
+  void validate() const;
+};
+
+/// The thesis's filter: `heuristics` as given, no prior knowledge but what is invalid, no memory but the
+/// Markov chain's.
+FilterConfig reference_filter(const std::string& heuristics);
+
+}  // namespace telemime

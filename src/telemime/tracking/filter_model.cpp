@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/filter_model.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMillimetre = 1e-3;
+constexpr const char* kDefault =
+#include "filter_model.inc"
+    ;
+
+// The unit of a pose number in the file: mm, then degrees.
+double unit_of(std::size_t index) {
+  return index < 3 ? kMillimetre : kDegree;
+}
+
+std::string name_of(std::size_t index) {
+  constexpr std::array<const char*, 3> kRoot = {"root_x", "root_y", "root_z"};
+  return index < 3 ? kRoot[index] : std::string(kAngleNames[index - 3]);
+}
+
+double positive(const Json& json, const std::string& key, const std::string& name) {
+  if (!json.contains(key) || !json[key].is_number() || !std::isfinite(json[key].get<double>()) ||
+      json[key].get<double>() <= 0.0) {
+    throw Error(ErrorKind::config, name + ": '" + key + "' must be a number above 0",
+                "`telemime learn` writes such files.");
+  }
+  return json[key].get<double>();
+}
+
+}  // namespace
+
+FilterModel default_filter_model() {
+  return parse_filter_model(kDefault, "data/filter.json");
+}
+
+FilterModel parse_filter_model(const std::string& text, const std::string& name) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || json.value("format", "") != "telemime-filter") {
+    throw Error(ErrorKind::config, name + " is no file of the filter's numbers",
+                "It must be a JSON object with \"format\": \"telemime-filter\".");
+  }
+  const Json none = Json::object();
+  const auto group = [&](const char* key) -> const Json& { return json.contains(key) ? json[key] : none; };
+  FilterModel model;
+  model.sigma_region = positive(json, "sigma_F", name);
+  model.sigma_contour = positive(json, "sigma_D_share_of_width", name);
+  for (std::size_t i = 0; i < kPoseSize; ++i) {
+    model.change[static_cast<Eigen::Index>(i)] = positive(group("change"), name_of(i), name) * unit_of(i);
+  }
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    model.motion[i] = positive(group("motion"), std::string(kPartNames[i]), name);
+  }
+  const Json& wrist = group("end_effector");
+  model.wrist_across = positive(wrist, "wrist_across_mm", name) * kMillimetre;
+  model.wrist_along = positive(wrist, "wrist_along_mm", name) * kMillimetre;
+  model.swivel = positive(wrist, "swivel_degrees", name) * kDegree;
+  return model;
+}
+
+FilterModel load_filter_model(const std::string& file) {
+  if (file.empty()) {
+    return default_filter_model();
+  }
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) {
+    throw Error(ErrorKind::config, "the filter's numbers, " + file + ", cannot be opened",
+                "Check the path and its permissions.");
+  }
+  return parse_filter_model(std::string(std::istreambuf_iterator<char>(in), {}), file);
+}
+
+std::string to_json_text(const FilterModel& model, const std::string& note) {
+  const auto rounded = [](double value, double step) { return std::round(value / step) * step; };
+  Json json = {{"format", "telemime-filter"},
+               {"note", note},
+               {"sigma_F", model.sigma_region},
+               {"sigma_D_share_of_width", model.sigma_contour}};
+  for (std::size_t i = 0; i < kPoseSize; ++i) {
+    json["change"][name_of(i)] = rounded(model.change[static_cast<Eigen::Index>(i)] / unit_of(i), 0.001);
+  }
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    json["motion"][std::string(kPartNames[i])] = model.motion[i];
+  }
+  json["end_effector"] = {{"wrist_across_mm", model.wrist_across / kMillimetre},
+                          {"wrist_along_mm", model.wrist_along / kMillimetre},
+                          {"swivel_degrees", model.swivel / kDegree}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace telemime

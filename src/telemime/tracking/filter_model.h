@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "telemime/body/pose.h"
+#include "telemime/tracking/parts.h"
+
+namespace telemime {
+
+/// What the filter knows from sequences (data/filter.json, made by `telemime learn`): how much the scores
+/// vary and how people move from one frame to the next at 25 frames a second.
+struct FilterModel {
+  double sigma_region = 0.0;               ///< sigma_F of thesis equation 4.12
+  double sigma_contour = 0.0;              ///< sigma_D, as a share of the image's width
+  PoseVector change = PoseVector::Zero();  ///< standard deviations of equation 4.13: m, rad
+  /// alpha_k of equation 4.20: a part moves when it uncovers this share of its pixels.
+  std::array<double, kPartCount> motion{};
+  double wrist_across = 0.0;  ///< standard deviations in end-effector space: m across the viewing ray
+  double wrist_along = 0.0;   ///< m along it
+  double swivel = 0.0;        ///< rad
+};
+
+/// The numbers of data/filter.json.
+FilterModel default_filter_model();
+
+/// Throws Error(config) that names what is missing or wrong; `name` is for messages.
+FilterModel parse_filter_model(const std::string& json, const std::string& name);
+
+/// The built-in numbers for an empty name, else those of the file. Throws Error(config).
+FilterModel load_filter_model(const std::string& file);
+
+/// As parse_filter_model reads it.
+std::string to_json_text(const FilterModel& model, const std::string& note);
+
+}  // namespace telemime

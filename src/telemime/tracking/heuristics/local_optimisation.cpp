@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/heuristics/local_optimisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "telemime/body/interpenetration.h"
+#include "telemime/tracking/purposes.h"
+#include "telemime/tracking/search_space.h"
+
+namespace telemime {
+namespace {
+
+struct Job {
+  int parent = 0;
+  int evaluations = 0;
+};
+
+// F, then D_C, each with what keeps segments out of each other (thesis 3.5.4).
+double cost_of(const Body& body, const Particle& particle, bool contour) {
+  const double inside = interpenetration(body, forward_kinematics(body, particle.pose));
+  return contour ? particle.score.contour + 40.0 * inside : particle.score.region + 4.0 * inside;
+}
+
+// The thesis's: one simplex over all moving numbers, from diffused children; every vertex is a particle.
+std::vector<Particle> descend(const FilterContext& context, const Generation& generation, const Job& job,
+                              Backend& backend) {
+  const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
+  const SearchSpace space = search_space(context, parent.pose, generation.moving, generation.end_effector);
+  const Eigen::Index n = space.block.start.size();
+  Random random = context.random(purpose::kSimplex, static_cast<std::uint64_t>(job.parent));
+  Objective objective(backend, context.frame, context.model, context.limits);
+  std::vector<Particle> children;
+  bool contour = false;
+  const auto cost = [&](const Eigen::VectorXd& x) {
+    Particle child;
+    child.pose = context.limits.clamp(space.block.decode(x));
+    child.score = objective.score(child.pose, Reduction::all);
+    child.log_likelihood = log_likelihood(context, child.pose, child.score);
+    child.parent = job.parent;
+    child.prior = 1.0 / context.config.particles;
+    child.origin = Origin::optimised;
+    child.measured = true;
+    children.push_back(child);
+    return cost_of(context.model.body, child, contour);
+  };
+  std::vector<Eigen::VectorXd> start = {space.block.start};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Eigen::VectorXd x = space.block.start;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      x[j] = std::clamp(random.normal(x[j], space.block.steps[j]), space.block.bounds.low[j],
+                        space.block.bounds.high[j]);
+    }
+    start.push_back(x);
+  }
+  SimplexOptions options;
+  const int iterations = job.evaluations - static_cast<int>(n) - 1;
+  const int edges = static_cast<int>(std::lround((1.0 - context.search.region_share) * iterations));
+  const bool both = edges > static_cast<int>(n) + 1;
+  options.max_evaluations = job.evaluations - (both ? edges : 0);
+  const SimplexResult regions = minimise(cost, start, space.block.bounds, options);
+  if (both) {
+    contour = true;
+    options.max_evaluations = job.evaluations - static_cast<int>(children.size());
+    minimise(cost, restart_simplex(regions.simplex, 0.2 * space.block.steps, space.block.bounds),
+             space.block.bounds, options);
+  }
+  return children;
+}
+
+// Ours: trunk and arms in turn, with the prior, from where the arms are expected or from where they were.
+std::vector<Particle> search_blocks(const FilterContext& context, const Generation& generation,
+                                    const Job& job, bool first, Backend& backend) {
+  const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
+  Random random = context.random(purpose::kSimplex, static_cast<std::uint64_t>(job.parent));
+  RegistrationConfig search = context.search;
+  search.iterations = job.evaluations;
+  if (!first) {
+    search.proposals = no_proposals();
+  }
+  Objective objective(backend, context.frame, context.model, context.limits);
+  Pose start = parent.pose;
+  if (first) {
+    const bool goes_on = objective(context.expected, search.region) < objective(start, search.region);
+    start = goes_on ? context.expected : start;
+  }
+  objective.expect(start);
+  const RegistrationResult found = register_pose(objective, start, search, random);
+  Particle child;
+  child.pose = found.pose;
+  child.score = found.score;
+  child.log_likelihood = log_likelihood(context, child.pose, child.score);
+  child.parent = job.parent;
+  child.prior = static_cast<double>(job.evaluations) / context.config.particles;
+  child.origin = Origin::optimised;
+  child.measured = true;
+  return {child};
+}
+
+std::vector<Job> jobs_of(const FilterContext& context, const Generation& generation) {
+  std::vector<Job> jobs;
+  const auto dimensions = static_cast<int>(numbers_of(generation.moving).size());
+  for (std::size_t i = 0; i < generation.counts.size(); ++i) {
+    const int count = generation.counts[i];
+    if (context.config.blocks) {
+      if (generation.parents.size() <= static_cast<std::size_t>(context.config.modes) ||
+          count >= context.config.mode_least) {
+        jobs.push_back(
+            {static_cast<int>(i), std::clamp(count, context.config.mode_least, context.config.mode_most)});
+      }
+    } else if (dimensions > 0 && count > dimensions) {
+      jobs.push_back({static_cast<int>(i), count});
+    }
+  }
+  return jobs;
+}
+
+}  // namespace
+
+void optimise_families(const FilterContext& context, Generation& generation) {
+  const std::vector<Job> jobs = jobs_of(context, generation);
+  std::vector<std::vector<Particle>> made(jobs.size());
+  context.evaluators.each(jobs.size(), [&](std::size_t i, Backend& backend) {
+    made[i] = context.config.blocks
+                  ? search_blocks(context, generation, jobs[i], jobs[i].parent == 0, backend)
+                  : descend(context, generation, jobs[i], backend);
+  });
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    int& left = generation.counts[static_cast<std::size_t>(jobs[i].parent)];
+    left = std::max(0, left - jobs[i].evaluations);
+    generation.evaluations += jobs[i].evaluations;
+    std::move(made[i].begin(), made[i].end(), std::back_inserter(generation.particles));
+  }
+}
+
+}  // namespace telemime

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/particle_filter.h"
+
+#include <algorithm>
+
+#include "telemime/core/errors.h"
+#include "telemime/tracking/heuristics/all.h"
+#include "telemime/tracking/purposes.h"
+#include "telemime/tracking/resampling.h"
+#include "telemime/tracking/search_space.h"
+
+namespace telemime {
+namespace {
+
+// CONDENSATION's own (thesis 4.2.3), where no heuristic resamples.
+void resample_at_random(const FilterContext& context, Generation& generation) {
+  std::vector<double> weights;
+  for (const Particle& p : generation.parents) {
+    weights.push_back(p.weight);
+  }
+  Random random = context.random(purpose::kResampling);
+  generation.counts = multinomial_counts(weights, context.config.particles, random);
+}
+
+// The children that are left, each diffused from its parent (thesis 4.4.1.3).
+void diffuse(const FilterContext& context, Generation& generation) {
+  std::vector<std::pair<std::size_t, std::size_t>> families;  // parent, first child
+  std::size_t at = generation.particles.size();
+  for (std::size_t i = 0; i < generation.counts.size(); ++i) {
+    if (generation.counts[i] > 0) {
+      families.emplace_back(i, at);
+      at += static_cast<std::size_t>(generation.counts[i]);
+    }
+  }
+  generation.particles.resize(at);
+  const std::size_t best = heaviest(generation.parents);
+  context.evaluators.each(families.size(), [&](std::size_t f, Backend&) {
+    const auto [parent, first] = families[f];
+    const Pose& from = generation.parents[parent].pose;
+    const SearchSpace space = search_space(context, from, generation.moving, generation.end_effector);
+    for (int c = 0; c < generation.counts[parent]; ++c) {
+      const std::size_t index = first + static_cast<std::size_t>(c);
+      Particle& child = generation.particles[index];
+      const bool kept = generation.keep_best && parent == best && c == 0;
+      Random random = context.random(purpose::kDiffusion, index);
+      child.pose = kept ? from : diffused(context, space, random);
+      child.origin = kept ? Origin::kept : Origin::diffused;
+      child.parent = static_cast<int>(parent);
+      child.prior = 1.0 / context.config.particles;
+    }
+  });
+}
+
+// As many particles as there were before the alternatives came: the lightest go.
+void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
+  if (particles.size() <= count) {
+    return;
+  }
+  weigh(particles);
+  std::stable_sort(particles.begin(), particles.end(),
+                   [](const Particle& a, const Particle& b) { return a.weight > b.weight; });
+  particles.resize(count);
+}
+
+// The arms are expected to go on as they did; the trunk hardly moves, and extrapolating it would only shake
+// it.
+Pose extrapolated(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
+  PoseVector motion = pose.vector() - before.vector();
+  motion.head<9>().setZero();
+  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
+}
+
+}  // namespace
+
+ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationConfig& search,
+                               const JointLimits& limits, Evaluators& evaluators, std::uint64_t seed)
+    : config_(config),
+      search_(search),
+      limits_(limits),
+      evaluators_(evaluators),
+      numbers_(load_filter_model(config.model)),
+      heuristics_(parse_heuristics(config.heuristics)),
+      seeds_(seed) {
+  config_.validate();
+}
+
+void ParticleFilter::start(const Pose& pose) {
+  Particle particle;
+  particle.pose = limits_.clamp(pose);
+  particle.weight = particle.prior = 1.0;
+  particles_ = {particle};
+  estimate_ = before_ = particle.pose;
+  labels_before_.release();
+}
+
+void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& generation) const {
+  for (const Heuristic* heuristic : heuristics_) {
+    if (heuristic->stage == stage) {
+      heuristic->run(context, generation);
+    }
+  }
+}
+
+FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model, double velocity) {
+  if (particles_.empty()) {
+    throw Error(ErrorKind::usage, "the particle filter was not started");
+  }
+  const Pose expected = extrapolated(estimate_, before_, velocity, limits_);
+  const FilterContext context{frame,        labels_before_.empty() ? nullptr : &labels_before_,
+                              model,        limits_,
+                              config_,      numbers_,
+                              search_,      estimate_,
+                              expected,     evaluators_,
+                              seeds_.bits()};
+  Generation generation;
+  generation.parents = std::move(particles_);
+  run(Stage::merge, context, generation);
+  run(Stage::resample, context, generation);
+  if (generation.counts.empty()) {
+    resample_at_random(context, generation);
+  }
+  run(Stage::partition, context, generation);
+  run(Stage::optimise, context, generation);
+  const std::size_t searched = generation.particles.size();
+  diffuse(context, generation);
+  measure(context, generation.particles);
+  const std::size_t count = generation.particles.size();
+  run(Stage::alternatives, context, generation);
+  measure(context, generation.particles);
+
+  FilterResult result;
+  result.evaluations = generation.evaluations + static_cast<int>(generation.particles.size() - searched);
+  drop_lightest(count, generation.particles);
+  weigh(generation.particles);
+  particles_ = std::move(generation.particles);
+  const Particle& best = particles_[heaviest(particles_)];
+  before_ = estimate_;
+  estimate_ = config_.estimate == "mean" ? limits_.clamp(mean_pose(particles_)) : best.pose;
+  frame.labels.copyTo(labels_before_);
+  result.pose = estimate_;
+  result.score = best.score;
+  result.effective_particles = effective_sample_size(particles_);
+  result.moving = generation.moving;
+  return result;
+}
+
+}  // namespace telemime

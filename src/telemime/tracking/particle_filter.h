@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/tracking/context.h"
+#include "telemime/tracking/generation.h"
+#include "telemime/tracking/heuristics/heuristic.h"
+
+namespace telemime {
+
+/// What one frame gave.
+struct FilterResult {
+  Pose pose;  ///< the estimate
+  Score score;
+  int evaluations = 0;
+  double effective_particles = 0.0;
+  PartSet moving;
+};
+
+/// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on one by one. The
+/// same seed and frames give the same result, for any number of threads.
+class ParticleFilter {
+ public:
+  /// `search` is for the local search of FilterConfig::blocks. Throws Error(config), Error(usage).
+  ParticleFilter(const FilterConfig& config, const RegistrationConfig& search, const JointLimits& limits,
+                 Evaluators& evaluators, std::uint64_t seed);
+
+  /// All particles at one pose, in the frame that comes next or before.
+  void start(const Pose& pose);
+  /// Forgets all particles.
+  void stop() { particles_.clear(); }
+  bool started() const { return !particles_.empty(); }
+
+  /// One frame. Must have been started. `velocity`: share of the last motion that is expected again.
+  FilterResult step(const PreparedFrame& frame, const Model& model, double velocity);
+
+  /// Of the last frame, weights normalised; `parent` is an index of the generation before.
+  const std::vector<Particle>& particles() const { return particles_; }
+
+ private:
+  void run(Stage stage, const FilterContext& context, Generation& generation) const;
+
+  FilterConfig config_;
+  RegistrationConfig search_;
+  const JointLimits& limits_;
+  Evaluators& evaluators_;
+  FilterModel numbers_;
+  std::vector<const Heuristic*> heuristics_;
+  Random seeds_;
+  std::vector<Particle> particles_;
+  Pose estimate_;
+  Pose before_;
+  cv::Mat labels_before_;
+};
+
+}  // namespace telemime
