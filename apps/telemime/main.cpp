@@ -12,6 +12,7 @@
 #include "evaluate_command.h"
 #include "exit_codes.h"
 #include "experiments_command.h"
+#include "learn_command.h"
 #include "synth_command.h"
 #include "telemime/capture/quiet.h"
 #include "track_command.h"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   telemime::add_evaluate_command(app);
   telemime::add_synth_command(app);
   telemime::add_tune_command(app);
+  telemime::add_learn_command(app);
   telemime::add_bench_command(app);
   telemime::add_experiments_command(app);
   telemime::add_config_command(app);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,15 @@ namespace telemime {
 
 enum class TrackState { lost, tracking };
 
+/// How sure the tracker is of a pose.
+struct PoseSpread {
+  /// Of each joint's place as seen from the middle of the shoulders: covariance (m^2, camera axes). What is
+  /// not known of the person's size is in it.
+  std::array<Eigen::Matrix3d, kJointCount> covariance{};
+  double second_mode = 0.0;          ///< weight of the second-best mode, in [0, 1]
+  double effective_particles = 0.0;  ///< how many particles carry the estimate
+};
+
 /// What one frame gives to the outputs: the pose and everything that they may want to say about it.
 struct MotionFrame {
   std::int64_t frame = 0;  ///< from 0, every input frame
@@ -24,6 +34,7 @@ struct MotionFrame {
   Pose pose;              ///< when lost: the last known (or the rest) pose, not to be trusted
   JointPositions joints;  ///< m, camera frame
   std::array<Eigen::Vector2d, kJointCount> pixels{};  ///< of the INPUT image, integer = pixel centre
+  std::optional<PoseSpread> spread;                   ///< nothing from searches that keep one pose alone
   double region_score = 0.0;                          ///< F, in [0, 1]
   double contour_score = 0.0;                         ///< D_C, pixels of the working image
   int evaluations = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/evaluation/evaluate.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 
@@ -103,11 +105,43 @@ void count_lost(const Matched& matched, const Truth& truth, Evaluation& result) 
   }
 }
 
+// Does the stated spread hold the truth?
+struct Coverage {
+  Mean all;
+  Mean across;
+  Mean depth;
+  std::array<Mean, kJointCount> by_joint;
+
+  void add(const MotionFrame& frame, const FrameErrors& errors, double scale) {
+    // 95 % of a three-dimensional Gaussian lie within this squared Mahalanobis distance.
+    constexpr double kChiSquared = 7.8147;
+    if (!frame.spread) {
+      return;
+    }
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      if (!errors[j] || !errors[j]->aligned) {
+        continue;
+      }
+      const Eigen::Matrix3d covariance = frame.spread->covariance[j] * scale * scale;
+      const Eigen::Vector3d& error = *errors[j]->aligned;
+      const double inside = error.dot(covariance.ldlt().solve(error)) <= kChiSquared ? 1.0 : 0.0;
+      by_joint[j].add(inside);
+      const Joint joint = static_cast<Joint>(j);
+      if (std::find(kScoredJoints.begin(), kScoredJoints.end(), joint) != kScoredJoints.end()) {
+        all.add(inside);
+        across.add(std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))));
+        depth.add(std::sqrt(covariance(2, 2)));
+      }
+    }
+  }
+};
+
 void measure_errors(const Matched& matched, const Camera& input, const Truth& truth, Evaluation& result) {
   ErrorCollector tracked;
   ErrorCollector all;
   Mean region;
   Mean contour;
+  Coverage coverage;
   for (std::size_t t = 0; t < truth.frames.size(); ++t) {
     if (!truth.is_scored(t)) {
       continue;
@@ -124,6 +158,7 @@ void measure_errors(const Matched& matched, const Camera& input, const Truth& tr
       continue;
     }
     tracked.add(errors);
+    coverage.add(*frame, errors, result.fitted_scale.value_or(1.0));
     region.add(frame->region_score);
     contour.add(frame->contour_score);
     result.mistracked += frame->region_score > result.options.max_region_score ||
@@ -136,6 +171,12 @@ void measure_errors(const Matched& matched, const Camera& input, const Truth& tr
   }
   result.all = all.report();
   result.tracked = tracked.report();
+  result.covered = coverage.all.value();
+  result.stated_across = coverage.across.value();
+  result.stated_depth = coverage.depth.value();
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    result.covered_by_joint[j] = coverage.by_joint[j].value();
+  }
   result.mean_region = region.value();
   result.mean_contour = contour.value();
 }

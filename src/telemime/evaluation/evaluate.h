@@ -68,8 +68,14 @@ struct Evaluation {
   std::optional<double> mean_contour;  ///< D_C, pixels of the working image
   std::size_t mistracked = 0;          ///< scored, tracked frames with F or D_C above its threshold
   std::vector<std::int64_t> swapped;   ///< scored, tracked frames with left and right exchanged
-  std::optional<double> jitter;        ///< m/frame^2, scored and tracked frames
-  std::optional<double> truth_jitter;  ///< the truth's own, same frames
+  /// Scored, tracked frames: how often the true elbow or wrist, seen from the middle of the shoulders, lies
+  /// inside the 95 % region that the poses state; nothing when they state none.
+  std::optional<double> covered;
+  std::array<std::optional<double>, kJointCount> covered_by_joint{};  ///< the same of each joint
+  std::optional<double> stated_across;  ///< m, mean stated standard deviation of elbows and wrists in x and y
+  std::optional<double> stated_depth;   ///< m, the same in z
+  std::optional<double> jitter;         ///< m/frame^2, scored and tracked frames
+  std::optional<double> truth_jitter;   ///< the truth's own, same frames
   std::optional<Lag> lag;
   std::array<std::optional<BoneLength>, kBoneNames.size()> bones{};
   std::array<std::optional<BoneLength>, kBoneNames.size()> truth_bones{};

@@ -38,6 +38,14 @@ Json errors_json(const ErrorReport& report) {
   return result;
 }
 
+Json covered_json(const Evaluation& evaluation) {
+  Json joints = Json::object();
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    joints[std::string(kJointNames[j])] = number(evaluation.covered_by_joint[j]);
+  }
+  return joints;
+}
+
 Json bones_json(const Evaluation& evaluation) {
   Json bones = Json::object();
   const auto length = [](const std::optional<BoneLength>& bone) {
@@ -81,6 +89,11 @@ Json evaluation_json(const Evaluation& evaluation) {
         {"threshold_F", evaluation.options.max_region_score},
         {"threshold_D_C", evaluation.options.max_contour_score}}},
       {"swapped", {{"frames", evaluation.swapped.size()}, {"list", evaluation.swapped}}},
+      {"spread",
+       {{"covered", number(evaluation.covered)},
+        {"joints", covered_json(evaluation)},
+        {"stated_across_mm", millimetres(evaluation.stated_across)},
+        {"stated_depth_mm", millimetres(evaluation.stated_depth)}}},
       {"jitter",
        {{"estimate_mm", millimetres(evaluation.jitter)}, {"truth_mm", millimetres(evaluation.truth_jitter)}}},
       {"lag",

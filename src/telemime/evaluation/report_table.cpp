@@ -101,6 +101,23 @@ void state_rows(std::string& table, const Evaluation& evaluation) {
   row(table, "left and right swapped", {std::to_string(evaluation.swapped.size()), " frames"});
 }
 
+void spread_rows(std::string& table, const Evaluation& evaluation) {
+  if (!evaluation.covered) {
+    return;
+  }
+  table += "\nstated spread, elbows and wrists\n";
+  row(table, "truth in the 95 % region", {percent(*evaluation.covered)});
+  const auto of = [&](Joint left_joint, Joint right_joint) {
+    const auto& l = evaluation.covered_by_joint[static_cast<std::size_t>(left_joint)];
+    const auto& r = evaluation.covered_by_joint[static_cast<std::size_t>(right_joint)];
+    return (l ? percent(*l) : "-") + " left, " + (r ? percent(*r) : "-") + " right";
+  };
+  row(table, "  elbows", {"  " + of(Joint::l_elbow, Joint::r_elbow)});
+  row(table, "  wrists", {"  " + of(Joint::l_wrist, Joint::r_wrist)});
+  row(table, "standard deviation, mm",
+      {millimetres(evaluation.stated_across), "   in depth " + millimetres(evaluation.stated_depth)});
+}
+
 void motion_rows(std::string& table, const Evaluation& evaluation) {
   table += "\nmotion\n";
   row(table, "wrist jitter, mm/frame^2",
@@ -142,6 +159,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
   error_rows(table, evaluation);
   joint_rows(table, evaluation);
   state_rows(table, evaluation);
+  spread_rows(table, evaluation);
   motion_rows(table, evaluation);
   if (!evaluation.times.empty()) {
     table += "\ntime, ms\n";

@@ -62,6 +62,10 @@ FrameMeans mean_errors(const MotionFrame& motion, const Camera& camera, const Tr
 
 }  // namespace
 
+std::filesystem::path video_of(const std::filesystem::path& folder) {
+  return video_in(folder, "video");
+}
+
 Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames) {
   Clip clip;
   clip.name = folder.filename().string();

@@ -24,6 +24,9 @@ struct Clip {
 /// video (0: all). Throws Error(input) that says what is missing.
 Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames);
 
+/// FOLDER/video.* . Throws Error(input) when there is none.
+std::filesystem::path video_of(const std::filesystem::path& folder);
+
 /// A clip whose image processing is done: what the search sees of each frame, and the pose and build that
 /// calibration found on the first good frame. Many searches can share it.
 struct PreparedSequence {

@@ -99,6 +99,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("filter/model", c.filter.model);
   visit("filter/diffusion", c.filter.diffusion);
   visit("filter/memory", c.filter.memory);
+  visit("filter/trust", c.filter.trust);
   visit("filter/natural", c.filter.natural);
   visit("filter/temporal", c.filter.temporal);
   visit("filter/invalid", c.filter.invalid);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "telemime/likelihood/all.h"
+#include "telemime/tracking/posterior.h"
 
 namespace telemime {
 namespace {
@@ -227,6 +228,9 @@ void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& re
   }
   const FilterResult found = filter_->step(prepared, model_, config_.tracking.velocity);
   result.motion.evaluations += found.evaluations;
+  const SpreadModel& spread = filter_->numbers().spread;
+  result.motion.spread = spread_of(model_.body, filter_->particles(), found.pose, spread,
+                                   config_.calibration.stature ? spread.size_given : spread.size);
   previous_ = pose_;
   adopt(found.pose, found.score, result);
   watch(found.score, result);

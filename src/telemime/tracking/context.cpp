@@ -43,7 +43,7 @@ Random FilterContext::random(std::uint64_t purpose, std::uint64_t index) const {
 double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
   const double region = score.region / c.numbers.sigma_region;
   const double contour = score.contour / (c.numbers.sigma_contour * c.frame.camera.width);
-  double sum = -0.5 * region * region - 0.5 * contour * contour;
+  double sum = -0.5 * c.config.trust * (region * region + contour * contour);
   if (c.config.invalid <= 0.0 && c.config.natural <= 0.0 && c.config.temporal <= 0.0) {
     return sum;
   }

@@ -17,6 +17,7 @@ void FilterConfig::validate() const {
   require(estimate == "heaviest" || estimate == "mean", "estimate must be heaviest or mean");
   require(diffusion > 0.0 && diffusion <= 100.0, "diffusion must be above 0, at most 100");
   require(memory >= 0.0 && memory <= 1.0, "memory must be between 0 and 1");
+  require(trust > 0.0 && trust <= 10.0, "trust must be above 0, at most 10");
   require(natural >= 0.0 && temporal >= 0.0 && invalid >= 0.0,
           "natural, temporal and invalid must not be negative");
   require(modes >= 1 && modes <= 1000, "modes must be between 1 and 1000");
@@ -31,6 +32,7 @@ FilterConfig reference_filter(const std::string& heuristics) {
   config.heuristics = heuristics;
   config.particles = 1000;
   config.memory = 1.0;
+  config.trust = 1.0;
   config.natural = 0.0;
   config.temporal = 0.0;
   config.blocks = false;

@@ -18,6 +18,10 @@ struct FilterConfig {
   /// Share of a generation's log weights that the next one remembers: 1 is a Markov chain with independent
   /// frames; errors of the model last for many frames, so less is nearer to the truth.
   double memory = 0.7;
+  /// Multiplies the log likelihood of the image (1: equation 4.12 as it stands). What the model gets wrong of
+  /// a person it gets wrong in every pose, so differences between poses tell less than the spread of F and
+  /// D_C over time says.
+  double trust = 0.1;
   /// What is known without the image, as log likelihood: nats for each unit of natural_cost, for the squared
   /// way of elbows and wrists from where they are expected (ObjectiveWeights::temporal), for each metre of
   /// interpenetration.

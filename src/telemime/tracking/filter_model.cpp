@@ -66,6 +66,12 @@ FilterModel parse_filter_model(const std::string& text, const std::string& name)
   model.wrist_across = positive(wrist, "wrist_across_mm", name) * kMillimetre;
   model.wrist_along = positive(wrist, "wrist_along_mm", name) * kMillimetre;
   model.swivel = positive(wrist, "swivel_degrees", name) * kDegree;
+  const Json& spread = group("spread");
+  model.spread.trunk = positive(spread, "trunk_mm", name) * kMillimetre;
+  model.spread.across = positive(spread, "across", name);
+  model.spread.seen = positive(spread, "seen", name);
+  model.spread.size = positive(spread, "size", name);
+  model.spread.size_given = positive(spread, "size_given", name);
   return model;
 }
 
@@ -96,6 +102,11 @@ std::string to_json_text(const FilterModel& model, const std::string& note) {
   json["end_effector"] = {{"wrist_across_mm", model.wrist_across / kMillimetre},
                           {"wrist_along_mm", model.wrist_along / kMillimetre},
                           {"swivel_degrees", model.swivel / kDegree}};
+  json["spread"] = {{"trunk_mm", model.spread.trunk / kMillimetre},
+                    {"across", model.spread.across},
+                    {"seen", model.spread.seen},
+                    {"size", model.spread.size},
+                    {"size_given", model.spread.size_given}};
   return json.dump(2) + "\n";
 }
 

@@ -10,6 +10,17 @@
 
 namespace telemime {
 
+/// How far the truth is from a pose that fits the image (standard deviations).
+struct SpreadModel {
+  double trunk = 0.0;   ///< m, of each joint of the trunk
+  double across = 0.0;  ///< of a bone's end across the viewing ray, as a share of its length
+  /// The part of its length to which a bone is seen: at the angle phi to the image plane it is known in depth
+  /// to about seen / sin(phi) of its length, parallel to the image to sqrt(seen / 2).
+  double seen = 0.0;
+  double size = 0.0;        ///< of the person's size, as a share of it, from an average head
+  double size_given = 0.0;  ///< the same with a height that was given
+};
+
 /// What the filter knows from sequences (data/filter.json, made by `telemime learn`): how much the scores
 /// vary and how people move from one frame to the next at 25 frames a second.
 struct FilterModel {
@@ -21,6 +32,7 @@ struct FilterModel {
   double wrist_across = 0.0;  ///< standard deviations in end-effector space: m across the viewing ray
   double wrist_along = 0.0;   ///< m along it
   double swivel = 0.0;        ///< rad
+  SpreadModel spread;
 };
 
 /// The numbers of data/filter.json.

@@ -39,6 +39,7 @@ class ParticleFilter {
 
   /// Of the last frame, weights normalised; `parent` is an index of the generation before.
   const std::vector<Particle>& particles() const { return particles_; }
+  const FilterModel& numbers() const { return numbers_; }
 
  private:
   void run(Stage stage, const FilterContext& context, Generation& generation) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace telemime {
@@ -15,6 +16,21 @@ ArmPoints arm_points(const Body& body, const Pose& pose) {
   ArmPoints points;
   points << j[Joint::l_elbow], j[Joint::l_wrist], j[Joint::r_elbow], j[Joint::r_wrist];
   return points;
+}
+
+Eigen::Vector3d mid_shoulders(const JointPositions& joints) {
+  return 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
+}
+
+// What a bone adds to the covariance of its end.
+Eigen::Matrix3d of_bone(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const SpreadModel& model) {
+  const double length = (to - from).norm();
+  const Eigen::Vector3d ray = from.normalized();
+  const double sine = length > 0.0 ? (to - from).dot(ray) / length : 0.0;
+  const double across = model.across * length;
+  const double along = model.seen * length / std::sqrt(sine * sine + 2.0 * model.seen);
+  return across * across * (Eigen::Matrix3d::Identity() - ray * ray.transpose()) +
+         along * along * ray * ray.transpose();
 }
 
 }  // namespace
@@ -45,6 +61,55 @@ std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particl
     }
   }
   return modes;
+}
+
+std::array<Eigen::Matrix3d, kJointCount> model_covariance(const Body& body, const Pose& estimate,
+                                                          const SpreadModel& model, double size) {
+  const JointPositions joints = forward_kinematics(body, estimate).joints;
+  const Eigen::Vector3d middle = mid_shoulders(joints);
+  std::array<Eigen::Matrix3d, kJointCount> covariance;
+  covariance.fill(Eigen::Matrix3d::Identity() * (model.trunk * model.trunk));
+  const auto at = [&](Joint j) -> Eigen::Matrix3d& { return covariance[static_cast<std::size_t>(j)]; };
+  constexpr std::array<std::pair<Joint, Joint>, 6> kBones = {{{Joint::l_shoulder, Joint::l_elbow},
+                                                              {Joint::r_shoulder, Joint::r_elbow},
+                                                              {Joint::l_elbow, Joint::l_wrist},
+                                                              {Joint::r_elbow, Joint::r_wrist},
+                                                              {Joint::l_wrist, Joint::l_hand},
+                                                              {Joint::r_wrist, Joint::r_hand}}};
+  for (const auto& [from, to] : kBones) {
+    at(to) = at(from) + of_bone(joints[from], joints[to], model);
+  }
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d reach = size * (joints.at[j] - middle);
+    covariance[j] += reach * reach.transpose();
+  }
+  return covariance;
+}
+
+PoseSpread spread_of(const Body& body, std::span<const Particle> particles, const Pose& estimate,
+                     const SpreadModel& model, double size) {
+  // What weighs less moves nothing that is written.
+  constexpr double kLeast = 1e-6;
+  PoseSpread spread;
+  spread.covariance = model_covariance(body, estimate, model, size);
+  const JointPositions own = forward_kinematics(body, estimate).joints;
+  const Eigen::Vector3d middle = mid_shoulders(own);
+  for (const Particle& particle : particles) {
+    if (particle.weight < kLeast) {
+      continue;
+    }
+    const JointPositions joints = forward_kinematics(body, particle.pose).joints;
+    const Eigen::Vector3d shift = mid_shoulders(joints) - middle;
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Eigen::Vector3d way = joints.at[j] - shift - own.at[j];
+      spread.covariance[j] += particle.weight * way * way.transpose();
+    }
+  }
+  constexpr double kModeRadius = 0.1;  // m, of an elbow or wrist
+  const std::vector<Mode> modes = find_modes(body, particles, kModeRadius, 2);
+  spread.second_mode = modes.size() > 1 ? modes[1].weight : 0.0;
+  spread.effective_particles = effective_sample_size(particles);
+  return spread;
 }
 
 }  // namespace telemime

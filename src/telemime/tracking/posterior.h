@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
 #include "telemime/body/body.h"
+#include "telemime/body/motion_frame.h"
+#include "telemime/tracking/filter_model.h"
 #include "telemime/tracking/particle.h"
 
 namespace telemime {
@@ -20,5 +23,15 @@ struct Mode {
 /// the rest.
 std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particles, double radius,
                              std::size_t most);
+
+/// Covariance of each joint about the estimate, seen from the middle of the shoulders: that of the particles,
+/// and what the model does not know (SpreadModel). `size` is the standard deviation of the person's size as a
+/// share of it.
+PoseSpread spread_of(const Body& body, std::span<const Particle> particles, const Pose& estimate,
+                     const SpreadModel& model, double size);
+
+/// The part of spread_of that does not come from particles.
+std::array<Eigen::Matrix3d, kJointCount> model_covariance(const Body& body, const Pose& estimate,
+                                                          const SpreadModel& model, double size);
 
 }  // namespace telemime

@@ -75,6 +75,22 @@ Json limits_json(const JointLimits& limits) {
   return {{"name", limits.name}, {"limits", ranges}};
 }
 
+Json spread_json(const PoseSpread& spread) {
+  constexpr double kSquareMillimetres = kMillimetresPerMetre * kMillimetresPerMetre;
+  Json covariance = Json::object();
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Matrix3d& c = spread.covariance[j];
+    Json six = Json::array();
+    for (const double value : {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)}) {
+      six.push_back(rounded(value * kSquareMillimetres, 1));
+    }
+    covariance[std::string(kJointNames[j])] = six;
+  }
+  return {{"covariance", covariance},
+          {"second_mode", rounded(spread.second_mode, 4)},
+          {"effective_particles", rounded(spread.effective_particles, 1)}};
+}
+
 /// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement marks.
 std::string line(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -85,7 +101,12 @@ class JsonlEncoder final : public Encoder {
   std::string begin(const StreamHeader& header) override {
     return line({{"format", "telemime-pose"},
                  {"version", 1},
-                 {"units", {{"length", "mm"}, {"angle", "degree"}, {"time", "s"}, {"pixel", "input image"}}},
+                 {"units",
+                  {{"length", "mm"},
+                   {"angle", "degree"},
+                   {"time", "s"},
+                   {"pixel", "input image"},
+                   {"covariance", "mm^2: xx, xy, xz, yy, yz, zz, from the middle of the shoulders"}}},
                  {"axes", "camera: x right, y down, z forward; l_ and r_ are the person's own sides"},
                  {"fps", header.fps},
                  {"camera", camera_json(header.camera)},
@@ -115,18 +136,22 @@ class JsonlEncoder final : public Encoder {
     for (const auto& [stage, time] : frame.stage_ms) {
       ms[stage] = rounded(time, 3);
     }
-    return line({{"frame", frame.frame},
-                 {"time", rounded(frame.time, 6)},
-                 {"state", frame.state == TrackState::tracking ? "tracking" : "lost"},
-                 {"angles", angles},
-                 {"root", millimetres(frame.pose.root)},
-                 {"joints", joints},
-                 {"pixels", pixels},
-                 {"score",
-                  {{"F", rounded(frame.region_score, kScoreDecimals)},
-                   {"D_C", rounded(frame.contour_score, kScoreDecimals)}}},
-                 {"evaluations", frame.evaluations},
-                 {"ms", ms}});
+    Json object = {{"frame", frame.frame},
+                   {"time", rounded(frame.time, 6)},
+                   {"state", frame.state == TrackState::tracking ? "tracking" : "lost"},
+                   {"angles", angles},
+                   {"root", millimetres(frame.pose.root)},
+                   {"joints", joints},
+                   {"pixels", pixels},
+                   {"score",
+                    {{"F", rounded(frame.region_score, kScoreDecimals)},
+                     {"D_C", rounded(frame.contour_score, kScoreDecimals)}}},
+                   {"evaluations", frame.evaluations},
+                   {"ms", ms}};
+    if (frame.spread) {
+      object["spread"] = spread_json(*frame.spread);
+    }
+    return line(object);
   }
 
   std::string end() override { return {}; }

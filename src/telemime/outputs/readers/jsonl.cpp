@@ -86,6 +86,26 @@ void read_pixels(const json& object, const std::string& where, MotionFrame& fram
   }
 }
 
+PoseSpread read_spread(const json& object, const std::string& where) {
+  constexpr double kSquareMillimetres = kMillimetresPerMetre * kMillimetresPerMetre;
+  PoseSpread spread;
+  const json& covariance = fields::member(object, "covariance", where);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const json& six = fields::member(covariance, std::string(kJointNames[j]), where);
+    if (!six.is_array() || six.size() != 6) {
+      fail(where, "a covariance must be [xx, xy, xz, yy, yz, zz]");
+    }
+    std::array<double, 6> c{};
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      c[i] = fields::number(six[i], where) / kSquareMillimetres;
+    }
+    spread.covariance[j] << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  }
+  spread.second_mode = fields::number_at(object, "second_mode", where);
+  spread.effective_particles = fields::number_at(object, "effective_particles", where);
+  return spread;
+}
+
 MotionFrame read_frame(const json& object, const Camera& camera, const std::string& where) {
   MotionFrame frame;
   frame.frame = fields::integer_at(object, "frame", 0, INT64_MAX, where);
@@ -117,6 +137,9 @@ MotionFrame read_frame(const json& object, const Camera& camera, const std::stri
   }
   if (object.contains("evaluations")) {
     frame.evaluations = static_cast<int>(fields::integer_at(object, "evaluations", 0, INT32_MAX, where));
+  }
+  if (object.contains("spread")) {
+    frame.spread = read_spread(object.at("spread"), where + ": \"spread\"");
   }
   if (object.contains("ms")) {
     for (const auto& [stage, time] : object.at("ms").items()) {

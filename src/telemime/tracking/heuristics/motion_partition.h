@@ -10,4 +10,10 @@ namespace telemime {
 /// equations 4.15 to 4.20); when the trunk moves, everything is.
 void find_moving_parts(const FilterContext& context, Generation& generation);
 
+/// y_k / |A_{t-1} n B_k| of equations 4.15 and 4.20 for each part: the share of its visible pixels in this
+/// pose that had the part's class `before` and have it no more `now`. Labels (h x w) CV_8UC1 of the camera's
+/// size.
+std::array<double, kPartCount> uncovered_shares(const cv::Mat& before, const cv::Mat& now, const Model& model,
+                                                const Pose& pose, const Camera& camera);
+
 }  // namespace telemime
