@@ -108,6 +108,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("filter/mode_least", c.filter.mode_least);
   visit("filter/mode_most", c.filter.mode_most);
   visit("filter/blocks", c.filter.blocks);
+  visit("filter/turn_evaluations", c.filter.turn_evaluations);
   visit("filter/alternatives", c.filter.alternatives);
   visit("tracking/method", c.tracking.method);
   visit("tracking/lost_region", c.tracking.lost_region);

@@ -55,7 +55,7 @@ double distance_from_expected(const Kinematics& k, const JointPositions& expecte
   return sum / static_cast<double>(kArms.size());
 }
 
-double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double facing) {
   const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
   const double arm = body.upper_arm_length[0] + body.forearm_length[0];
   double sum = 0.0;
@@ -72,7 +72,8 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k) {
     sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
   }
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
-  sum += 0.3 * (bend(Angle::root_torsion, 0.5) + bend(Angle::root_roll, 0.25) + bend(Angle::root_tilt, 0.3));
+  sum += 0.3 * (square((pose[Angle::root_torsion] - facing) / 0.5) + bend(Angle::root_roll, 0.25) +
+                bend(Angle::root_tilt, 0.3));
   sum += 0.3 * (bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3));
   sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +
                 bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25));
@@ -84,7 +85,7 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
   const Kinematics k = forward_kinematics(model_.body, pose);
   double cost = weights.invalid * (interpenetration(model_.body, k) + 0.5 * outside_limits(limits_, pose));
   if (weights.natural > 0.0) {
-    cost += weights.natural * natural_cost(model_.body, pose, k);
+    cost += weights.natural * natural_cost(model_.body, pose, k, facing_);
   }
   if (weights.fronto_parallel > 0.0) {
     cost += weights.fronto_parallel * depth_of_arms(k);

@@ -26,9 +26,10 @@ struct ObjectiveWeights {
 };
 
 /// A mild preference for poses that people take: hands before the chest rather than behind it, elbows low,
-/// neck, wrists and trunk near their middle. 0 at rest; about 1 for a pose at the edge of comfort. Ranges:
-/// Panero & Zelnik, Human Dimension and Interior Space, 1979 (zones of convenient reach).
-double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics);
+/// neck, wrists and trunk near their middle; the trunk turned to where `facing` (rad, as the root's torsion)
+/// says. 0 at rest; about 1 for a pose at the edge of comfort. Ranges: Panero & Zelnik, Human Dimension and
+/// Interior Space, 1979 (zones of convenient reach).
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics, double facing = 0.0);
 
 /// Mean over elbows and wrists of the squared way (over 0.15 m) from where they are expected, each counted as
 /// 2 at most: an arm that was lost must be able to come back.
@@ -47,6 +48,9 @@ class Objective {
   /// The pose that is expected in this frame, for the terms "temporal" and "trunk"; without it they are 0.
   void expect(const Pose& pose) { expected_ = Expected{pose, forward_kinematics(model_.body, pose).joints}; }
 
+  /// Where the person is expected to face, for the term "natural": torsion of the root, rad.
+  void face(double facing) { facing_ = facing; }
+
   const Model& model() const { return model_; }
   const JointLimits& limits() const { return limits_; }
   const PreparedFrame& frame() const { return frame_; }
@@ -62,6 +66,7 @@ class Objective {
     JointPositions joints;
   };
   std::optional<Expected> expected_;
+  double facing_ = 0.0;
   int evaluations_ = 0;
 };
 

@@ -134,7 +134,8 @@ void ProposalConfig::validate() const {
   require(margin >= 0.0 && margin <= 10.0, "margin must be between 0 and 10");
 }
 
-Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights) {
+Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights,
+                     double simplex_factor, int evaluations) {
   const Body& body = objective.model().body;
   const JointLimits& limits = objective.limits();
   Pose upright = start;
@@ -146,8 +147,19 @@ Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWei
   for (const Side side : {Side::left, Side::right}) {
     upright = with_wrist(body, upright, side, arm_target(body, start, side), limits);
   }
-  upright = limits.clamp(upright);
-  return objective(upright, weights) < objective(start, weights) ? upright : start;
+  // The arms fit the trunk that they were followed with: both get a short search before they are compared.
+  const auto settled = [&](const Pose& pose) {
+    Candidate best = {pose, objective(pose, weights)};
+    for (const Side side : {Side::left, Side::right}) {
+      best =
+          searched(objective, best, part_of(bones_block(body, best.pose, side, limits, simplex_factor), 0, 4),
+                   weights, evaluations / 4);
+    }
+    return best;
+  };
+  const Candidate rival = settled(limits.clamp(upright));
+  const Candidate own = settled(start);
+  return rival.cost < own.cost ? rival.pose : own.pose;
 }
 
 Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeights& weights,

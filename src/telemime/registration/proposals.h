@@ -32,8 +32,9 @@ ProposalConfig no_proposals();
 
 /// The pose, or one with the trunk half as bent and turned where that costs less; neck and wrists stay where
 /// they are. A trunk that was followed through a lean keeps some of it: a plain shirt looks nearly the same
-/// from within.
-Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights);
+/// from within. Both get a short search of the arms, `evaluations` in all and two more.
+Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights,
+                     double simplex_factor, int evaluations);
 
 /// The best of the pose and its arms from elsewhere; of both arms, or of one at random. A proposal replaces
 /// the arm when its cost is lower by the margin after both had a short search: an arm that was followed for

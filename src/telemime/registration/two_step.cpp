@@ -86,15 +86,23 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
   return result;
 }
 
+bool is_bent(const Pose& pose) {
+  constexpr double kUpright = 0.07;  // rad
+  return std::max({std::abs(pose[Angle::root_torsion]), std::abs(pose[Angle::root_roll]),
+                   std::abs(pose[Angle::root_tilt])}) > kUpright;
+}
+
 // For both arms where the evaluations would be enough for one in full, else for one at random.
 Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
              Random& random) {
-  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk
+  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk, before any search
   const int most = std::min(static_cast<int>(std::floor(config.proposal_share * budget)), budget - kBeside);
-  const bool both = most >= config.proposals.evaluations();
-  const ProposalConfig proposals = config.proposals.within(both ? most / 2 : most);
+  const bool upright = config.proposals.upright && is_bent(start) && most >= kBeside;
+  const int settle = upright ? most / 8 : 0;
+  const bool both = most - settle >= config.proposals.evaluations();
+  const ProposalConfig proposals = config.proposals.within(both ? (most - settle) / 2 : most - settle);
   const Pose from =
-      config.proposals.upright && most >= kBeside ? propose_upright(objective, start, config.region) : start;
+      upright ? propose_upright(objective, start, config.region, config.simplex_factor, settle) : start;
   return proposals.any_arms()
              ? propose_arms(objective, from, config.region, proposals, both, config.simplex_factor, random)
              : from;

@@ -46,6 +46,7 @@ struct FilterContext {
   const RegistrationConfig& search;  ///< of FilterConfig::blocks
   const Pose& estimate;              ///< of the frame before
   const Pose& expected;              ///< in this frame
+  double facing = 0.0;               ///< torsion of the root that is expected: people look where they go, rad
   Evaluators& evaluators;
   std::uint64_t seed = 0;  ///< of this frame
 

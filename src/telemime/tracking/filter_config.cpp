@@ -24,6 +24,8 @@ void FilterConfig::validate() const {
   require(mode_radius > 0.0 && mode_radius <= 1.0, "mode_radius must be above 0, at most 1 m");
   require(mode_least >= 10 && mode_least <= mode_most && mode_most <= 1000000,
           "10 <= mode_least <= mode_most <= 1000000 is needed");
+  require(turn_evaluations >= 10 && turn_evaluations <= 1000000,
+          "turn_evaluations must be between 10 and 1000000");
   require(alternatives >= 0 && alternatives <= 1000, "alternatives must be between 0 and 1000");
 }
 

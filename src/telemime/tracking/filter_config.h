@@ -11,8 +11,8 @@ namespace telemime {
 struct FilterConfig {
   /// Particles of a frame; each is one evaluation, those that a local search spends included.
   int particles = 2000;
-  std::string heuristics = "modes,wd,lo,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
-  std::string estimate = "heaviest";          ///< or mean
+  std::string heuristics = "modes,wd,lo,turn,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
+  std::string estimate = "heaviest";               ///< or mean
   std::string model;       ///< file of the numbers that `telemime learn` writes; empty: data/filter.json
   double diffusion = 1.0;  ///< S of equation 4.13: multiplies every standard deviation
   /// Share of a generation's log weights that the next one remembers: 1 is a Markov chain with independent
@@ -36,7 +36,8 @@ struct FilterConfig {
   /// false: the local search is the thesis's single simplex over all moving numbers. true:
   /// RegistrationConfig.
   bool blocks = true;
-  int alternatives = 2;  ///< families whose best particle is flipped
+  int turn_evaluations = 200;  ///< for the search of each turned trunk
+  int alternatives = 2;        ///< families whose best particle is flipped
 
   /// Throws Error(config) with what to change.
   void validate() const;

@@ -54,6 +54,7 @@ class ParticleFilter {
   std::vector<Particle> particles_;
   Pose estimate_;
   Pose before_;
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m a frame, smoothed
   cv::Mat labels_before_;
 };
 

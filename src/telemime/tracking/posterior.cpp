@@ -53,10 +53,14 @@ std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particl
     bool taken = false;
     for (std::size_t m = 0; m < modes.size() && !taken; ++m) {
       taken = (here - places[m]).colwise().norm().maxCoeff() <= radius;
-      modes[m].weight += taken ? particles[i].weight : 0.0;
+      if (taken) {
+        modes[m].weight += particles[i].weight;
+        const double likeliest = particles[modes[m].likeliest].log_likelihood;
+        modes[m].likeliest = particles[i].log_likelihood > likeliest ? i : modes[m].likeliest;
+      }
     }
     if (!taken && modes.size() < most) {
-      modes.push_back({i, particles[i].weight});
+      modes.push_back({i, i, particles[i].weight});
       places.push_back(here);
     }
   }

@@ -14,8 +14,9 @@ namespace telemime {
 
 /// Particles whose elbows and wrists are near those of the best one.
 struct Mode {
-  std::size_t best = 0;  ///< index of the heaviest particle
-  double weight = 0.0;   ///< of all its particles
+  std::size_t best = 0;       ///< index of the heaviest particle
+  std::size_t likeliest = 0;  ///< of the one with the greatest likelihood
+  double weight = 0.0;        ///< of all its particles
 };
 
 /// The modes in the order of their best particles, at most `most`: the heaviest particle founds one, and

@@ -10,6 +10,7 @@
 #include "telemime/tracking/heuristics/local_optimisation.h"
 #include "telemime/tracking/heuristics/modes.h"
 #include "telemime/tracking/heuristics/motion_partition.h"
+#include "telemime/tracking/heuristics/turning.h"
 #include "telemime/tracking/heuristics/weight_resampling.h"
 
 namespace telemime {
@@ -25,6 +26,8 @@ const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
      Kind::proposal, use_end_effector_space},
     {"lo", "local optimisation of large families", "thesis 4.4.2.2.2", Stage::optimise, Kind::candidates,
      optimise_families},
+    {"turn", "the trunk turned to where the person may face", "ours", Stage::optimise, Kind::candidates,
+     turn_trunk},
     {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::alternatives,
      Kind::candidates, flip_best},
 }};

@@ -10,7 +10,7 @@
 namespace telemime {
 
 /// Every heuristic, one line each.
-inline constexpr std::size_t kHeuristicCount = 6;
+inline constexpr std::size_t kHeuristicCount = 7;
 extern const std::array<Heuristic, kHeuristicCount> kHeuristics;
 
 /// "wd, hpm, ...".

@@ -86,6 +86,7 @@ std::vector<Particle> search_blocks(const FilterContext& context, const Generati
     start = goes_on ? context.expected : start;
   }
   objective.expect(start);
+  objective.face(context.facing);
   const RegistrationResult found = register_pose(objective, start, search, random);
   Particle child;
   child.pose = found.pose;

@@ -13,7 +13,7 @@ void merge_modes(const FilterContext& context, Generation& generation) {
   double sum = 0.0;
   for (const Mode& mode : find_modes(context.model.body, generation.parents, context.config.mode_radius,
                                      static_cast<std::size_t>(context.config.modes))) {
-    Particle particle = generation.parents[mode.best];
+    Particle particle = generation.parents[mode.likeliest];
     particle.weight = std::pow(mode.weight, context.config.memory);
     sum += particle.weight;
     merged.push_back(particle);
