@@ -2,6 +2,7 @@
 #include "telemime/experiments/filter_comparison.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "telemime/experiments/plot.h"
 
@@ -58,12 +59,17 @@ Table averages_table(Lab& lab, const std::vector<std::string>& filters, const Fi
   table.rows.push_back({"spread over the seeds"});
   for (const std::string& filter : filters) {
     table.columns.push_back(filter_title(filter));
+    table.columns.emplace_back("+-");
     const FilterAverages averages = averages_of(lab.filter(filter), quantity.measure);
     for (std::size_t s = 0; s < averages.gestures.size(); ++s) {
       table.rows[s].push_back(number(averages.gestures[s]));
+      table.rows[s].push_back(number(averages.chance[s]));
     }
-    table.rows[averages.gestures.size()].push_back(number(averages.all));
+    auto& all = table.rows[averages.gestures.size()];
+    all.push_back(number(averages.all));
+    all.push_back(number(averages.chance_of_all));
     table.rows.back().push_back(number(averages.spread));
+    table.rows.back().emplace_back("-");
   }
   return table;
 }
@@ -84,6 +90,14 @@ Table effort_table(Lab& lab, const std::vector<std::string>& filters) {
   return table;
 }
 
+int sign_beyond(double change, double chance) {
+  return std::abs(change) <= chance ? 0 : change < 0.0 ? -1 : 1;
+}
+
+const char* sign_in_words(int sign) {
+  return sign < 0 ? " (down)" : sign > 0 ? " (up)" : " (may be chance)";
+}
+
 }  // namespace
 
 FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure) {
@@ -91,6 +105,8 @@ FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure) {
   std::vector<double> widths;
   for (std::size_t s = 0; s < sweep.sequences; ++s) {
     averages.gestures.push_back(sweep.mean_of_sequence(s, measure));
+    averages.chance.push_back(2.0 * sweep.standard_error(s, measure));
+    averages.chance_of_all = std::hypot(averages.chance_of_all, averages.chance.back());
     for (std::size_t count = 0; count < sweep.particles.size(); ++count) {
       widths.push_back(sweep.at(s, count, measure).width());
     }
@@ -100,24 +116,28 @@ FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure) {
         0.0, sweep.over_sequences(count, measure).mean - sweep.over_sequences(count - 1, measure).mean);
   }
   averages.all = mean_of(averages.gestures);
+  averages.chance_of_all /= static_cast<double>(sweep.sequences);
   averages.spread = mean_of(widths);
   return averages;
 }
 
-int gestures_within(const FilterAverages& a, const FilterAverages& b, double factor) {
-  int count = 0;
-  for (std::size_t s = 0; s < a.gestures.size(); ++s) {
-    count += a.gestures[s] <= factor * b.gestures[s] ? 1 : 0;
-  }
-  return count;
+int change_of(const FilterAverages& a, const FilterAverages& b, std::size_t gesture) {
+  return sign_beyond(b.gestures[gesture] - a.gestures[gesture],
+                     std::hypot(a.chance[gesture], b.chance[gesture]));
+}
+
+int change_of_all(const FilterAverages& a, const FilterAverages& b) {
+  return sign_beyond(b.all - a.all, std::hypot(a.chance_of_all, b.chance_of_all));
 }
 
 std::string change_in_words(Lab& lab, const FilterAverages& from, const FilterAverages& to) {
   std::string words;
   for (std::size_t s = 0; s < from.gestures.size(); ++s) {
-    words += lab.gestures()[s].name + " " + number(from.gestures[s]) + " -> " + number(to.gestures[s]) + ", ";
+    words += lab.gestures()[s].name + " " + number(from.gestures[s]) + " -> " + number(to.gestures[s]) +
+             sign_in_words(change_of(from, to, s)) + ", ";
   }
-  return words + "mean " + number(from.all) + " -> " + number(to.all);
+  return words + "mean " + number(from.all) + " -> " + number(to.all) +
+         sign_in_words(change_of_all(from, to));
 }
 
 Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity) {

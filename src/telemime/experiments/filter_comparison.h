@@ -22,15 +22,18 @@ inline constexpr FilterQuantity kMistracked = {&FilterRun::mistracked, "mistrack
 struct FilterAverages {
   std::vector<double> gestures;
   double all = 0.0;
+  std::vector<double> chance;  ///< by gesture: two standard errors, what other seeds may change
+  double chance_of_all = 0.0;
   double spread = 0.0;  ///< from the lowest to the highest seed, mean over gestures and numbers of particles
   double rises = 0.0;   ///< summed steps up from one number of particles to the next, of the gestures' mean
 };
 FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure);
 
-/// Gestures whose value is at most `factor` times that of the other.
-int gestures_within(const FilterAverages& a, const FilterAverages& b, double factor);
+/// What happened from a to b: -1 it fell, 1 it rose, 0 it may be chance.
+int change_of(const FilterAverages& a, const FilterAverages& b, std::size_t gesture);
+int change_of_all(const FilterAverages& a, const FilterAverages& b);
 
-/// "raising_arms 120 -> 100, ...; mean ...".
+/// "raising_arms 120 -> 100 (down), ...; mean ...".
 std::string change_in_words(Lab& lab, const FilterAverages& from, const FilterAverages& to);
 
 /// Tables and plots (a plot of the mean and one of each gesture, the spread over the seeds as a band) of

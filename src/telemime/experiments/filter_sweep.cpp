@@ -76,6 +76,21 @@ double FilterSweep::mean_of_all(FilterMeasure measure) const {
   return mean_of(values);
 }
 
+double FilterSweep::standard_error(std::size_t sequence, FilterMeasure measure) const {
+  if (seeds < 2) {
+    return 0.0;
+  }
+  double sum = 0.0;  // of the variances of the means over the seeds
+  for (std::size_t count = 0; count < particles.size(); ++count) {
+    const double mean = at(sequence, count, measure).mean;
+    for (std::size_t i = 0; i < seeds; ++i) {
+      const double away = run(sequence, count, i).*measure - mean;
+      sum += away * away / static_cast<double>((seeds - 1) * seeds);
+    }
+  }
+  return std::sqrt(sum) / static_cast<double>(particles.size());
+}
+
 FilterSweep sweep(std::span<const PreparedSequence> sequences, std::vector<int> particles,
                   std::uint64_t first_seed, std::size_t seeds, const PeakThresholds& peaks,
                   const FilterSearch& search) {

@@ -53,6 +53,8 @@ struct FilterSweep {
   /// Of one sequence, mean over all numbers of particles and seeds.
   double mean_of_sequence(std::size_t sequence, FilterMeasure measure) const;
   double mean_of_all(FilterMeasure measure) const;
+  /// Standard error of mean_of_sequence: what the choice of seeds does to it. 0 for a single seed.
+  double standard_error(std::size_t sequence, FilterMeasure measure) const;
 };
 
 /// What a search gives on one sequence with so many particles and this seed.

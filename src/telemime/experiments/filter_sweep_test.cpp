@@ -105,8 +105,18 @@ TEST(AveragesOf, AddUpSpreadAndRises) {
   EXPECT_EQ(up.all, 78.0);
   EXPECT_EQ(up.spread, 2.0);
   EXPECT_EQ(up.rises, 20.0);
-  EXPECT_EQ(gestures_within(up, {{30.0, 100.0}, 65.0, 0.0, 0.0}, 1.0), 1);
-  EXPECT_EQ(gestures_within(up, {{30.0, 100.0}, 65.0, 0.0, 0.0}, 1.5), 2);
+  // The seeds give -1, 0 and 1 around the mean, each for three numbers of particles.
+  EXPECT_NEAR(up.chance[1], 2.0 / 3.0, 1e-9);
+  EXPECT_NEAR(up.chance_of_all, 2.0 / 3.0 / std::sqrt(2.0), 1e-9);
+}
+
+TEST(ChangeOf, TellsAChangeFromChance) {
+  const FilterAverages a{{10.0, 10.0, 10.0}, 10.0, {3.0, 3.0, 3.0}, 1.0};
+  const FilterAverages b{{4.0, 14.0, 16.0}, 12.0, {4.0, 4.0, 4.0}, 1.0};
+  EXPECT_EQ(change_of(a, b, 0), -1);
+  EXPECT_EQ(change_of(a, b, 1), 0);
+  EXPECT_EQ(change_of(a, b, 2), 1);
+  EXPECT_EQ(change_of_all(a, b), 1);
 }
 
 TEST(LongestFirst, DoesAllOnce) {

@@ -27,8 +27,13 @@ struct LearnedClip {
 };
 
 constexpr std::array<const char*, 3> kFilters = {kCondensation, kAllTogether, kOurFilter};
-constexpr std::int64_t kQuickFrames = 24;
+constexpr int kQuickFrames = 24;
 constexpr std::int64_t kAllFrames = 1 << 30;
+
+// Frames of a clip that are tracked, from the first pose on.
+std::int64_t frames_of(const Lab& lab) {
+  return lab.options().quick ? kQuickFrames : kAllFrames;
+}
 
 Config config_of(const std::string& filter, int particles, std::uint64_t seed) {
   const FilterSetup setup = filter_setup(filter);
@@ -67,11 +72,11 @@ void follow(const LearnedClip& clip, const Config& config, std::int64_t most_fra
 
 // How low F and D_C can be depends on the clip: clothes, light, how far away the person is. A peak stands out
 // from what a long search from frame to frame leaves.
-PeakThresholds peaks_of(const LearnedClip& clip, const Config& config) {
+PeakThresholds peaks_of(const LearnedClip& clip, const Config& config, std::int64_t most_frames) {
   constexpr double kAbove = 1.5;
   std::vector<double> region;
   std::vector<double> contour;
-  follow(clip, config, kAllFrames, [&](const MotionFrame& motion) {
+  follow(clip, config, most_frames, [&](const MotionFrame& motion) {
     if (motion.state == TrackState::tracking) {
       region.push_back(motion.region_score);
       contour.push_back(motion.contour_score);
@@ -97,6 +102,9 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   request.input = clip.input;
   request.config = experiment_config(lab.options().seed);
   request.config.tracking.method = "two-step";
+  if (lab.options().quick) {
+    request.config.calibration.look_ahead = kQuickFrames;
+  }
   const auto source = open_source(clip.input);
   clip.camera = camera_for(source->info(), "", request.config.field_of_view);
   Tracker tracker(request.config, clip.camera);
@@ -107,7 +115,7 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
     return std::nullopt;
   }
   clip.start = std::move(*found);
-  clip.peaks = peaks_of(clip, request.config);
+  clip.peaks = peaks_of(clip, request.config, frames_of(lab));
   return clip;
 }
 struct Counted {
@@ -116,9 +124,9 @@ struct Counted {
   double lost = 0.0;
 };
 
-Counted count_frames(const LearnedClip& clip, const Config& config, bool quick) {
+Counted count_frames(const LearnedClip& clip, const Config& config, std::int64_t most_frames) {
   Counted counted;
-  follow(clip, config, quick ? kQuickFrames : kAllFrames, [&](const MotionFrame& motion) {
+  follow(clip, config, most_frames, [&](const MotionFrame& motion) {
     const bool lost = motion.state == TrackState::lost;
     const bool peak = motion.region_score > clip.peaks.region || motion.contour_score > clip.peaks.contour;
     counted.frames += 1.0;
@@ -162,7 +170,7 @@ ClipRuns run_clip(const Lab& lab, const LearnedClip& clip, const std::string& fi
   longest_first(lengths, [&](std::size_t i) {
     const Config config =
         config_of(filter, particles[i / result.seeds], lab.options().seed + i % result.seeds);
-    result.runs[i] = count_frames(clip, config, lab.options().quick);
+    result.runs[i] = count_frames(clip, config, frames_of(lab));
   });
   return result;
 }
