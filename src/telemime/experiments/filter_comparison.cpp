@@ -77,13 +77,14 @@ Table averages_table(Lab& lab, const std::vector<std::string>& filters, const Fi
 // What the filters did, to tell why they differ.
 Table effort_table(Lab& lab, const std::vector<std::string>& filters) {
   Table table{"what the filters spent and kept",
-              {"filter", "evaluations / frame", "effective particles", "jitter of the wrists (mm/frame^2)",
-               "mean 2-D error (mm)"},
+              {"filter", "evaluations / frame", "effective particles", "parts diffused (%)",
+               "jitter of the wrists (mm/frame^2)", "mean 2-D error (mm)"},
               {}};
   for (const std::string& filter : filters) {
     const FilterSweep& sweep = lab.filter(filter);
     table.rows.push_back({filter_title(filter), number(sweep.mean_of_all(&FilterRun::evaluations)),
                           number(sweep.mean_of_all(&FilterRun::effective)),
+                          number(100.0 * sweep.mean_of_all(&FilterRun::moving)),
                           number(sweep.mean_of_all(&FilterRun::jitter)),
                           number(sweep.mean_of_all(&FilterRun::error_2d))});
   }

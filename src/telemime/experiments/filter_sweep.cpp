@@ -22,6 +22,7 @@ FilterRun summary_of(const Trace& trace, const PeakThresholds& peaks) {
   run.jitter = trace.jitter;
   run.evaluations = mean_of(trace.evaluations);
   run.effective = mean_of(trace.effective);
+  run.moving = mean_of(trace.moving);
   return run;
 }
 

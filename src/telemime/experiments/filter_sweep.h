@@ -17,6 +17,7 @@ struct FilterRun {
   double jitter = 0.0;       ///< mm/frame^2
   double evaluations = 0.0;  ///< a frame
   double effective = 0.0;    ///< particles that carry the weight; NaN without particles
+  double moving = 0.0;       ///< share of the body's parts that were diffused; NaN without particles
 };
 using FilterMeasure = double FilterRun::*;
 

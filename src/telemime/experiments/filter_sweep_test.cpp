@@ -45,6 +45,7 @@ TEST(TrackFilter, MeasuresEveryFrame) {
     EXPECT_GE(effective, 1.0);
     EXPECT_LE(effective, 60.0);
   }
+  EXPECT_EQ(trace.moving, std::vector<double>(3, 1.0));
   EXPECT_GT(trace.jitter, 0.0);
 }
 

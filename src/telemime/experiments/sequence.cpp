@@ -199,14 +199,17 @@ Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, s
   ParticleFilter filter(setup.filter, setup.search, sequence.limits, evaluators, seed);
   Recorder recorder(sequence);
   std::vector<double> effective;
+  std::vector<double> moving;
   filter.start(sequence.start);
   for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
     const FilterResult found = filter.step(sequence.frames[t], sequence.model, setup.velocity);
     recorder.add(t, found.pose, found.score, found.evaluations);
     effective.push_back(found.effective_particles);
+    moving.push_back(static_cast<double>(found.moving.count()) / static_cast<double>(found.moving.size()));
   }
   Trace trace = recorder.trace();
   trace.effective = std::move(effective);
+  trace.moving = std::move(moving);
   return trace;
 }
 

@@ -50,6 +50,7 @@ struct Trace {
   std::vector<double> error_3d;  ///< mm, mid-shoulders coincide, elbows and wrists (thesis 3.16)
   std::vector<double> evaluations;
   std::vector<double> effective;  ///< particles that carry the weight; a search without particles: none
+  std::vector<double> moving;     ///< share of the body's parts that it diffused; as above
   double jitter = 0.0;            ///< second difference of the wrists, mm/frame^2
 };
 
