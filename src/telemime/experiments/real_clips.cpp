@@ -206,7 +206,7 @@ Finding real_clips(Lab& lab) {
   bool real = false;
   const std::vector<LearnedClip> clips = learn_clips(lab, real);
   const std::vector<int> particles =
-      lab.options().quick ? std::vector<int>{100} : std::vector<int>{100, 300, 500, 1000};
+      lab.options().quick ? std::vector<int>{100} : std::vector<int>{100, 300, 500, 700, 1000};
   Finding finding;
   Table all{"mistracked frames", {"clip", "particles", "frames"}, {}};
   Table means{"mean over particles and seeds", {"clip", "frames", "peak of F", "peak of D_C (px)"}, {}};
