@@ -55,9 +55,9 @@ Comparison compare(Lab& lab, const std::vector<std::string>& filters, const Filt
 
 std::string diffused_words(Lab& lab) {
   return "In the mean " + number(100.0 * lab.filter("hpm").mean_of_all(&FilterRun::moving)) +
-         " % of the body's parts are diffused. A part whose pixels lie under the last estimate as before is "
-         "not: neither one that moves slowly, nor along the viewing ray, nor an arm of which the estimate "
-         "has already lost hold.";
+         " % of the body's parts are diffused: those that uncover enough of their pixels from one frame to "
+         "the "
+         "next. One that moves slowly, or along the viewing ray, does not.";
 }
 
 std::string frames_words(const Lab& lab) {
@@ -109,11 +109,6 @@ Finding hpm_robustness(Lab& lab) {
 
 Finding lo_accuracy(Lab& lab) {
   Comparison c = compare(lab, {kCondensation, "lo"}, kError3d);
-  if (c.gestures(1) == 0) {
-    c.finding.notes.emplace_back(
-        "The error does not rise with motion in depth: CONDENSATION's own, with a likelihood that so few "
-        "particles survive, is already that of a search that stays in one minimum.");
-  }
   c.finding.verdict =
       verdict({c.change(kJoy) > 0, c.change(kExclaiming) > 0, c.change(kAsking) > 0}, c.words);
   return c.finding;
