@@ -93,9 +93,11 @@ void add_experiments_command(CLI::App& app) {
                       "folder with raising_arms, joy, exclaiming, asking [the development clips, or made]");
   command->add_option("--out", arguments->out, "folder of the results")->capture_default_str();
   command->add_option("--seed", arguments->lab.seed, "of every random draw")->capture_default_str();
+  command->add_option("--seeds", arguments->lab.seeds, "runs of each particle filter [5; 2 with --quick]")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--write-budget", arguments->budget,
                       "also write the coefficients of F3-28 to this file (data/budget.json)");
-  command->add_flag("--quick", arguments->lab.quick, "few frames, coarse grids: under a minute");
+  command->add_flag("--quick", arguments->lab.quick, "few frames, coarse grids: about a minute");
   command->callback([arguments] { run_experiments(*arguments); });
 }
 

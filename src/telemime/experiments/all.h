@@ -17,7 +17,7 @@ struct Experiment {
 };
 
 /// Every experiment, in the order of the thesis.
-inline constexpr std::array<Experiment, 18> kExperiments = {{
+inline constexpr std::array<Experiment, 33> kExperiments = {{
     {"F2-22", "Size of the first simplex",
      "Which factor of the typical change between frames leaves the smallest residual F?", simplex_size},
     {"T3-1", "Time of the background subtractions",
@@ -51,6 +51,33 @@ inline constexpr std::array<Experiment, 18> kExperiments = {{
     {"F3-29", "Best point for one time", "Where on the line of one budget is the 2-D error smallest?",
      tangent_point},
     {"F3-30", "Best split for every time", "From which budget on do edges earn a share?", best_curve},
+    {"F4-11", "Weight-based resampling: 3-D error",
+     "Does weight-based deterministic resampling lower the 3-D error of CONDENSATION?", wd_accuracy},
+    {"F4-12", "Weight-based resampling: mistracked frames",
+     "Does weight-based deterministic resampling lose the person less often?", wd_robustness},
+    {"F4-13", "Motion-based partitions: 3-D error",
+     "Does it lower the 3-D error to diffuse only what has moved?", hpm_accuracy},
+    {"F4-14", "Motion-based partitions: mistracked frames",
+     "Does it save mistracked frames to diffuse only what has moved?", hpm_robustness},
+    {"F4-16", "Local optimisation: 3-D error",
+     "What does local optimisation of large families do to the 3-D error?", lo_accuracy},
+    {"F4-17", "Local optimisation: mistracked frames",
+     "Does local optimisation of large families keep the person?", lo_robustness},
+    {"F4-20", "Kinematic flipping: 3-D error", "Does flipping lower the 3-D error?", kf_accuracy},
+    {"F4-21", "Kinematic flipping: mistracked frames", "Does flipping make tracking steadier?",
+     kf_robustness},
+    {"F4-25", "End-effector space: 3-D error", "Does end-effector space help with motion in depth?",
+     ee_accuracy},
+    {"F4-26", "End-effector space: mistracked frames", "Does end-effector space keep the person?",
+     ee_robustness},
+    {"F4-29", "All heuristics: 3-D error", "How near to the truth are all heuristics together?",
+     all_accuracy},
+    {"F4-30", "All heuristics: mistracked frames", "From how many particles on is no frame mistracked?",
+     all_robustness},
+    {"F4-33", "Real clips: mistracked frames", "Do all heuristics together lose real people less often?",
+     real_clips},
+    {"T4-1", "Time of overlap histograms", "How long do so many overlap histograms take?", overlap_times},
+    {"ablation", "Each heuristic left out", "What is each heuristic of a filter good for?", ablation},
 }};
 
 /// The experiment with this id, or null.

@@ -86,6 +86,10 @@ std::vector<std::string> engine_backends(const EngineOptions& options) {
   return names;
 }
 
+int most_threads(const EngineOptions& options) {
+  return options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+}
+
 std::vector<std::string> missing_backends() {
   std::vector<std::string> lines;
   for (const BackendKind& kind : kBackends) {
@@ -143,7 +147,7 @@ BatchTime best_batch_time(Backend& backend, const EngineScene& scene, std::size_
 }
 
 std::vector<Throughput> measure_throughput(const EngineOptions& options) {
-  const int all = tbb::info::default_concurrency();
+  const int all = most_threads(options);
   std::vector<Throughput> cells;
   for (const Camera& camera : engine_cameras()) {
     const EngineScene scene = engine_scene(camera, kBatches.back(), options.seed);

@@ -17,12 +17,16 @@ struct EngineOptions {
   std::vector<std::string> backends;  ///< only these; empty: all that can run here
   bool quick = false;                 ///< short measurements and few poses: shows that it runs
   std::uint64_t seed = 1;
+  int threads = 0;  ///< at most, for back ends that share a batch; 0: as many as the machine has
   std::function<double()> seconds;  ///< clock on the wall: devices and other threads count, too
 };
 
 /// Back ends to measure, without names that stand for another one unless they are asked for. Throws
 /// Error(usage) for names that are unknown or that cannot run here.
 std::vector<std::string> engine_backends(const EngineOptions& options);
+
+/// Threads that a batch may be shared between.
+int most_threads(const EngineOptions& options);
 
 /// Those that cannot run here, each with the reason: "name: why".
 std::vector<std::string> missing_backends();

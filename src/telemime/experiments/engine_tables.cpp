@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/experiments/engine_tables.h"
 
-#include <oneapi/tbb/info.h>
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -114,7 +112,7 @@ Table opencv_table(const EngineOptions& options) {
 }
 
 Table overlap_time_table(const EngineOptions& options) {
-  const int all = tbb::info::default_concurrency();
+  const int all = most_threads(options);
   struct Column {
     std::string title;
     std::unique_ptr<Backend> backend;

@@ -26,6 +26,21 @@ Finding surfaces_2d(Lab& lab);           ///< F3-27
 Finding quadratic(Lab& lab);             ///< F3-28
 Finding tangent_point(Lab& lab);         ///< F3-29
 Finding best_curve(Lab& lab);            ///< F3-30
+Finding wd_accuracy(Lab& lab);           ///< F4-11
+Finding wd_robustness(Lab& lab);         ///< F4-12
+Finding hpm_accuracy(Lab& lab);          ///< F4-13
+Finding hpm_robustness(Lab& lab);        ///< F4-14
+Finding lo_accuracy(Lab& lab);           ///< F4-16
+Finding lo_robustness(Lab& lab);         ///< F4-17
+Finding kf_accuracy(Lab& lab);           ///< F4-20
+Finding kf_robustness(Lab& lab);         ///< F4-21
+Finding ee_accuracy(Lab& lab);           ///< F4-25
+Finding ee_robustness(Lab& lab);         ///< F4-26
+Finding all_accuracy(Lab& lab);          ///< F4-29
+Finding all_robustness(Lab& lab);        ///< F4-30
+Finding real_clips(Lab& lab);            ///< F4-33
+Finding overlap_times(Lab& lab);         ///< T4-1
+Finding ablation(Lab& lab);              ///< no figure: each heuristic left out
 
 /// "Agrees", "Partly agrees" or "Differs", by how many of the statements hold, then the words.
 std::string verdict(std::initializer_list<bool> statements, const std::string& words);

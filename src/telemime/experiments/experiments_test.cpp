@@ -5,8 +5,8 @@
 #include <set>
 
 #include "telemime/core/errors.h"
-#include "telemime/evaluation/frame_errors.h"
 #include "telemime/experiments/all.h"
+#include "telemime/experiments/testing_sequence.h"
 #include "telemime/experiments/timing.h"
 
 namespace telemime {
@@ -45,25 +45,8 @@ TEST(ReferenceWith, GivesEachStepItsEvaluations) {
   }
 }
 
-PreparedSequence model_sequence() {
-  PreparedSequence sequence;
-  sequence.name = "model";
-  sequence.camera = Camera{}.scaled_to(80, 60);
-  sequence.model = make_model(Shape{});
-  sequence.limits = anatomical_limits();
-  sequence.truth.camera = sequence.camera;
-  Random random(4);
-  for (const Pose& pose : typical_poses(3, random)) {
-    sequence.frames.push_back(frame_of_model(sequence.model, pose, sequence.camera));
-    const JointPositions joints = forward_kinematics(sequence.model.body, pose).joints;
-    sequence.truth.frames.push_back(as_truth(joints));
-    sequence.start = sequence.frames.size() == 1 ? pose : sequence.start;
-  }
-  return sequence;
-}
-
 TEST(TrackSequence, StartsAtTheTruthAndIsTheSameWhateverRunsBesideIt) {
-  const PreparedSequence sequence = model_sequence();
+  const PreparedSequence sequence = testing::model_sequence();
   const Trace still = track_sequence(sequence, reference_with(0, 0), 1);
   ASSERT_EQ(still.region.size(), 3U);
   EXPECT_EQ(still.region[0], 0.0);

@@ -3,9 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
-#include <atomic>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -30,17 +28,12 @@ Grid track_grid(const std::vector<PreparedSequence>& sequences, const LabOptions
       }
     }
   }
-  // The longest runs first, so that no core waits long for the last one.
-  std::vector<std::size_t> order(grid.cells.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
+  std::vector<double> lengths;
+  for (const GridCell& cell : grid.cells) {
+    lengths.push_back(cell.region + cell.edge);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return grid.cells[a].region + grid.cells[a].edge > grid.cells[b].region + grid.cells[b].edge;
-  });
-  std::atomic<std::size_t> next{0};
-  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t) {
-    GridCell& cell = grid.cells[order[next++]];
+  longest_first(lengths, [&](std::size_t i) {
+    GridCell& cell = grid.cells[i];
     const Trace trace =
         track_sequence(sequences[cell.sequence], reference_with(cell.region, cell.edge), options.seed);
     cell.mean_region = mean_of(trace.region);
@@ -54,6 +47,17 @@ Grid track_grid(const std::vector<PreparedSequence>& sequences, const LabOptions
 }
 
 }  // namespace
+
+FilterSetup filter_setup(const std::string& heuristics) {
+  return heuristics == kOurFilter ? our_setup() : reference_setup(heuristics);
+}
+
+std::string filter_title(const std::string& heuristics) {
+  return heuristics == kCondensation  ? "CONDENSATION"
+         : heuristics == kAllTogether ? "all heuristics"
+         : heuristics == kOurFilter   ? "our filter"
+                                      : heuristics;
+}
 
 Config experiment_config(std::uint64_t seed) {
   Config config;
@@ -111,6 +115,32 @@ const Grid& Lab::grid() {
     grid_ = track_grid(sequences, options_);
   }
   return *grid_;
+}
+
+std::size_t Lab::seeds() const {
+  return static_cast<std::size_t>(options_.seeds > 0 ? options_.seeds : options_.quick ? 2 : 5);
+}
+
+const FilterSweep& Lab::filter(const std::string& heuristics) {
+  const auto known = filters_.find(heuristics);
+  if (known != filters_.end()) {
+    return known->second;
+  }
+  const auto& sequences = gestures();
+  const std::vector<int> particles =
+      options_.quick ? std::vector<int>{100, 300}
+                     : std::vector<int>{100, 200, 300, 400, 500, 600, 700, 800, 900, 1000};
+  say("tracking the four gestures with " + filter_title(heuristics) + ", up to " +
+      std::to_string(particles.back()) + " particles");
+  const FilterSetup setup = filter_setup(heuristics);
+  const auto search = [&](const PreparedSequence& sequence, int count, std::uint64_t seed) {
+    FilterSetup with = setup;
+    with.filter.particles = count;
+    return track_filter(sequence, with, seed);
+  };
+  return filters_
+      .emplace(heuristics, sweep(sequences, particles, options_.seed, seeds(), options_.peaks, search))
+      .first->second;
 }
 
 QuadraticFit Lab::fit() {

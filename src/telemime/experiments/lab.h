@@ -3,26 +3,22 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "telemime/experiments/filter_sweep.h"
 #include "telemime/experiments/sequence.h"
 #include "telemime/registration/budget.h"
 
 namespace telemime {
 
-/// A frame counts as mistracked with F or D_C above these (thesis 3.6.1: a "peak"); fixed for the dev
-/// sequences at 160x120, where a pose that a person would accept has F of 0.1 to 0.2 and D_C of 1 to 2.
-struct PeakThresholds {
-  double region = 0.30;
-  double contour = 2.5;  ///< px at 160x120
-};
-
 struct LabOptions {
   std::filesystem::path data;  ///< holds raising_arms/, joy/, exclaiming/, asking/
   bool quick = false;          ///< few frames, coarse grids: shows that it runs, not what is true
   std::uint64_t seed = 1;
+  int seeds = 0;  ///< runs of a particle filter, each with a seed of its own; 0: 5, 2 when quick
   PeakThresholds peaks;
   std::function<void(const std::string&)> progress;  ///< what is being done, in words; may be empty
   std::function<double()> seconds;  ///< clock of the calling thread's computing time, for the timings
@@ -49,8 +45,13 @@ struct Grid {
   }
 };
 
-/// What experiments share: clips and sequences are read and prepared when they are first asked for, and the
-/// grid over the iterations is tracked once.
+/// Names for Lab::filter besides lists of heuristics of the thesis's filter.
+inline constexpr const char* kCondensation = "";
+inline constexpr const char* kAllTogether = "wd,hpm,lo,kf,ee";
+inline constexpr const char* kOurFilter = "ours";
+
+/// What experiments share: clips and sequences are read and prepared when they are first asked for; the
+/// grid over the iterations and each filter are tracked once.
 class Lab {
  public:
   /// Throws Error(usage) without a clock.
@@ -63,6 +64,11 @@ class Lab {
   /// The clip that timings are made on.
   const Clip& timing_clip();
   const Grid& grid();
+  /// The four gestures with a particle filter of 100 to 1000 particles: the thesis's with these heuristics,
+  /// or ours.
+  const FilterSweep& filter(const std::string& heuristics);
+  /// Runs of each particle filter.
+  std::size_t seeds() const;
   /// Fit to the mean 2-D error over the gestures (thesis Figure 3-28).
   QuadraticFit fit();
   /// Evaluations after which a search counts as run to convergence.
@@ -74,7 +80,14 @@ class Lab {
   std::vector<PreparedSequence> gestures_;
   std::optional<Clip> clip_;
   std::optional<Grid> grid_;
+  std::map<std::string, FilterSweep> filters_;
 };
+
+/// The filter that Lab::filter names.
+FilterSetup filter_setup(const std::string& heuristics);
+
+/// The filter's name in tables and plots.
+std::string filter_title(const std::string& heuristics);
 
 /// The configuration that experiments prepare sequences with: 160x120, all else by default.
 Config experiment_config(std::uint64_t seed);

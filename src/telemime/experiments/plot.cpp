@@ -123,6 +123,25 @@ std::string polyline(const Series& series, const std::string& stroke, const AtX&
   return lines;
 }
 
+// The band of a series as one area; places without a finite end are left out.
+std::string band(const Series& series, std::size_t i, const Axis& x, const Axis& y) {
+  std::string there;
+  std::string back;
+  for (std::size_t k = 0; k < series.low.size(); ++k) {
+    if (std::isfinite(series.x[k]) && std::isfinite(series.low[k]) && std::isfinite(series.high[k])) {
+      char point[48];
+      std::snprintf(point, sizeof point, "%.1f,%.1f ", x.at(series.x[k]), y.at(series.high[k]));
+      there += point;
+      std::snprintf(point, sizeof point, "%.1f,%.1f ", x.at(series.x[k]), y.at(series.low[k]));
+      back.insert(0, point);
+    }
+  }
+  return there.empty()
+             ? ""
+             : "<polygon stroke=\"none\" fill-opacity=\"0.16\" fill=\"" +
+                   std::string(kColours[i % kColours.size()]) + "\" points=\"" + there + back + "\"/>\n";
+}
+
 std::string legend(const std::vector<Series>& series, double x, double y) {
   std::string svg;
   for (std::size_t i = 0; i < series.size(); ++i) {
@@ -188,7 +207,10 @@ std::string to_svg(const LinePlot& plot) {
   for (const Series& s : plot.series) {
     require_sizes(s.x.size() == s.y.size());
     std::for_each(s.x.begin(), s.x.end(), [&](double v) { xs.add(v); });
-    std::for_each(s.y.begin(), s.y.end(), [&](double v) { ys.add(v); });
+    require_sizes(s.low.size() == s.high.size() && (s.low.empty() || s.low.size() == s.x.size()));
+    for (const auto* values : {&s.y, &s.low, &s.high}) {
+      std::for_each(values->begin(), values->end(), [&](double v) { ys.add(v); });
+    }
   }
   if (plot.from_zero) {
     ys.add(0.0);
@@ -209,6 +231,9 @@ std::string to_svg(const LinePlot& plot) {
     svg += text_at(x.at(tick), kBottom + 18, number(tick), "text-anchor=\"middle\"");
   }
   svg += rule(kLeft, kBottom, kRight, kBottom, "#444444") + rule(kLeft, kTop, kLeft, kBottom, "#444444");
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    svg += band(plot.series[i], i, x, y);
+  }
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     svg += polyline(
         plot.series[i], stroke_of(i), [&](double v) { return x.at(v); }, [&](double v) { return y.at(v); });

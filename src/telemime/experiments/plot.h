@@ -11,6 +11,10 @@ struct Series {
   std::string name;
   std::vector<double> x;
   std::vector<double> y;
+  /// Ends of a band around the line, such as the spread over several runs; as many as x, or none. Not drawn
+  /// over a heat map.
+  std::vector<double> low = {};
+  std::vector<double> high = {};
 };
 
 struct LinePlot {

@@ -38,6 +38,18 @@ TEST(LinePlotSvg, DrawsOneLineForEachRunOfFinitePoints) {
   EXPECT_EQ(svg.rfind("<svg", 0), 0U);
 }
 
+TEST(LinePlotSvg, DrawsABandForEachSeriesThatHasOne) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Series banded{"a", {0, 1, 2}, {5, 5, 5}, {4, nan, 3}, {6, 7, 10}};
+  const std::string svg = to_svg(LinePlot{"t", "x", "y", {banded, {"b", {0, 2}, {1, 1}}}});
+  EXPECT_EQ(count(svg, "<polygon"), 1U);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  // The axis reaches to the end of the band.
+  EXPECT_NE(svg.find(">10</text>"), std::string::npos);
+  banded.high.pop_back();
+  EXPECT_THROW(to_svg(LinePlot{"t", "x", "y", {banded}}), Error);
+}
+
 TEST(LinePlotSvg, SurvivesNothingToDraw) {
   EXPECT_NE(to_svg(LinePlot{"t", "x", "y", {{"a", {}, {}}}}).find("</svg>"), std::string::npos);
   EXPECT_NE(to_svg(LinePlot{"t", "x", "y", {{"a", {1}, {5}}}}).find("</svg>"), std::string::npos);

@@ -8,10 +8,15 @@
 #include "telemime/capture/source.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
+#include "telemime/evaluation/motion_measures.h"
+#include "telemime/likelihood/all.h"
 #include "telemime/pipeline/tracker.h"
+#include "telemime/tracking/particle_filter.h"
 
 namespace telemime {
 namespace {
+
+constexpr double kMillimetres = 1e3;
 
 std::filesystem::path video_in(const std::filesystem::path& folder, const std::string& stem) {
   for (const char* ending : {".mp4", ".mkv", ".avi"}) {
@@ -43,7 +48,6 @@ struct FrameMeans {
 };
 
 FrameMeans mean_errors(const MotionFrame& motion, const Camera& camera, const Truth& truth, std::size_t t) {
-  constexpr double kMillimetres = 1e3;
   const FrameErrors errors = measure_frame(motion, camera, truth.frames[t], truth.camera, 1.0);
   Mean flat;
   Mean deep;
@@ -59,6 +63,37 @@ FrameMeans mean_errors(const MotionFrame& motion, const Camera& camera, const Tr
   means.error_3d = deep.value().value_or(means.error_3d) * kMillimetres;
   return means;
 }
+
+// Makes a trace of the poses of one frame after the other.
+class Recorder {
+ public:
+  explicit Recorder(const PreparedSequence& sequence) : sequence_(sequence) {}
+
+  void add(std::size_t t, const Pose& pose, const Score& score, int evaluations) {
+    MotionFrame motion;
+    motion.pose = pose;
+    complete(motion, sequence_.model.body, sequence_.camera);
+    const FrameMeans errors = mean_errors(motion, sequence_.camera, sequence_.truth, t);
+    trace_.frame.push_back(static_cast<double>(t));
+    trace_.region.push_back(score.region);
+    trace_.contour.push_back(score.contour);
+    trace_.error_2d.push_back(errors.error_2d);
+    trace_.error_3d.push_back(errors.error_3d);
+    trace_.evaluations.push_back(evaluations);
+    joints_.emplace_back(as_truth(motion.joints));
+  }
+
+  Trace trace() const {
+    Trace trace = trace_;
+    trace.jitter = kMillimetres * wrist_jitter(joints_).value_or(std::numeric_limits<double>::quiet_NaN());
+    return trace;
+  }
+
+ private:
+  const PreparedSequence& sequence_;
+  Trace trace_;
+  JointTrack joints_;
+};
 
 }  // namespace
 
@@ -130,27 +165,55 @@ std::size_t count_above(const std::vector<double>& values, double threshold) {
       std::count_if(values.begin(), values.end(), [&](double v) { return v > threshold; }));
 }
 
-Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed) {
-  const auto backend = make_scalar_backend();
+std::size_t count_mistracked(const Trace& trace, const PeakThresholds& peaks) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < trace.region.size(); ++i) {
+    count += trace.region[i] > peaks.region || trace.contour[i] > peaks.contour ? 1 : 0;
+  }
+  return count;
+}
+
+Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed,
+                     const std::string& backend) {
+  const auto evaluator = make_backend(backend);
   Random random(seed);
-  Trace trace;
+  Recorder recorder(sequence);
   Pose pose = sequence.start;
   for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
-    Objective objective(*backend, sequence.frames[t], sequence.model, sequence.limits);
+    Objective objective(*evaluator, sequence.frames[t], sequence.model, sequence.limits);
     objective.expect(pose);
     const RegistrationResult found = register_pose(objective, pose, config, random);
     pose = found.pose;
-    MotionFrame motion;
-    motion.pose = pose;
-    complete(motion, sequence.model.body, sequence.camera);
-    const FrameMeans errors = mean_errors(motion, sequence.camera, sequence.truth, t);
-    trace.frame.push_back(static_cast<double>(t));
-    trace.region.push_back(found.score.region);
-    trace.contour.push_back(found.score.contour);
-    trace.error_2d.push_back(errors.error_2d);
-    trace.error_3d.push_back(errors.error_3d);
-    trace.evaluations.push_back(found.region_evaluations + found.edge_evaluations);
+    recorder.add(t, pose, found.score, found.region_evaluations + found.edge_evaluations);
   }
+  return recorder.trace();
+}
+
+FilterSetup reference_setup(const std::string& heuristics) {
+  return {reference_filter(heuristics), reference_registration(), 0.0};
+}
+
+FilterSetup our_setup() {
+  const Config config;
+  return {config.filter, config.registration, config.tracking.velocity};
+}
+
+Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, std::uint64_t seed) {
+  Evaluators evaluators("simd", 1);
+  ParticleFilter filter(setup.filter, setup.search, sequence.limits, evaluators, seed);
+  Recorder recorder(sequence);
+  std::vector<double> effective;
+  std::vector<double> moving;
+  filter.start(sequence.start);
+  for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
+    const FilterResult found = filter.step(sequence.frames[t], sequence.model, setup.velocity);
+    recorder.add(t, found.pose, found.score, found.evaluations);
+    effective.push_back(found.effective_particles);
+    moving.push_back(static_cast<double>(found.moving.count()) / static_cast<double>(found.moving.size()));
+  }
+  Trace trace = recorder.trace();
+  trace.effective = std::move(effective);
+  trace.moving = std::move(moving);
   return trace;
 }
 

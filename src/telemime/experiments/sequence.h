@@ -8,6 +8,7 @@
 #include "telemime/core/frame.h"
 #include "telemime/evaluation/truth.h"
 #include "telemime/pipeline/config.h"
+#include "telemime/tracking/filter_config.h"
 
 namespace telemime {
 
@@ -51,6 +52,16 @@ struct Trace {
   std::vector<double> error_2d;  ///< mm at the person's depth, elbows and wrists (thesis 3.18)
   std::vector<double> error_3d;  ///< mm, mid-shoulders coincide, elbows and wrists (thesis 3.16)
   std::vector<double> evaluations;
+  std::vector<double> effective;  ///< particles that carry the weight; a search without particles: none
+  std::vector<double> moving;     ///< share of the body's parts that it diffused; as above
+  double jitter = 0.0;            ///< second difference of the wrists, mm/frame^2
+};
+
+/// A frame counts as mistracked with F or D_C above these (thesis 3.6.1: a "peak"); fixed for the dev
+/// sequences at 160x120, where a pose that a person would accept has F of 0.1 to 0.2 and D_C of 1 to 2.
+struct PeakThresholds {
+  double region = 0.30;
+  double contour = 2.5;  ///< px at 160x120
 };
 
 /// Mean of the finite values; NaN of none.
@@ -59,9 +70,28 @@ double mean_of(const std::vector<double>& values);
 /// Values above the threshold: the thesis's mistracked frames ("peaks").
 std::size_t count_above(const std::vector<double>& values, double threshold);
 
+/// Frames with a peak of F, of D_C or of both.
+std::size_t count_mistracked(const Trace& trace, const PeakThresholds& peaks);
+
 /// Tracks the whole sequence, each frame from the pose of the one before (thesis 2.4.4.4). The same seed
 /// gives the same trace.
-Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed);
+Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed,
+                     const std::string& backend = "scalar");
+
+/// A particle filter and what it is run with.
+struct FilterSetup {
+  FilterConfig filter;
+  RegistrationConfig search;  ///< of the filter's local search
+  double velocity = 0.0;      ///< share of the last motion of the arms that is expected again
+};
+
+/// The thesis's filter with these heuristics alone; none is CONDENSATION.
+FilterSetup reference_setup(const std::string& heuristics);
+/// Ours, as `telemime track` runs it.
+FilterSetup our_setup();
+
+/// The same with a particle filter that starts at the sequence's first pose, on the calling thread alone.
+Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, std::uint64_t seed);
 
 /// The thesis's search with exactly x region and y edge evaluations a frame.
 RegistrationConfig reference_with(int region, int edge);

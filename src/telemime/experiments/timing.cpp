@@ -8,6 +8,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
+#include "telemime/experiments/engine_tables.h"
 #include "telemime/experiments/experiments.h"
 #include "telemime/experiments/plot.h"
 #include "telemime/experiments/report.h"
@@ -217,6 +218,45 @@ Finding size_times(Lab& lab) {
   finding.verdict = verdict({first > last, times.back().features_ms > times.front().features_ms},
                             "D_C costs " + number(first) + " of an F at 160x120 and " + number(last) +
                                 " at 640x480 (thesis: 1.06 and 0.77).");
+  return finding;
+}
+
+Finding overlap_times(Lab& lab) {
+  EngineOptions options;
+  options.backends = {"scalar", "simd"};
+  options.quick = lab.options().quick;
+  options.seed = lab.options().seed;
+  options.threads = 1;
+  options.seconds = lab.options().seconds;
+  Finding finding;
+  finding.tables = {overlap_time_table(options)};
+  const auto& rows = finding.tables.front().rows;
+  const auto column = [&](std::size_t i) {
+    std::vector<double> values;
+    std::transform(rows.begin(), rows.end(), std::back_inserter(values),
+                   [i](const auto& row) { return std::stod(row[i]); });
+    return values;
+  };
+  const std::vector<double> count = column(0);
+  const std::vector<double> scalar = column(1);
+  const std::vector<double> simd = column(2);
+  const std::vector<double> plain = column(3);
+  finding.plots = {{"plot", to_svg(LinePlot{"Overlap histograms at 160x120",
+                                            "histograms",
+                                            "ms",
+                                            {{"scalar, one thread", count, scalar},
+                                             {"simd, one thread", count, simd},
+                                             {"thesis, CPU in C++", count, plain},
+                                             {"thesis, GPU 1", count, column(5)}}})}};
+  finding.notes = {
+      "From the poses to the histograms: placing the model, drawing it and counting the overlap. Other back "
+      "ends, devices among them, and all threads: `telemime bench --engine-only`."};
+  finding.verdict = verdict(
+      {simd.back() < scalar.back(), scalar.back() > 2.0 * scalar.front()},
+      number(count.back()) + " histograms take " + number(scalar.back()) + " ms with plain code and " +
+          number(simd.back()) + " ms with vector instructions on one thread, " +
+          number(plain.back() / simd.back()) + " times as fast as the thesis's CPU and " +
+          number(column(5).back() / simd.back()) + " times as fast as its first GPU.");
   return finding;
 }
 
