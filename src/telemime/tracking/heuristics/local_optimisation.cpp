@@ -15,6 +15,7 @@ namespace {
 struct Job {
   int parent = 0;
   int evaluations = 0;
+  int number = 0;  // of the same parent's jobs
 };
 
 // F, then D_C, each with what keeps segments out of each other (thesis 3.5.4).
@@ -71,19 +72,20 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
 
 // Ours: trunk and arms in turn, with the prior, from where the arms are expected or from where they were.
 std::vector<Particle> search_blocks(const FilterContext& context, const Generation& generation,
-                                    const Job& job, bool first, Backend& backend) {
+                                    const Job& job, bool best, Backend& backend) {
   const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
-  Random random = context.random(purpose::kSimplex, static_cast<std::uint64_t>(job.parent));
+  Random random = context.random(
+      purpose::kSimplex, 2 * static_cast<std::uint64_t>(job.parent) + static_cast<std::uint64_t>(job.number));
   RegistrationConfig search = context.search;
   search.iterations = job.evaluations;
-  if (!first) {
+  if (!best) {
     search.proposals = no_proposals();
   }
   Objective objective(backend, context.frame, context.model, context.limits);
   Pose start = parent.pose;
-  if (first) {
+  if (best) {
     const bool goes_on = objective(context.expected, search.region) < objective(start, search.region);
-    start = goes_on ? context.expected : start;
+    start = goes_on == (job.number == 0) ? context.expected : start;
   }
   objective.expect(start);
   objective.face(context.facing);
@@ -107,8 +109,11 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
     if (context.config.blocks) {
       if (generation.parents.size() <= static_cast<std::size_t>(context.config.modes) ||
           count >= context.config.mode_least) {
-        jobs.push_back(
-            {static_cast<int>(i), std::clamp(count, context.config.mode_least, context.config.mode_most)});
+        const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
+        // The best one from where it is expected, and from where it was: different valleys may be nearest.
+        for (int number = 0; number < (i == 0 ? 2 : 1); ++number) {
+          jobs.push_back({static_cast<int>(i), evaluations, number});
+        }
       }
     } else if (dimensions > 0 && count > dimensions) {
       jobs.push_back({static_cast<int>(i), count});
