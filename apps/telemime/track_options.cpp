@@ -5,6 +5,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
+#include "telemime/tracking/heuristics/all.h"
 
 namespace telemime {
 namespace {
@@ -27,6 +28,25 @@ void set_size(ImageConfig& image, const std::string& size) {
   image.height = *height;
 }
 
+void set_method(Config& config, const std::string& method) {
+  if (method.empty()) {
+    return;
+  }
+  if (method == "heuristics" || method == "condensation") {
+    config.tracking.method = method;
+    return;
+  }
+  for (const Method step : {Method::two_step, Method::regions, Method::edges}) {
+    if (method == to_string(step)) {
+      config.tracking.method = "two-step";
+      config.registration.method = step;
+      return;
+    }
+  }
+  throw Error(ErrorKind::usage, "unknown method '" + method + "'",
+              "Use heuristics, condensation, two-step, regions or edges.");
+}
+
 }  // namespace
 
 void add_track_options(CLI::App& command, TrackOptions& o) {
@@ -40,10 +60,16 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
                      "horizontal field of view in degrees when there is no --camera [60]");
   command.add_option("--height", o.height, "the person's height in metres: sets the absolute scale");
   command.add_option("--size", o.size, "working image, WIDTHxHEIGHT [320x240]");
-  command.add_option("--method", o.method, "regions, edges or two-step [two-step]");
-  command.add_option("--iterations", o.iterations, "cost evaluations a frame [2000]");
-  command.add_option("--budget", o.budget_ms,
-                     "search time a frame in ms, instead of --iterations (see `telemime tune`)");
+  command.add_option("--method", o.method,
+                     "heuristics, condensation, two-step, regions or edges [heuristics]");
+  command.add_option("--particles", o.particles, "evaluations a frame of heuristics and condensation [2000]");
+  command.add_option("--heuristics", o.heuristics,
+                     "with commas, of " + heuristic_names() + " [" + FilterConfig().heuristics + "]");
+  command.add_option("--iterations", o.iterations, "cost evaluations a frame of the other methods [2000]");
+  command.add_option(
+      "--budget", o.budget_ms,
+      "search time a frame in ms, instead of --particles or --iterations (see `telemime tune`)");
+  command.add_option("--threads", o.threads, "for the search of heuristics and condensation [all]");
   command.add_option("--limits", o.limits, "joint limits: reference, anatomical or a JSON file [anatomical]");
   command.add_option("--backend", o.backend, "what evaluates poses: " + backend_names() + " [simd]");
   command.add_option("--smoothing", o.smoothing, "none, recursive or one-euro [one-euro]");
@@ -64,7 +90,10 @@ TrackRequest make_request(const TrackOptions& o) {
   if (!o.size.empty()) {
     set_size(config.image, o.size);
   }
-  config.registration.method = o.method.empty() ? config.registration.method : parse_method(o.method);
+  set_method(config, o.method);
+  config.filter.particles = o.particles.value_or(config.filter.particles);
+  config.filter.heuristics = o.heuristics.value_or(config.filter.heuristics);
+  config.threads = o.threads.value_or(config.threads);
   config.registration.iterations = o.iterations.value_or(config.registration.iterations);
   config.budget_ms = o.budget_ms ? o.budget_ms : config.budget_ms;
   config.limits = o.limits.empty() ? config.limits : o.limits;

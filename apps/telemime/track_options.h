@@ -18,6 +18,9 @@ struct TrackOptions {
   std::optional<double> height;
   std::string size;
   std::string method;
+  std::optional<int> particles;
+  std::optional<std::string> heuristics;
+  std::optional<int> threads;
   std::optional<int> iterations;
   std::optional<double> budget_ms;
   std::string limits;

@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
@@ -254,6 +255,13 @@ Config with_budget(const Config& config, const Camera& camera) {
   const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());
   Config fixed = config;
   fixed.registration.iterations = split.total() + 1;  // the last evaluation scores the pose
+  // The best mode's search is one after the other; the rest is shared by the threads.
+  const int threads = config.threads > 0
+                          ? config.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  fixed.filter.mode_most =
+      std::max(fixed.filter.mode_least, std::min(fixed.filter.mode_most, 2 * split.total() / 3));
+  fixed.filter.particles = std::max(1, split.total() * threads / 2);
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();
   }
