@@ -24,11 +24,13 @@ namespace {
 struct Sample {
   Body body;
   Pose pose;
+  double region = 0.0;
   std::array<std::optional<Eigen::Vector3d>, kJointCount> error;  // m, mid-shoulders made to coincide
 };
 
 struct Samples {
   std::vector<Sample> frames;
+  Camera camera;                      // of the working image
   std::vector<double> sigma_region;   // of each clip
   std::vector<double> sigma_contour;  // share of the width
   std::array<std::vector<double>, kPoseSize> change;
@@ -67,6 +69,7 @@ std::optional<double> truth_motion(const Truth& truth, std::size_t t, std::size_
 
 void collect(const Clip& clip, const std::filesystem::path& folder, const Config& config, Samples& samples) {
   Tracker tracker(config, clip.camera);
+  samples.camera = tracker.working_camera();
   tracker.learn_background(clip.background);
   const auto source = open_source(video_of(folder).string());
   const auto found = look_ahead(*source, config, clip.camera, tracker.features().calibration(), 0,
@@ -89,7 +92,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
     contours.push_back(frame.motion.contour_score / config.image.width);
     const FrameErrors errors =
         measure_frame(frame.motion, clip.camera, clip.truth.frames[t], clip.truth.camera, 1.0);
-    Sample sample{body, frame.motion.pose, {}};
+    Sample sample{body, frame.motion.pose, frame.motion.region_score, {}};
     for (std::size_t j = 0; j < kJointCount; ++j) {
       sample.error[j] = errors[j] ? errors[j]->aligned : std::nullopt;
     }
@@ -130,10 +133,11 @@ struct Fit {
   double log_determinants = 0.0;
 };
 
-Fit fit_of(const std::vector<Sample>& samples, const SpreadModel& model) {
+Fit fit_of(const std::vector<Sample>& samples, const Camera& camera, const SpreadModel& model) {
   Fit fit;
   for (const Sample& sample : samples) {
-    const auto covariance = model_covariance(sample.body, sample.pose, model, model.size);
+    const auto covariance =
+        model_covariance({sample.body, camera, sample.region, model.size}, sample.pose, model);
     for (const Joint joint : {Joint::l_shoulder, Joint::r_shoulder, Joint::l_elbow, Joint::r_elbow,
                               Joint::l_wrist, Joint::r_wrist}) {
       const auto j = static_cast<std::size_t>(joint);
@@ -147,7 +151,7 @@ Fit fit_of(const std::vector<Sample>& samples, const SpreadModel& model) {
 }
 
 // Largest likelihood of the errors; then as much wider that 95 % of them lie inside the 95 % region.
-SpreadModel fit_spread(const std::vector<Sample>& samples, const SpreadModel& start) {
+SpreadModel fit_spread(const std::vector<Sample>& samples, const Camera& camera, const SpreadModel& start) {
   const auto model_at = [&](const Eigen::VectorXd& x) {
     SpreadModel model = start;
     model.trunk = std::exp(x[0]);
@@ -162,7 +166,7 @@ SpreadModel fit_spread(const std::vector<Sample>& samples, const SpreadModel& st
   options.max_evaluations = 300;
   const SimplexResult found = minimise(
       [&](const Eigen::VectorXd& x) {
-        const Fit fit = fit_of(samples, model_at(x));
+        const Fit fit = fit_of(samples, camera, model_at(x));
         double sum = fit.log_determinants;
         for (const double squared : fit.squared) {
           // Heavy tails: a flipped arm must not blow up all the others.
@@ -174,7 +178,7 @@ SpreadModel fit_spread(const std::vector<Sample>& samples, const SpreadModel& st
   SpreadModel model = model_at(found.best().point);
   constexpr double kChiSquared = 7.8147;
   for (int round = 0; round < 30; ++round) {
-    const double reached = quantile(fit_of(samples, model).squared, 0.95).value_or(kChiSquared);
+    const double reached = quantile(fit_of(samples, camera, model).squared, 0.95).value_or(kChiSquared);
     const double wider = std::pow(reached / kChiSquared, 0.25);
     model.trunk *= wider;
     model.across *= wider;
@@ -214,7 +218,12 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
       model.motion[part] = std::max(kLeast, quantile(samples.uncovered[part], 0.95).value_or(kLeast));
     }
   }
-  model.spread = fit_spread(samples.frames, model.spread);
+  std::vector<double> regions;
+  for (const Sample& sample : samples.frames) {
+    regions.push_back(sample.region);
+  }
+  model.spread.residual = quantile(regions, 0.5).value_or(model.spread.residual);
+  model.spread = fit_spread(samples.frames, samples.camera, model.spread);
   return model;
 }
 

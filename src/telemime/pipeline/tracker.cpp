@@ -229,8 +229,9 @@ void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& re
   const FilterResult found = filter_->step(prepared, model_, config_.tracking.velocity);
   result.motion.evaluations += found.evaluations;
   const SpreadModel& spread = filter_->numbers().spread;
-  result.motion.spread = spread_of(model_.body, filter_->particles(), found.pose, spread,
-                                   config_.calibration.stature ? spread.size_given : spread.size);
+  result.motion.spread = spread_of({model_.body, working_camera_, found.score.region,
+                                    config_.calibration.stature ? spread.size_given : spread.size},
+                                   filter_->particles(), found.pose, spread);
   previous_ = pose_;
   adopt(found.pose, found.score, result);
   watch(found.score, result);

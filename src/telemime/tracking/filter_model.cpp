@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "telemime/core/errors.h"
 
@@ -70,6 +72,7 @@ FilterModel parse_filter_model(const std::string& text, const std::string& name)
   model.spread.trunk = positive(spread, "trunk_mm", name) * kMillimetre;
   model.spread.across = positive(spread, "across", name);
   model.spread.seen = positive(spread, "seen", name);
+  model.spread.residual = positive(spread, "residual", name);
   model.spread.size = positive(spread, "size", name);
   model.spread.size_given = positive(spread, "size_given", name);
   return model;
@@ -88,25 +91,31 @@ FilterModel load_filter_model(const std::string& file) {
 }
 
 std::string to_json_text(const FilterModel& model, const std::string& note) {
-  const auto rounded = [](double value, double step) { return std::round(value / step) * step; };
+  // Four digits: the estimates are no better.
+  const auto digits = [](double value) {
+    std::ostringstream text;
+    text << std::setprecision(4) << value;
+    return std::stod(text.str());
+  };
   Json json = {{"format", "telemime-filter"},
                {"note", note},
-               {"sigma_F", model.sigma_region},
-               {"sigma_D_share_of_width", model.sigma_contour}};
+               {"sigma_F", digits(model.sigma_region)},
+               {"sigma_D_share_of_width", digits(model.sigma_contour)}};
   for (std::size_t i = 0; i < kPoseSize; ++i) {
-    json["change"][name_of(i)] = rounded(model.change[static_cast<Eigen::Index>(i)] / unit_of(i), 0.001);
+    json["change"][name_of(i)] = digits(model.change[static_cast<Eigen::Index>(i)] / unit_of(i));
   }
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    json["motion"][std::string(kPartNames[i])] = model.motion[i];
+    json["motion"][std::string(kPartNames[i])] = digits(model.motion[i]);
   }
-  json["end_effector"] = {{"wrist_across_mm", model.wrist_across / kMillimetre},
-                          {"wrist_along_mm", model.wrist_along / kMillimetre},
-                          {"swivel_degrees", model.swivel / kDegree}};
-  json["spread"] = {{"trunk_mm", model.spread.trunk / kMillimetre},
-                    {"across", model.spread.across},
-                    {"seen", model.spread.seen},
-                    {"size", model.spread.size},
-                    {"size_given", model.spread.size_given}};
+  json["end_effector"] = {{"wrist_across_mm", digits(model.wrist_across / kMillimetre)},
+                          {"wrist_along_mm", digits(model.wrist_along / kMillimetre)},
+                          {"swivel_degrees", digits(model.swivel / kDegree)}};
+  json["spread"] = {{"trunk_mm", digits(model.spread.trunk / kMillimetre)},
+                    {"across", digits(model.spread.across)},
+                    {"seen", digits(model.spread.seen)},
+                    {"residual", digits(model.spread.residual)},
+                    {"size", digits(model.spread.size)},
+                    {"size_given", digits(model.spread.size_given)}};
   return json.dump(2) + "\n";
 }
 

@@ -17,6 +17,9 @@ struct SpreadModel {
   /// The part of its length to which a bone is seen: at the angle phi to the image plane it is known in depth
   /// to about seen / sin(phi) of its length, parallel to the image to sqrt(seen / 2).
   double seen = 0.0;
+  /// F of the poses that these numbers are of. A pose that fits worse is known worse, in proportion to the
+  /// square of its F over this.
+  double residual = 0.0;
   double size = 0.0;        ///< of the person's size, as a share of it, from an average head
   double size_given = 0.0;  ///< the same with a height that was given
 };

@@ -22,9 +22,32 @@ Eigen::Vector3d mid_shoulders(const JointPositions& joints) {
   return 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
 }
 
+double square(double x) {
+  return x * x;
+}
+
+// Standard deviation of a bone's end outside the picture, as a share of the bone's length.
+constexpr double kUnseen = 0.5;
+// The same of a wrist whose hand is outside: the forearm may go on.
+constexpr double kCut = 0.25;
+// Without the boundary between sleeve and skin an arm of one colour shows its elbow by its outline alone.
+constexpr double kCovered = 2.0;
+
+bool is_in_picture(const Camera& camera, const Eigen::Vector3d& point) {
+  if (point.z() < 0.05) {
+    return false;
+  }
+  const Eigen::Vector2d p = camera.project(point);
+  return p.x() > -0.5 && p.y() > -0.5 && p.x() < camera.width - 0.5 && p.y() < camera.height - 0.5;
+}
+
 // What a bone adds to the covariance of its end.
-Eigen::Matrix3d of_bone(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const SpreadModel& model) {
+Eigen::Matrix3d of_bone(const Camera& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const SpreadModel& model) {
   const double length = (to - from).norm();
+  if (!is_in_picture(camera, to)) {
+    return Eigen::Matrix3d::Identity() * square(kUnseen * length);
+  }
   const Eigen::Vector3d ray = from.normalized();
   const double sine = length > 0.0 ? (to - from).dot(ray) / length : 0.0;
   const double across = model.across * length;
@@ -67,9 +90,9 @@ std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particl
   return modes;
 }
 
-std::array<Eigen::Matrix3d, kJointCount> model_covariance(const Body& body, const Pose& estimate,
-                                                          const SpreadModel& model, double size) {
-  const JointPositions joints = forward_kinematics(body, estimate).joints;
+std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& context, const Pose& estimate,
+                                                          const SpreadModel& model) {
+  const JointPositions joints = forward_kinematics(context.body, estimate).joints;
   const Eigen::Vector3d middle = mid_shoulders(joints);
   std::array<Eigen::Matrix3d, kJointCount> covariance;
   covariance.fill(Eigen::Matrix3d::Identity() * (model.trunk * model.trunk));
@@ -80,22 +103,40 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const Body& body, cons
                                                               {Joint::r_elbow, Joint::r_wrist},
                                                               {Joint::l_wrist, Joint::l_hand},
                                                               {Joint::r_wrist, Joint::r_hand}}};
-  for (const auto& [from, to] : kBones) {
-    at(to) = at(from) + of_bone(joints[from], joints[to], model);
+  SpreadModel arms = model;
+  constexpr double kToTheWrist = 1.5;
+  if (context.body.shape.sleeve > kToTheWrist) {
+    arms.across *= kCovered;
+    arms.seen *= kCovered;
   }
+  for (const auto& [from, to] : kBones) {
+    at(to) = at(from) + of_bone(context.camera, joints[from], joints[to], arms);
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    const bool left = side == Side::left;
+    const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
+    if (is_in_picture(context.camera, joints[wrist]) &&
+        !is_in_picture(context.camera, joints[left ? Joint::l_hand : Joint::r_hand])) {
+      at(wrist) += Eigen::Matrix3d::Identity() *
+                   square(kCut * context.body.forearm_length[static_cast<std::size_t>(side)]);
+    }
+  }
+  const double worse = std::pow(std::max(1.0, context.region / model.residual), 2.0);
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    const Eigen::Vector3d reach = size * (joints.at[j] - middle);
+    covariance[j] *= worse * worse;
+    const Eigen::Vector3d reach = context.size * (joints.at[j] - middle);
     covariance[j] += reach * reach.transpose();
   }
   return covariance;
 }
 
-PoseSpread spread_of(const Body& body, std::span<const Particle> particles, const Pose& estimate,
-                     const SpreadModel& model, double size) {
+PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> particles, const Pose& estimate,
+                     const SpreadModel& model) {
   // What weighs less moves nothing that is written.
   constexpr double kLeast = 1e-6;
+  const Body& body = context.body;
   PoseSpread spread;
-  spread.covariance = model_covariance(body, estimate, model, size);
+  spread.covariance = model_covariance(context, estimate, model);
   const JointPositions own = forward_kinematics(body, estimate).joints;
   const Eigen::Vector3d middle = mid_shoulders(own);
   for (const Particle& particle : particles) {

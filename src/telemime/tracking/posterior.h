@@ -25,14 +25,22 @@ struct Mode {
 std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particles, double radius,
                              std::size_t most);
 
-/// Covariance of each joint about the estimate, seen from the middle of the shoulders: that of the particles,
-/// and what the model does not know (SpreadModel). `size` is the standard deviation of the person's size as a
-/// share of it.
-PoseSpread spread_of(const Body& body, std::span<const Particle> particles, const Pose& estimate,
-                     const SpreadModel& model, double size);
+/// What a pose's spread depends on beside the particles.
+struct SpreadContext {
+  const Body& body;
+  const Camera& camera;  ///< of the working image
+  double region = 0.0;   ///< F of the estimate
+  double size = 0.0;     ///< standard deviation of the person's size, as a share of it
+};
 
-/// The part of spread_of that does not come from particles.
-std::array<Eigen::Matrix3d, kJointCount> model_covariance(const Body& body, const Pose& estimate,
-                                                          const SpreadModel& model, double size);
+/// Covariance of each joint about the estimate, seen from the middle of the shoulders: that of the particles,
+/// and what the model does not know (SpreadModel).
+PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> particles, const Pose& estimate,
+                     const SpreadModel& model);
+
+/// The part of spread_of that does not come from particles. A joint outside the image is known to little
+/// better than its bone's length.
+std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& context, const Pose& estimate,
+                                                          const SpreadModel& model);
 
 }  // namespace telemime
