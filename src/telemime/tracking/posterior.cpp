@@ -41,19 +41,22 @@ bool is_in_picture(const Camera& camera, const Eigen::Vector3d& point) {
   return p.x() > -0.5 && p.y() > -0.5 && p.x() < camera.width - 0.5 && p.y() < camera.height - 0.5;
 }
 
-// What a bone adds to the covariance of its end.
-Eigen::Matrix3d of_bone(const Camera& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                        const SpreadModel& model) {
+// The covariance of a bone's end from that of its start. `along` is the part of it along the viewing ray that
+// comes from bones (m); it grows with the bone's own. Depth errors along an arm have one cause - lengths that
+// are wrong together - so they add up as they are, not by their squares.
+Eigen::Matrix3d end_of_bone(const Camera& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                            const SpreadModel& model, const Eigen::Matrix3d& start, double& along) {
   const double length = (to - from).norm();
   if (!is_in_picture(camera, to)) {
-    return Eigen::Matrix3d::Identity() * square(kUnseen * length);
+    return start + Eigen::Matrix3d::Identity() * square(kUnseen * length);
   }
   const Eigen::Vector3d ray = from.normalized();
   const double sine = length > 0.0 ? (to - from).dot(ray) / length : 0.0;
   const double across = model.across * length;
-  const double along = model.seen * length / std::sqrt(sine * sine + 2.0 * model.seen);
-  return across * across * (Eigen::Matrix3d::Identity() - ray * ray.transpose()) +
-         along * along * ray * ray.transpose();
+  const double before = along;
+  along += model.seen * length / std::sqrt(sine * sine + 2.0 * model.seen);
+  return start + across * across * (Eigen::Matrix3d::Identity() - ray * ray.transpose()) +
+         (along * along - before * before) * ray * ray.transpose();
 }
 
 }  // namespace
@@ -104,13 +107,16 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
                                                               {Joint::l_wrist, Joint::l_hand},
                                                               {Joint::r_wrist, Joint::r_hand}}};
   SpreadModel arms = model;
+  std::array<double, kJointCount> along{};
   constexpr double kToTheWrist = 1.5;
   if (context.body.shape.sleeve > kToTheWrist) {
     arms.across *= kCovered;
     arms.seen *= kCovered;
   }
   for (const auto& [from, to] : kBones) {
-    at(to) = at(from) + of_bone(context.camera, joints[from], joints[to], arms);
+    double& along_arm = along[static_cast<std::size_t>(to)];
+    along_arm = along[static_cast<std::size_t>(from)];
+    at(to) = end_of_bone(context.camera, joints[from], joints[to], arms, at(from), along_arm);
   }
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
