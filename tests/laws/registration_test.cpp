@@ -266,7 +266,8 @@ TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   const auto proposed = [&](const Pose& truth, const Pose& start) {
     const PreparedFrame frame = prepare(observe(model, truth, camera), camera);
     Objective objective(*backend, frame, model, limits);
-    return propose_upright(objective, start, RegistrationConfig{}.region);
+    const RegistrationConfig config;
+    return propose_upright(objective, start, config.region, config.simplex_factor, 0);
   };
   EXPECT_EQ(proposed(bent, bent).vector(), bent.vector());
   const Pose back = proposed(upright, bent);
