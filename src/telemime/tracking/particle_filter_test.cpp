@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/core/errors.h"
@@ -54,6 +56,18 @@ TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   EXPECT_LT(left_wrist_error(scene, best_of(filter).pose, truth), 0.12);
 }
 
+TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
+  Scene scene;
+  ParticleFilter filter = make_filter(scene, thesis("", 100));
+  filter.start(both_arms_seen());
+  filter.step(scene.frame, scene.model, 0.0);
+  std::set<double> roots;
+  for (const Particle& p : filter.particles()) {
+    EXPECT_EQ(p.parent, 0);
+    EXPECT_TRUE(roots.insert(p.pose.root.x()).second);
+  }
+}
+
 TEST(ParticleFilter, KeepingTheBestParticleTheEstimateNeverGetsWorse) {
   Scene scene;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -96,6 +110,28 @@ TEST(ParticleFilter, LocalOptimisationFitsBetterThanDiffusionAlone) {
     without += fit("", seed) / 6.0;
   }
   EXPECT_LT(with, 0.6 * without);
+}
+
+TEST(ParticleFilter, LocalOptimisationEndsWithTheContours) {
+  Scene scene;
+  Pose start = both_arms_seen();
+  start[Angle::l_shoulder_abduct] -= 12 * kDegree;
+  const auto contour = [&](double region_share) {
+    scene.search.region_share = region_share;
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      ParticleFilter filter = make_filter(scene, thesis("lo", 400), seed);
+      filter.start(start);
+      filter.step(scene.frame, scene.model, 0.0);
+      const auto& all = filter.particles();
+      EXPECT_EQ(all.size(), 400U);
+      sum += std::min_element(all.begin(), all.end(), [](const Particle& a, const Particle& b) {
+               return a.score.contour < b.score.contour;
+             })->score.contour;
+    }
+    return sum / 6.0;
+  };
+  EXPECT_LT(contour(0.6), contour(1.0));
 }
 
 TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {

@@ -57,6 +57,27 @@ TEST(MotionPartition, WhenTheTrunkMovesEverythingDoes) {
   EXPECT_EQ(moving(both_arms_seen(), now), all_parts());
 }
 
+TEST(MotionPartition, HeadAndArmsGoWithTheTrunkEvenWhereTheyLookStill) {
+  Scene scene;
+  scene.labels_before = scene.frame.labels.clone();
+  // Some of the chest is gone below the neck, nothing else.
+  const JointPositions joints = scene.joints(both_arms_seen());
+  const Eigen::Vector2d neck = scene.camera.project(joints[Joint::neck]);
+  const Eigen::Vector2d root = scene.camera.project(joints[Joint::root]);
+  cv::Mat chest = scene.frame.labels(cv::Rect(static_cast<int>(neck.x()) - 3, static_cast<int>(neck.y()) + 8,
+                                              7, static_cast<int>(root.y() - neck.y()) - 16));
+  chest.setTo(0);
+  const auto shares =
+      uncovered_shares(scene.labels_before, scene.frame.labels, scene.model, scene.estimate, scene.camera);
+  EXPECT_GT(shares[static_cast<std::size_t>(Part::trunk)], 0.05);
+  EXPECT_EQ(shares[static_cast<std::size_t>(Part::head)], 0.0);
+  EXPECT_EQ(shares[static_cast<std::size_t>(Part::left_arm)], 0.0);
+  Generation generation;
+  generation.moving = PartSet();
+  find_moving_parts(scene.context(), generation);
+  EXPECT_EQ(generation.moving, all_parts());
+}
+
 TEST(MotionPartition, WithoutAFrameBeforeEverythingMoves) {
   Scene scene;
   Generation generation;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
@@ -52,6 +54,22 @@ TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
     }
   }
   EXPECT_NEAR(two, kSeeds / 2, 15);
+}
+
+TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
+  Scene scene;
+  scene.config.turn_evaluations = 10;
+  Pose bent = both_arms_seen();
+  bent[Angle::root_roll] = 0.3;
+  Generation generation;
+  generation.parents = {particle(bent, 1.0)};
+  turn_trunk(scene.context(), generation);
+  ASSERT_FALSE(generation.particles.empty());
+  const Pose& upright = generation.particles[0].pose;
+  EXPECT_LT(std::abs(upright[Angle::root_roll]), 0.1);
+  const Eigen::Vector3d neck = scene.joints(bent)[Joint::neck];
+  EXPECT_LT((scene.joints(upright)[Joint::neck] - neck).norm(), 0.04);
+  EXPECT_GT((upright.root - bent.root).norm(), 0.08);
 }
 
 TEST(TurnTrunk, WhoWalksIsTriedFacingTheirWay) {
