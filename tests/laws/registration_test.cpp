@@ -279,6 +279,23 @@ TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   }
 }
 
+TEST(Registration, ATrunkIsTriedUprightWithinItsEvaluations) {
+  Pose bent = gestures()[0];
+  bent[Angle::root_torsion] += 20 * kDegree;
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
+  const JointLimits limits = anatomical_limits();
+  const auto backend = make_scalar_backend();
+  const PreparedFrame frame = prepare(observe(model, gestures()[0], camera), camera);
+  const RegistrationConfig config;
+  for (const int evaluations : {0, 1, 7, 20, 60, 200}) {
+    Objective objective(*backend, frame, model, limits);
+    const Pose found = propose_upright(objective, bent, config.region, config.simplex_factor, evaluations);
+    EXPECT_LE(objective.evaluations(), evaluations + 2) << evaluations;
+    EXPECT_NEAR(found[Angle::root_torsion], 10 * kDegree, 1e-9) << evaluations;
+  }
+}
+
 TEST(Registration, OneArmAtATimeTakesBothInTurn) {
   const Model model = make_model(Shape{});
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
