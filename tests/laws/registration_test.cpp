@@ -266,7 +266,8 @@ TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   const auto proposed = [&](const Pose& truth, const Pose& start) {
     const PreparedFrame frame = prepare(observe(model, truth, camera), camera);
     Objective objective(*backend, frame, model, limits);
-    return propose_upright(objective, start, RegistrationConfig{}.region);
+    const RegistrationConfig config;
+    return propose_upright(objective, start, config.region, config.simplex_factor, 0);
   };
   EXPECT_EQ(proposed(bent, bent).vector(), bent.vector());
   const Pose back = proposed(upright, bent);
@@ -275,6 +276,23 @@ TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   const JointPositions after = forward_kinematics(model.body, back).joints;
   for (const Joint j : {Joint::neck, Joint::l_wrist, Joint::r_wrist}) {
     EXPECT_LT((before[j] - after[j]).norm(), 0.02) << kJointNames[static_cast<std::size_t>(j)];
+  }
+}
+
+TEST(Registration, ATrunkIsTriedUprightWithinItsEvaluations) {
+  Pose bent = gestures()[0];
+  bent[Angle::root_torsion] += 20 * kDegree;
+  const Model model = make_model(Shape{});
+  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
+  const JointLimits limits = anatomical_limits();
+  const auto backend = make_scalar_backend();
+  const PreparedFrame frame = prepare(observe(model, gestures()[0], camera), camera);
+  const RegistrationConfig config;
+  for (const int evaluations : {0, 1, 7, 20, 60, 200}) {
+    Objective objective(*backend, frame, model, limits);
+    const Pose found = propose_upright(objective, bent, config.region, config.simplex_factor, evaluations);
+    EXPECT_LE(objective.evaluations(), evaluations + 2) << evaluations;
+    EXPECT_NEAR(found[Angle::root_torsion], 10 * kDegree, 1e-9) << evaluations;
   }
 }
 

@@ -124,7 +124,10 @@ struct Coverage {
       }
       const Eigen::Matrix3d covariance = frame.spread->covariance[j] * scale * scale;
       const Eigen::Vector3d& error = *errors[j]->aligned;
-      const double inside = error.dot(covariance.ldlt().solve(error)) <= kChiSquared ? 1.0 : 0.0;
+      // No doubt at all (or what is no covariance) holds no truth.
+      const Eigen::LLT<Eigen::Matrix3d> factor(covariance);
+      const bool holds = factor.info() == Eigen::Success && error.dot(factor.solve(error)) <= kChiSquared;
+      const double inside = holds ? 1.0 : 0.0;
       by_joint[j].add(inside);
       const Joint joint = static_cast<Joint>(j);
       if (std::find(kScoredJoints.begin(), kScoredJoints.end(), joint) != kScoredJoints.end()) {

@@ -256,6 +256,84 @@ TEST(Evaluate, RefusesPosesOfAnotherClip) {
   EXPECT_THROW(scene.run(), Error);
 }
 
+// Every joint's standard deviations across and along the view, m.
+PoseSpread spread_of(double across, double depth) {
+  PoseSpread spread;
+  spread.covariance.fill(Eigen::Vector3d(across * across, across * across, depth * depth).asDiagonal());
+  return spread;
+}
+
+TEST(Evaluate, NothingIsCoveredWhereNoSpreadIsStated) {
+  const Evaluation result = Scene().run();
+  EXPECT_FALSE(result.covered);
+  EXPECT_FALSE(result.stated_across);
+  EXPECT_FALSE(result.stated_depth);
+  for (const auto& covered : result.covered_by_joint) {
+    EXPECT_FALSE(covered);
+  }
+  EXPECT_EQ(evaluation_table(result).find("95 % region"), std::string::npos);
+}
+
+TEST(Evaluate, CountsHowOftenTheTruthIsInsideTheStatedRegion) {
+  // 0.04 and 0.02 of deviations of 0.02 and 0.01 m: 2 + 2 squared, 8 > 7.8147; a hundredth less is inside.
+  for (const auto& [share, inside] : {std::pair{1.0, 0.0}, std::pair{0.98, 1.0}}) {
+    Scene scene;
+    scene.move_joints([&, at = share](const Eigen::Vector3d& p, std::size_t j) {
+      return j == index(Joint::l_wrist) ? Eigen::Vector3d(p + at * Eigen::Vector3d(0.02, 0.0, 0.04)) : p;
+    });
+    for (MotionFrame& frame : scene.frames) {
+      frame.spread = spread_of(0.01, 0.02);
+    }
+    const Evaluation result = scene.run();
+    ASSERT_TRUE(result.covered_by_joint[index(Joint::l_wrist)]);
+    EXPECT_EQ(*result.covered_by_joint[index(Joint::l_wrist)], inside);
+    EXPECT_EQ(*result.covered_by_joint[index(Joint::r_wrist)], 1.0);
+    EXPECT_NEAR(*result.covered, inside > 0.5 ? 1.0 : 0.75, 1e-12) << "one of the four joints";
+    EXPECT_NEAR(*result.stated_across, 0.01, 1e-12);
+    EXPECT_NEAR(*result.stated_depth, 0.02, 1e-12);
+  }
+}
+
+TEST(Evaluate, OnlyFramesThatStateASpreadAreCovered) {
+  Scene scene;
+  scene.move_joints([](const Eigen::Vector3d& p, std::size_t j) {
+    return j == index(Joint::r_elbow) ? Eigen::Vector3d(p + Eigen::Vector3d(0.0, 0.05, 0.0)) : p;
+  });
+  // Four frames tell: one is sure of the wrong, three are not sure at all; one more is lost.
+  for (const std::size_t t : {10, 20, 30, 40, 50}) {
+    scene.frames[t].spread = t == 10 ? spread_of(0.01, 0.01) : spread_of(0.1, 0.1);
+  }
+  scene.frames[50].state = TrackState::lost;
+  const Evaluation result = scene.run();
+  EXPECT_NEAR(*result.covered_by_joint[index(Joint::r_elbow)], 0.75, 1e-12);
+  EXPECT_NEAR(*result.covered, 15.0 / 16.0, 1e-12);
+  EXPECT_NEAR(*result.stated_across, (0.01 + 3 * 0.1) / 4.0, 1e-12);
+  EXPECT_NE(evaluation_table(result).find("95 % region"), std::string::npos);
+}
+
+TEST(Evaluate, ASpreadIsAsLargeAsTheSizeThatIsFitted) {
+  Scene scene;
+  scene.truth.scale_known = false;
+  scene.move_joints([](const Eigen::Vector3d& p, std::size_t) { return Eigen::Vector3d(0.5 * p); });
+  for (MotionFrame& frame : scene.frames) {
+    frame.spread = spread_of(0.01, 0.02);
+  }
+  const Evaluation result = scene.run();
+  EXPECT_NEAR(*result.stated_across, 0.02, 1e-9);
+  EXPECT_NEAR(*result.stated_depth, 0.04, 1e-9);
+}
+
+TEST(Evaluate, WhoStatesNoDoubtIsNotCovered) {
+  Scene scene;
+  scene.move_joints([](const Eigen::Vector3d& p, std::size_t j) {
+    return j == index(Joint::l_wrist) ? Eigen::Vector3d(p + Eigen::Vector3d(0.05, 0.0, 0.0)) : p;
+  });
+  for (MotionFrame& frame : scene.frames) {
+    frame.spread = spread_of(0.0, 0.0);
+  }
+  EXPECT_EQ(*scene.run().covered_by_joint[index(Joint::l_wrist)], 0.0);
+}
+
 TEST(Evaluate, BoneLengthsOfTheModelAreConstant) {
   const Scene scene;
   const Evaluation result = scene.run();

@@ -15,6 +15,12 @@ bool pose_is_finite(const MotionFrame& frame) {
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }
 
+bool spread_is_finite(const PoseSpread& spread) {
+  return std::isfinite(spread.second_mode) && std::isfinite(spread.effective_particles) &&
+         std::all_of(spread.covariance.begin(), spread.covariance.end(),
+                     [](const Eigen::Matrix3d& c) { return c.allFinite(); });
+}
+
 double finite_or(double value, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
@@ -45,6 +51,9 @@ MotionFrame FiniteFrames::operator()(const MotionFrame& frame) {
   clean.time = finite_or(frame.time, last_.time);
   clean.region_score = finite_or(frame.region_score, last_.region_score);
   clean.contour_score = finite_or(frame.contour_score, last_.contour_score);
+  if (clean.spread && !spread_is_finite(*clean.spread)) {
+    clean.spread.reset();
+  }
   for (auto& [stage, ms] : clean.stage_ms) {
     ms = finite_or(ms, 0.0);
   }

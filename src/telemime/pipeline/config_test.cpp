@@ -56,6 +56,18 @@ Json other_value(const std::string& pointer, const Json& value) {
   if (pointer == "/registration/method") {
     return "regions";
   }
+  if (pointer == "/tracking/method") {
+    return "condensation";
+  }
+  if (pointer == "/filter/heuristics") {
+    return "wd,hpm";
+  }
+  if (pointer == "/filter/estimate") {
+    return "mean";
+  }
+  if (pointer == "/filter/model") {
+    return "numbers.json";
+  }
   if (pointer == "/smoothing/name") {
     return "recursive";
   }
@@ -203,6 +215,13 @@ TEST(Config, ValuesOutOfRangeAreRefusedByName) {
                                                  {"/registration/proposals/kept", 0},
                                                  {"/registration/proposals/refine", 10001},
                                                  {"/registration/proposals/margin", -0.1},
+                                                 {"/tracking/method", "guess"},
+                                                 {"/filter/particles", 0},
+                                                 {"/filter/heuristics", "magic"},
+                                                 {"/filter/estimate", "median"},
+                                                 {"/filter/trust", 0.0},
+                                                 {"/filter/mode_least", 5000},
+                                                 {"/threads", -1},
                                                  {"/image/width", 3},
                                                  {"/calibration/worst_region", -1.0},
                                                  {"/smoothing/name", "magic"},

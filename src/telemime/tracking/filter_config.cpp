@@ -13,7 +13,11 @@ void FilterConfig::validate() const {
     }
   };
   require(particles >= 1 && particles <= 1000000, "particles must be between 1 and 1000000");
-  parse_heuristics(heuristics);
+  try {
+    parse_heuristics(heuristics);
+  } catch (const Error& error) {
+    require(false, std::string("heuristics: ") + error.what());
+  }
   require(estimate == "heaviest" || estimate == "mean", "estimate must be heaviest or mean");
   require(diffusion > 0.0 && diffusion <= 100.0, "diffusion must be above 0, at most 100");
   require(memory >= 0.0 && memory <= 1.0, "memory must be between 0 and 1");

@@ -49,7 +49,7 @@ FilterModel default_filter_model() {
 
 FilterModel parse_filter_model(const std::string& text, const std::string& name) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("format", "") != "telemime-filter") {
+  if (!json.is_object() || !json.contains("format") || json["format"] != "telemime-filter") {
     throw Error(ErrorKind::config, name + " is no file of the filter's numbers",
                 "It must be a JSON object with \"format\": \"telemime-filter\".");
   }

@@ -119,6 +119,90 @@ TEST(Jsonl, BytesThatAreNotTextDoNotStopARun) {
   EXPECT_EQ(parse_pose_jsonl(make_jsonl_encoder()->begin(header), "test").frames.size(), 0U);
 }
 
+// Something else for each joint, symmetric.
+PoseSpread some_spread() {
+  PoseSpread spread;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const double m = 1e-4 * static_cast<double>(1 + j);  // m^2
+    spread.covariance[j] << 4 * m, m, -m, m, 5 * m, 0.5 * m, -m, 0.5 * m, 9 * m;
+  }
+  spread.second_mode = 0.125;
+  spread.effective_particles = 37.5;
+  return spread;
+}
+
+TEST(Jsonl, ReadsBackTheSpreadThatItWrote) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 3);
+  frames[1].spread = some_spread();
+  const std::string text = encoded(header, frames);
+  const PoseFile file = parse_pose_jsonl(text, "test");
+  ASSERT_EQ(file.frames.size(), 3U);
+  EXPECT_FALSE(file.frames[0].spread) << "none was stated";
+  EXPECT_FALSE(file.frames[2].spread);
+  ASSERT_TRUE(file.frames[1].spread);
+  const PoseSpread& read = *file.frames[1].spread;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    // Written in tenths of a square millimetre.
+    EXPECT_LT((read.covariance[j] - some_spread().covariance[j]).cwiseAbs().maxCoeff(), 0.051e-6);
+    EXPECT_EQ(read.covariance[j], read.covariance[j].transpose());
+  }
+  EXPECT_DOUBLE_EQ(read.second_mode, 0.125);
+  EXPECT_DOUBLE_EQ(read.effective_particles, 37.5);
+  const json head = lines(text).at(2).at("spread").at("covariance").at("head");
+  EXPECT_EQ(head, json({1200.0, 300.0, -300.0, 1500.0, 150.0, 2700.0})) << "mm^2: xx, xy, xz, yy, yz, zz";
+}
+
+TEST(Jsonl, ASpreadThatIsNotFiniteIsLeftOut) {
+  const StreamHeader header = testing_motion::header();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int broken = 0; broken < 3; ++broken) {
+    auto frames = testing_motion::gesture(header, 2);
+    frames[0].spread = frames[1].spread = some_spread();
+    PoseSpread& spread = *frames[1].spread;
+    (broken == 0   ? spread.covariance[4](1, 1)
+     : broken == 1 ? spread.second_mode
+                   : spread.effective_particles) = nan;
+    const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
+    EXPECT_TRUE(file.frames.at(0).spread);
+    EXPECT_FALSE(file.frames.at(1).spread) << broken;
+    EXPECT_EQ(file.frames.at(1).state, TrackState::tracking);
+  }
+}
+
+TEST(JsonlReader, RefusesASpreadThatIsNone) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 1);
+  frames[0].spread = some_spread();
+  const auto all = lines(encoded(header, frames));
+  const auto message_of = [&](const std::string& place, const json& value) -> std::string {
+    json frame = all.at(1);
+    frame[json::json_pointer("/spread" + place)] = value;
+    try {
+      parse_pose_jsonl(all.at(0).dump() + "\n" + frame.dump() + "\n" + "\n", "broken.jsonl");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input);
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  const auto refused = [&](const std::string& place, const json& value, const std::string& word) {
+    const std::string said = message_of(place, value);
+    EXPECT_NE(said.find("line 2"), std::string::npos) << said;
+    EXPECT_NE(said.find(word), std::string::npos) << said;
+  };
+  refused("", 3, "spread");
+  refused("", nullptr, "spread");
+  refused("", json::object(), "covariance");
+  refused("/covariance", json::object(), "root");
+  refused("/covariance/l_wrist", json::array({1, 2, 3, 4, 5}), "covariance");
+  refused("/covariance/l_wrist", json::array({1, 2, 3, 4, 5, 6, 7}), "covariance");
+  refused("/covariance/l_wrist", json::array({1, 2, 3, "4", 5, 6}), "spread");
+  refused("/covariance/l_wrist", 7.0, "covariance");
+  refused("/second_mode", "much", "second_mode");
+  refused("/effective_particles", nullptr, "effective_particles");
+}
+
 TEST(JsonlReader, ReportsALastLineThatWasCutOff) {
   const StreamHeader header = testing_motion::header();
   const std::string text = encoded(header, testing_motion::gesture(header, 3));

@@ -13,8 +13,11 @@ namespace {
 
 std::string valid_file(std::string_view format) {
   const StreamHeader header = testing_motion::header();
-  return testing_motion::encode_all(*output_format(format).make({}), header,
-                                    testing_motion::gesture(header, 3));
+  std::vector<MotionFrame> frames = testing_motion::gesture(header, 3);
+  PoseSpread spread;
+  spread.covariance.fill(1e-4 * Eigen::Matrix3d::Identity());
+  frames[0].spread = spread;
+  return testing_motion::encode_all(*output_format(format).make({}), header, frames);
 }
 
 TEST(ReaderRobustness, PoseJsonl) {

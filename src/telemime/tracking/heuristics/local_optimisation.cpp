@@ -134,8 +134,10 @@ void optimise_families(const FilterContext& context, Generation& generation) {
   });
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     int& left = generation.counts[static_cast<std::size_t>(jobs[i].parent)];
-    left = std::max(0, left - jobs[i].evaluations);
-    generation.evaluations += jobs[i].evaluations;
+    // A simplex that converged leaves the rest of its family to be diffused.
+    const int spent = context.config.blocks ? jobs[i].evaluations : static_cast<int>(made[i].size());
+    left = std::max(0, left - spent);
+    generation.evaluations += spent;
     std::move(made[i].begin(), made[i].end(), std::back_inserter(generation.particles));
   }
 }

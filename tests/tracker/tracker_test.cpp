@@ -88,11 +88,42 @@ TEST(Tracker, FollowsThePerson) {
 }
 
 TEST(Tracker, SpendsItsIterationsAndLittleMore) {
-  const Config config = quick_config();
+  Config config = quick_config();
+  config.tracking.method = "two-step";
   const auto motion = track(config, clip().person);
   for (std::size_t i = 1; i < motion.size(); ++i) {
     // Two more look at where to start.
     EXPECT_LE(motion[i].evaluations, config.registration.iterations + 2) << i;
+    EXPECT_FALSE(motion[i].spread) << "one pose alone knows no doubt";
+  }
+}
+
+TEST(Tracker, TheThesissFilterSpendsItsParticles) {
+  Config config = quick_config();
+  config.tracking.method = "condensation";
+  config.filter.particles = 150;
+  const auto motion = track(config, clip().person);
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    EXPECT_EQ(motion[i].evaluations, config.filter.particles) << i;
+    EXPECT_TRUE(motion[i].spread) << i;
+  }
+}
+
+TEST(Tracker, OurFilterSpendsItsParticlesAndWhatItTurnsAndFlips) {
+  const Config config = quick_config();
+  const FilterConfig& filter = config.filter;
+  const auto motion = track(config, clip().person);
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    EXPECT_LE(motion[i].evaluations, filter.particles + 2 * filter.turn_evaluations +
+                                         15 * filter.alternatives + 2 * filter.mode_least)
+        << i;
+    EXPECT_GE(motion[i].evaluations, filter.particles) << i;
+    ASSERT_TRUE(motion[i].spread) << i;
+    EXPECT_GE(motion[i].spread->effective_particles, 1.0 - 1e-9);
+    for (const Eigen::Matrix3d& covariance : motion[i].spread->covariance) {
+      EXPECT_TRUE(covariance.allFinite());
+      EXPECT_GT(covariance.determinant(), 0.0);
+    }
   }
 }
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/context.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <set>
+#include <stdexcept>
+
+#include "telemime/body/interpenetration.h"
+#include "telemime/tracking/purposes.h"
+#include "telemime/tracking/testing_scene.h"
+
+namespace telemime {
+namespace {
+
+using testing_scene::both_arms_seen;
+using testing_scene::kDegree;
+using testing_scene::particle;
+using testing_scene::Scene;
+
+Score score_of(double region, double contour) {
+  Score score;
+  score.region = region;
+  score.contour = contour;
+  return score;
+}
+
+// Nothing is known but the image.
+Scene image_alone() {
+  Scene scene;
+  scene.config.invalid = scene.config.natural = scene.config.temporal = 0.0;
+  scene.config.trust = 1.0;
+  scene.numbers.sigma_region = 0.1;
+  scene.numbers.sigma_contour = 0.05;  // 6 px of 120
+  return scene;
+}
+
+TEST(LogLikelihood, IsThatOfTwoGaussians) {
+  Scene scene = image_alone();
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.5 * (9.0 + 4.0),
+              1e-12);
+  EXPECT_EQ(log_likelihood(scene.context(), both_arms_seen(), score_of(0.0, 0.0)), 0.0);
+  scene.config.trust = 0.1;
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.05 * 13.0, 1e-12);
+}
+
+TEST(LogLikelihood, TakesOffWhatIsKnownWithoutTheImage) {
+  Scene scene = image_alone();
+  Pose inside = both_arms_seen();  // the left hand in the chest
+  set_arm_angles(inside, Side::left, {20 * kDegree, -60 * kDegree, -10 * kDegree, -100 * kDegree});
+  const Kinematics k = forward_kinematics(scene.model.body, inside);
+  const double depth = interpenetration(scene.model.body, k);
+  ASSERT_GT(depth, 0.0);
+  const Score none = score_of(0.0, 0.0);
+  scene.config.invalid = 400.0;
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none), -400.0 * depth, 1e-9);
+  scene.config.invalid = 0.0;
+  scene.config.natural = 3.0;
+  scene.facing = 0.4;
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
+              -3.0 * natural_cost(scene.model.body, inside, k, 0.4), 1e-9);
+  scene.config.natural = 0.0;
+  scene.config.temporal = 2.0;
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
+              -2.0 * distance_from_expected(k, scene.joints(scene.expected)), 1e-9);
+  EXPECT_EQ(log_likelihood(scene.context(), scene.expected, none), 0.0);
+}
+
+TEST(Measure, GivesEachItsOwnScoreAndLeavesTheOthers) {
+  Scene scene = image_alone();
+  std::vector<Particle> particles;
+  for (int i = 0; i < 7; ++i) {
+    Pose pose = both_arms_seen();
+    pose[Angle::l_shoulder_abduct] += 3.0 * i * kDegree;
+    particles.push_back(particle(pose, 1.0));
+  }
+  particles[3].measured = true;
+  particles[3].log_likelihood = 5.0;
+  const FilterContext context = scene.context();
+  measure(context, particles);
+  const auto backend = make_scalar_backend();
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    EXPECT_TRUE(particles[i].measured);
+    if (i == 3) {
+      EXPECT_EQ(particles[i].log_likelihood, 5.0);
+      continue;
+    }
+    Score alone;
+    backend->evaluate(scene.frame, scene.model, {&particles[i].pose, 1}, Reduction::all, {&alone, 1});
+    EXPECT_EQ(particles[i].score.region, alone.region) << i;
+    EXPECT_EQ(particles[i].score.contour, alone.contour) << i;
+    EXPECT_EQ(particles[i].log_likelihood, log_likelihood(context, particles[i].pose, alone)) << i;
+  }
+  EXPECT_GT(particles[0].log_likelihood, particles[6].log_likelihood);
+}
+
+TEST(FilterContext, EveryPurposeAndParticleDrawsOnItsOwn) {
+  Scene scene;
+  std::set<std::uint64_t> first;
+  for (const std::uint64_t purpose :
+       {purpose::kResampling, purpose::kDiffusion, purpose::kSimplex, purpose::kTurning}) {
+    for (std::uint64_t index = 0; index < 500; ++index) {
+      Random random = scene.context(3).random(purpose, index);
+      EXPECT_TRUE(first.insert(random.bits()).second) << purpose << " " << index;
+    }
+  }
+  Random again = scene.context(3).random(purpose::kSimplex, 17);
+  EXPECT_EQ(first.count(again.bits()), 1U) << "the same again";
+  Random other = scene.context(4).random(purpose::kSimplex, 17);
+  EXPECT_EQ(first.count(other.bits()), 0U) << "of another frame";
+}
+
+TEST(Evaluators, DoEachPieceOfWorkOnce) {
+  for (const int threads : {1, 3}) {
+    Evaluators evaluators("scalar", threads);
+    std::vector<std::atomic<int>> done(200);
+    evaluators.each(done.size(), [&](std::size_t i, Backend&) { ++done[i]; });
+    for (const auto& times : done) {
+      EXPECT_EQ(times, 1);
+    }
+    evaluators.each(0, [&](std::size_t, Backend&) { ADD_FAILURE(); });
+  }
+}
+
+TEST(Evaluators, LetExceptionsOut) {
+  Evaluators evaluators("simd", 2);
+  EXPECT_THROW(evaluators.each(10,
+                               [](std::size_t i, Backend&) {
+                                 if (i == 7) {
+                                   throw std::out_of_range("seven");
+                                 }
+                               }),
+               std::out_of_range);
+  EXPECT_THROW(Evaluators("abacus", 1), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace telemime

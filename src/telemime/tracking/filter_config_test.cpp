@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/filter_config.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+// What is said of the defaults after a change; empty: nothing.
+std::string complaint(const std::function<void(FilterConfig&)>& change) {
+  FilterConfig config;
+  change(config);
+  try {
+    config.validate();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::config);
+    return error.what();
+  }
+  return {};
+}
+
+template <class T>
+void expect_refused(T FilterConfig::*setting, const std::string& name, const std::vector<T>& values) {
+  for (const T& value : values) {
+    const std::string said = complaint([&](FilterConfig& c) { c.*setting = value; });
+    EXPECT_NE(said.find(name), std::string::npos) << name << " = " << value << ": " << said;
+  }
+}
+
+template <class T>
+void expect_taken(T FilterConfig::*setting, const std::vector<T>& values) {
+  for (const T& value : values) {
+    EXPECT_EQ(complaint([&](FilterConfig& c) { c.*setting = value; }), "") << value;
+  }
+}
+
+TEST(FilterConfig, TheDefaultsAndTheThesissAreTaken) {
+  EXPECT_NO_THROW(FilterConfig{}.validate());
+  EXPECT_NO_THROW(reference_filter("").validate());
+  EXPECT_NO_THROW(reference_filter("wd, hpm, ee, lo, kf").validate());
+}
+
+TEST(FilterConfig, TheThesissFilterKnowsNothingButTheImage) {
+  const FilterConfig config = reference_filter("wd");
+  EXPECT_EQ(config.heuristics, "wd");
+  EXPECT_EQ(config.natural, 0.0);
+  EXPECT_EQ(config.temporal, 0.0);
+  EXPECT_EQ(config.memory, 1.0);
+  EXPECT_EQ(config.trust, 1.0);
+  EXPECT_EQ(config.diffusion, 1.0);
+  EXPECT_EQ(config.estimate, "heaviest");
+  EXPECT_FALSE(config.blocks);
+}
+
+TEST(FilterConfig, WholeNumbersOutOfRangeAreRefusedByName) {
+  expect_refused(&FilterConfig::particles, "particles", {0, -1, 1000001});
+  expect_refused(&FilterConfig::modes, "modes", {0, -3, 1001});
+  expect_refused(&FilterConfig::mode_least, "mode_least", {9, 0, -1, 1201});
+  expect_refused(&FilterConfig::mode_most, "mode_most", {99, -1, 1000001});
+  expect_refused(&FilterConfig::turn_evaluations, "turn_evaluations", {9, -1, 1000001});
+  expect_refused(&FilterConfig::alternatives, "alternatives", {-1, 1001});
+  expect_taken(&FilterConfig::particles, {1, 1000000});
+  expect_taken(&FilterConfig::modes, {1, 1000});
+  expect_taken(&FilterConfig::mode_least, {10, 1200});
+  expect_taken(&FilterConfig::mode_most, {100, 1000000});
+  expect_taken(&FilterConfig::turn_evaluations, {10, 1000000});
+  expect_taken(&FilterConfig::alternatives, {0, 1000});
+}
+
+TEST(FilterConfig, NumbersOutOfRangeAreRefusedByName) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_refused(&FilterConfig::diffusion, "diffusion", {0.0, -1.0, 100.1, nan, infinity});
+  expect_refused(&FilterConfig::memory, "memory", {-0.1, 1.1, nan});
+  expect_refused(&FilterConfig::trust, "trust", {0.0, -1.0, 10.1, nan});
+  expect_refused(&FilterConfig::natural, "natural", {-0.1, nan});
+  expect_refused(&FilterConfig::temporal, "temporal", {-0.1, nan});
+  expect_refused(&FilterConfig::invalid, "invalid", {-0.1, nan});
+  expect_refused(&FilterConfig::mode_radius, "mode_radius", {0.0, -0.1, 1.1, nan});
+  expect_taken(&FilterConfig::diffusion, {0.01, 100.0});
+  expect_taken(&FilterConfig::memory, {0.0, 1.0});
+  expect_taken(&FilterConfig::trust, {0.001, 10.0});
+  expect_taken(&FilterConfig::mode_radius, {0.001, 1.0});
+}
+
+TEST(FilterConfig, UnknownWordsAreNamed) {
+  expect_refused(&FilterConfig::estimate, "estimate", {std::string(), std::string("median")});
+  expect_taken(&FilterConfig::estimate, {std::string("mean")});
+  const std::string said = complaint([](FilterConfig& c) { c.heuristics = "wd,annealing"; });
+  EXPECT_NE(said.find("'annealing'"), std::string::npos) << said;
+  EXPECT_NE(said.find("modes, wd, hpm, ee, lo, turn, kf"), std::string::npos) << "the choices: " << said;
+}
+
+}  // namespace
+}  // namespace telemime

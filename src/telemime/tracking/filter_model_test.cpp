@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/filter_model.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/testing_folder.h"
+
+namespace telemime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json default_json() {
+  return Json::parse(to_json_text(default_filter_model(), "a note"));
+}
+
+// What is said of a text that cannot be read; empty: it can.
+std::string complaint(const std::string& text) {
+  try {
+    parse_filter_model(text, "numbers.json");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::config);
+    return error.what();
+  }
+  return {};
+}
+
+// Every number of the file as a place in it.
+std::vector<Json::json_pointer> all_numbers() {
+  std::vector<Json::json_pointer> places;
+  const Json flat = default_json().flatten();
+  for (const auto& [place, value] : flat.items()) {
+    if (value.is_number()) {
+      places.emplace_back(place);
+    }
+  }
+  return places;
+}
+
+bool names(const std::string& message, const std::string& key) {
+  return message.find("numbers.json") != std::string::npos &&
+         message.find("'" + key + "'") != std::string::npos;
+}
+
+TEST(FilterModel, TheBuiltInNumbersAreThere) {
+  const FilterModel model = default_filter_model();
+  EXPECT_TRUE((model.change.array() > 0.0).all());
+  EXPECT_LT(model.change.tail<kAngleCount>().maxCoeff(), 0.5) << "rad from one frame to the next";
+  EXPECT_LT(model.change.head<3>().maxCoeff(), 0.05) << "m from one frame to the next";
+  EXPECT_GT(model.sigma_region, 0.0);
+  EXPECT_LT(model.sigma_region, 0.5);
+  EXPECT_EQ(model.wrist_across, 0.070) << "thesis 4.4.2.3";
+  EXPECT_EQ(model.wrist_along, 0.150) << "thesis 4.4.2.3";
+  EXPECT_GT(model.spread.size, model.spread.size_given);
+}
+
+TEST(FilterModel, ReadsBackWhatItWrote) {
+  FilterModel model;
+  model.sigma_region = 0.0123;
+  model.sigma_contour = 0.0045;
+  for (Eigen::Index i = 0; i < model.change.size(); ++i) {
+    model.change[i] = 0.001 * static_cast<double>(1 + i);
+  }
+  model.motion = {0.1, 0.2, 0.3, 0.4};
+  model.wrist_across = 0.05;
+  model.wrist_along = 0.11;
+  model.swivel = 0.2;
+  model.spread = {0.004, 0.06, 0.13, 0.07, 0.03};
+  const FilterModel read = parse_filter_model(to_json_text(model, "note"), "written");
+  EXPECT_DOUBLE_EQ(read.sigma_region, model.sigma_region);
+  EXPECT_DOUBLE_EQ(read.sigma_contour, model.sigma_contour);
+  // Written in thousandths of a millimetre or degree.
+  EXPECT_LT((read.change - model.change).head<3>().cwiseAbs().maxCoeff(), 0.51e-6);
+  EXPECT_LT((read.change - model.change).tail<kAngleCount>().cwiseAbs().maxCoeff(), 0.9e-5);
+  EXPECT_EQ(read.motion, model.motion);
+  EXPECT_NEAR(read.wrist_across, model.wrist_across, 1e-12);
+  EXPECT_NEAR(read.wrist_along, model.wrist_along, 1e-12);
+  EXPECT_NEAR(read.swivel, model.swivel, 1e-12);
+  EXPECT_NEAR(read.spread.trunk, model.spread.trunk, 1e-12);
+  EXPECT_DOUBLE_EQ(read.spread.across, model.spread.across);
+  EXPECT_DOUBLE_EQ(read.spread.seen, model.spread.seen);
+  EXPECT_DOUBLE_EQ(read.spread.size, model.spread.size);
+  EXPECT_DOUBLE_EQ(read.spread.size_given, model.spread.size_given);
+  EXPECT_EQ(Json::parse(to_json_text(model, "note")).at("note"), "note");
+}
+
+TEST(FilterModel, EveryNumberCounts) {
+  // A number that is changed in the file is changed in the model.
+  const std::string before = to_json_text(default_filter_model(), "");
+  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 5);
+  for (const auto& place : all_numbers()) {
+    Json json = default_json();
+    json[place] = 2.0 * json[place].get<double>();
+    EXPECT_NE(to_json_text(parse_filter_model(json.dump(), "changed"), ""), before) << place.to_string();
+  }
+}
+
+TEST(FilterModel, NamesTheNumberThatIsMissingOrWrong) {
+  for (const auto& place : all_numbers()) {
+    const std::string key = place.back();
+    Json json = default_json();
+    json[place.parent_pointer()].erase(key);
+    EXPECT_TRUE(names(complaint(json.dump()), key)) << key << ": " << complaint(json.dump());
+    json[place.parent_pointer()][key + "s"] = 1.0;
+    EXPECT_TRUE(names(complaint(json.dump()), key)) << "misspelt";
+    for (const Json& wrong :
+         {Json(-1.0), Json(0.0), Json("1.0"), Json(nullptr), Json::array({1.0}), Json(true)}) {
+      json = default_json();
+      json[place] = wrong;
+      EXPECT_TRUE(names(complaint(json.dump()), key)) << key << " " << wrong;
+    }
+  }
+}
+
+TEST(FilterModel, NamesTheFirstNumberOfAGroupThatIsMissingOrNone) {
+  for (const auto& [group, key] :
+       {std::pair{"change", "root_x"}, std::pair{"motion", "trunk"},
+        std::pair{"end_effector", "wrist_across_mm"}, std::pair{"spread", "trunk_mm"}}) {
+    Json json = default_json();
+    json[group] = 3;
+    EXPECT_TRUE(names(complaint(json.dump()), key)) << group;
+    json.erase(group);
+    EXPECT_TRUE(names(complaint(json.dump()), key)) << group;
+  }
+}
+
+TEST(FilterModel, OtherFilesAreRefused) {
+  for (const std::string text : {"", "{", "[]", "3", "null", "{}", R"({"format": "telemime-pose"})"}) {
+    EXPECT_NE(complaint(text).find("numbers.json"), std::string::npos) << text;
+  }
+}
+
+TEST(FilterModel, AFormatThatIsNoTextIsRefused) {
+  for (const Json& wrong : {Json(1), Json(nullptr), Json::array()}) {
+    Json json = default_json();
+    json["format"] = wrong;
+    EXPECT_NE(complaint(json.dump()).find("numbers.json"), std::string::npos) << wrong;
+  }
+}
+
+TEST(FilterModel, AreReadFromAFile) {
+  const telemime::testing::ScratchFolder folder;
+  const auto file = folder.path() / "mine.json";
+  FilterModel model = default_filter_model();
+  model.sigma_region = 0.25;
+  std::ofstream(file) << to_json_text(model, "");
+  EXPECT_EQ(load_filter_model(file.string()).sigma_region, 0.25);
+  EXPECT_EQ(load_filter_model("").sigma_region, default_filter_model().sigma_region);
+  for (const auto& path : {folder.path() / "none.json", folder.path()}) {
+    try {
+      load_filter_model(path.string());
+      ADD_FAILURE() << path << " was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::config);
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/heuristics/turning.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "telemime/tracking/testing_scene.h"
+
+namespace telemime {
+namespace {
+
+using testing_scene::both_arms_seen;
+using testing_scene::kDegree;
+using testing_scene::particle;
+using testing_scene::Scene;
+
+constexpr int kSeeds = 60;
+
+// What a heaviest parent with this torsion gives.
+Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
+  Pose pose = both_arms_seen();
+  pose[Angle::root_torsion] = torsion;
+  Generation generation;
+  generation.parents = {particle(both_arms_seen(), 0.3), particle(pose, 0.7)};
+  turn_trunk(scene.context(seed), generation);
+  return generation;
+}
+
+TEST(TurnTrunk, AnUprightTrunkIsTurnedHalfOfTheTime) {
+  Scene scene;
+  scene.config.turn_evaluations = 10;
+  int came = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const std::size_t count = turned(scene, 0.0, seed).particles.size();
+    ASSERT_LE(count, 1U);
+    came += static_cast<int>(count);
+  }
+  EXPECT_NEAR(came, kSeeds / 2, 15);
+}
+
+TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
+  Scene scene;
+  scene.config.turn_evaluations = 10;  // too few to go far from where the search starts
+  int two = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    const Generation generation = turned(scene, 0.6, seed);
+    ASSERT_GE(generation.particles.size(), 1U);
+    ASSERT_LE(generation.particles.size(), 2U);
+    EXPECT_NEAR(generation.particles[0].pose[Angle::root_torsion], 0.0, 0.15);
+    if (generation.particles.size() == 2) {
+      ++two;
+      EXPECT_GT(std::abs(generation.particles[1].pose[Angle::root_torsion] - 0.6), 0.1);
+    }
+  }
+  EXPECT_NEAR(two, kSeeds / 2, 15);
+}
+
+TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
+  Scene scene;
+  scene.config.turn_evaluations = 10;
+  Pose bent = both_arms_seen();
+  bent[Angle::root_roll] = 0.3;
+  Generation generation;
+  generation.parents = {particle(bent, 1.0)};
+  turn_trunk(scene.context(), generation);
+  ASSERT_FALSE(generation.particles.empty());
+  const Pose& upright = generation.particles[0].pose;
+  EXPECT_LT(std::abs(upright[Angle::root_roll]), 0.1);
+  const Eigen::Vector3d neck = scene.joints(bent)[Joint::neck];
+  EXPECT_LT((scene.joints(upright)[Joint::neck] - neck).norm(), 0.04);
+  EXPECT_GT((upright.root - bent.root).norm(), 0.08);
+}
+
+TEST(TurnTrunk, WhoWalksIsTriedFacingTheirWay) {
+  Scene scene;
+  scene.config.turn_evaluations = 10;
+  scene.facing = 0.7;
+  EXPECT_NEAR(turned(scene, 0.0, 1).particles.at(0).pose[Angle::root_torsion], 0.7, 0.15);
+}
+
+TEST(TurnTrunk, AccountsForWhatItMakes) {
+  Scene scene;
+  scene.config.particles = 400;
+  scene.config.turn_evaluations = 20;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Generation generation = turned(scene, 0.6, seed);
+    EXPECT_EQ(generation.evaluations, 20 * static_cast<int>(generation.particles.size()));
+    for (const Particle& p : generation.particles) {
+      EXPECT_EQ(p.parent, 1) << "the heaviest";
+      EXPECT_DOUBLE_EQ(p.prior, 20.0 / 400.0);
+      EXPECT_EQ(p.origin, Origin::elsewhere);
+      EXPECT_TRUE(scene.limits.contains(p.pose));
+    }
+  }
+}
+
+TEST(TurnTrunk, FindsTheUprightTrunkThatTheImageShows) {
+  Scene scene;
+  Generation generation = turned(scene, 0.6, 2);
+  std::vector<Particle> both = {generation.parents[1], generation.particles.at(0)};
+  measure(scene.context(), both);
+  EXPECT_LT(both[1].score.region, 0.7 * both[0].score.region);
+  EXPECT_GT(both[1].log_likelihood, both[0].log_likelihood);
+}
+
+}  // namespace
+}  // namespace telemime

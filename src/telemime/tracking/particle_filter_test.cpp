@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/particle_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "telemime/body/arm_flips.h"
+#include "telemime/core/errors.h"
+#include "telemime/tracking/testing_scene.h"
+
+namespace telemime {
+namespace {
+
+using testing_scene::both_arms_seen;
+using testing_scene::kDegree;
+using testing_scene::Scene;
+
+FilterConfig thesis(const std::string& heuristics, int particles) {
+  FilterConfig config = reference_filter(heuristics);
+  config.particles = particles;
+  return config;
+}
+
+ParticleFilter make_filter(Scene& scene, const FilterConfig& config, std::uint64_t seed = 1) {
+  return {config, scene.search, scene.limits, scene.evaluators, seed};
+}
+
+const Particle& best_of(const ParticleFilter& filter) {
+  return filter.particles()[heaviest(filter.particles())];
+}
+
+double left_wrist_error(const Scene& scene, const Pose& a, const Pose& b) {
+  return (scene.joints(a)[Joint::l_wrist] - scene.joints(b)[Joint::l_wrist]).norm();
+}
+
+TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
+  Scene scene;
+  ParticleFilter filter = make_filter(scene, thesis("", 500));
+  Pose truth = both_arms_seen();
+  filter.start(truth);
+  double sum = 0.0;
+  constexpr int kFrames = 40;
+  for (int i = 0; i < kFrames; ++i) {
+    truth[Angle::l_shoulder_abduct] += 1.5 * kDegree;
+    scene.show(truth);
+    const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+    EXPECT_EQ(found.evaluations, 500);
+    sum += left_wrist_error(scene, found.pose, truth);
+  }
+  EXPECT_GT(left_wrist_error(scene, both_arms_seen(), truth), 0.3) << "m, the whole way";
+  EXPECT_LT(sum / kFrames, 0.13) << "m, mean over the frames";
+  EXPECT_LT(left_wrist_error(scene, best_of(filter).pose, truth), 0.12);
+}
+
+TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
+  Scene scene;
+  ParticleFilter filter = make_filter(scene, thesis("", 100));
+  filter.start(both_arms_seen());
+  filter.step(scene.frame, scene.model, 0.0);
+  std::set<double> roots;
+  for (const Particle& p : filter.particles()) {
+    EXPECT_EQ(p.parent, 0);
+    EXPECT_TRUE(roots.insert(p.pose.root.x()).second);
+  }
+}
+
+TEST(ParticleFilter, KeepingTheBestParticleTheEstimateNeverGetsWorse) {
+  Scene scene;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    ParticleFilter filter = make_filter(scene, thesis("wd", 60), seed);
+    Pose start = both_arms_seen();
+    start[Angle::l_elbow_flexion] -= 15 * kDegree;
+    filter.start(start);
+    double before = -std::numeric_limits<double>::infinity();
+    bool kept = false;
+    for (int i = 0; i < 15; ++i) {
+      filter.step(scene.frame, scene.model, 0.0);
+      const Particle& best = best_of(filter);
+      EXPECT_GE(best.log_likelihood, before) << i;
+      before = best.log_likelihood;
+      kept = kept || best.origin == Origin::kept;
+    }
+    EXPECT_TRUE(kept);
+  }
+}
+
+TEST(ParticleFilter, LocalOptimisationFitsBetterThanDiffusionAlone) {
+  Scene scene;
+  Pose start = both_arms_seen();
+  start[Angle::l_shoulder_abduct] -= 12 * kDegree;
+  start[Angle::r_elbow_flexion] += 12 * kDegree;
+  const auto fit = [&](const std::string& heuristics, std::uint64_t seed) {
+    ParticleFilter filter = make_filter(scene, thesis(heuristics, 400), seed);
+    filter.start(start);
+    filter.step(scene.frame, scene.model, 0.0);
+    double best = 1.0;
+    for (const Particle& p : filter.particles()) {
+      best = std::min(best, p.score.region);
+    }
+    return best;
+  };
+  double with = 0.0;
+  double without = 0.0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    with += fit("lo", seed) / 6.0;
+    without += fit("", seed) / 6.0;
+  }
+  EXPECT_LT(with, 0.6 * without);
+}
+
+TEST(ParticleFilter, LocalOptimisationEndsWithTheContours) {
+  Scene scene;
+  Pose start = both_arms_seen();
+  start[Angle::l_shoulder_abduct] -= 12 * kDegree;
+  const auto contour = [&](double region_share) {
+    scene.search.region_share = region_share;
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      ParticleFilter filter = make_filter(scene, thesis("lo", 400), seed);
+      filter.start(start);
+      filter.step(scene.frame, scene.model, 0.0);
+      const auto& all = filter.particles();
+      EXPECT_EQ(all.size(), 400U);
+      sum += std::min_element(all.begin(), all.end(), [](const Particle& a, const Particle& b) {
+               return a.score.contour < b.score.contour;
+             })->score.contour;
+    }
+    return sum / 6.0;
+  };
+  EXPECT_LT(contour(0.6), contour(1.0));
+}
+
+TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
+  Scene scene;
+  for (const ArmAngles& arm : {ArmAngles{-60 * kDegree, 10 * kDegree, 40 * kDegree, -40 * kDegree},
+                               ArmAngles{-40 * kDegree, 10 * kDegree, 40 * kDegree, -70 * kDegree},
+                               ArmAngles{20 * kDegree, 10 * kDegree, 40 * kDegree, -100 * kDegree}}) {
+    Pose truth = both_arms_seen();
+    set_arm_angles(truth, Side::left, arm);
+    scene.show(truth);
+    const std::vector<Pose> flips = arm_flips(scene.model.body, truth, Side::left, scene.limits);
+    ASSERT_FALSE(flips.empty());
+    Pose start = flips.back();
+    start[Angle::l_elbow_flexion] -= 4 * kDegree;  // else the truth itself would be among its flips
+    start[Angle::l_shoulder_flexion] += 3 * kDegree;
+    ASSERT_GT(left_wrist_error(scene, start, truth), 0.2);
+    const auto after_twelve = [&](const std::string& heuristics) {
+      ParticleFilter filter = make_filter(scene, thesis(heuristics, 150));
+      filter.start(start);
+      for (int i = 0; i < 11; ++i) {
+        filter.step(scene.frame, scene.model, 0.0);
+      }
+      return left_wrist_error(scene, filter.step(scene.frame, scene.model, 0.0).pose, truth);
+    };
+    EXPECT_LT(after_twelve("wd,kf"), 0.05);
+    EXPECT_GT(after_twelve("wd"), 0.2) << "it finds the way alone, so flipping is not needed";
+  }
+}
+
+TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
+  Scene scene;
+  PreparedFrame nobody = scene.frame;
+  {
+    Pose away = both_arms_seen();
+    away.root.x() = 50.0;
+    nobody = frame_of_model(scene.model, away, scene.camera);
+  }
+  FilterConfig ours;
+  ours.particles = 100;
+  for (const FilterConfig& config : {thesis("", 100), thesis("wd,hpm,ee,lo,kf", 100), ours}) {
+    ParticleFilter filter = make_filter(scene, config);
+    filter.start(both_arms_seen());
+    for (int i = 0; i < 4; ++i) {
+      const FilterResult found = filter.step(i == 3 ? scene.frame : nobody, scene.model, 0.5);
+      EXPECT_TRUE(found.pose.vector().allFinite());
+      EXPECT_TRUE(std::isfinite(found.score.region) && std::isfinite(found.score.contour));
+      EXPECT_TRUE(found.effective_particles >= 1.0 - 1e-9);
+      for (const Particle& p : filter.particles()) {
+        ASSERT_TRUE(p.pose.vector().allFinite());
+        ASSERT_TRUE(std::isfinite(p.weight) && std::isfinite(p.log_likelihood));
+      }
+    }
+  }
+}
+
+TEST(ParticleFilter, OneParticleIsEnoughToGoOn) {
+  Scene scene;
+  for (const bool ours : {false, true}) {
+    for (const std::string list : {"", "wd", "wd,hpm,ee,lo,kf", "modes,wd,lo,turn,kf"}) {
+      FilterConfig config = thesis(list, 1);
+      config.blocks = ours;
+      ParticleFilter filter = make_filter(scene, config);
+      filter.start(both_arms_seen());
+      for (int i = 0; i < 3; ++i) {
+        const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+        EXPECT_TRUE(found.pose.vector().allFinite()) << list;
+        EXPECT_GE(filter.particles().size(), 1U) << list;
+        EXPECT_GE(found.evaluations, 1) << list;
+      }
+    }
+  }
+}
+
+TEST(ParticleFilter, StartsStopsAndStartsAgain) {
+  Scene scene;
+  ParticleFilter filter = make_filter(scene, thesis("", 20));
+  EXPECT_FALSE(filter.started());
+  EXPECT_THROW(filter.step(scene.frame, scene.model, 0.0), Error);
+  Pose outside = both_arms_seen();
+  outside[Angle::l_elbow_flexion] = -4.0;
+  filter.start(outside);
+  ASSERT_TRUE(filter.started());
+  ASSERT_EQ(filter.particles().size(), 1U);
+  EXPECT_TRUE(scene.limits.contains(filter.particles()[0].pose));
+  filter.step(scene.frame, scene.model, 0.0);
+  EXPECT_EQ(filter.particles().size(), 20U);
+  filter.stop();
+  EXPECT_FALSE(filter.started());
+  EXPECT_THROW(filter.step(scene.frame, scene.model, 0.0), Error);
+}
+
+TEST(ParticleFilter, RefusesSettingsThatCannotBe) {
+  Scene scene;
+  EXPECT_THROW(make_filter(scene, thesis("", 0)), Error);
+  EXPECT_THROW(make_filter(scene, thesis("none", 10)), Error);
+  FilterConfig config;
+  config.model = "/nowhere/numbers.json";
+  EXPECT_THROW(make_filter(scene, config), Error);
+}
+
+TEST(ParticleFilter, TheMeanIsTheMeanOfItsParticles) {
+  Scene scene;
+  FilterConfig config = thesis("", 100);
+  config.estimate = "mean";
+  ParticleFilter filter = make_filter(scene, config);
+  filter.start(both_arms_seen());
+  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  EXPECT_EQ(found.pose.vector(), scene.limits.clamp(mean_pose(filter.particles())).vector());
+  EXPECT_NE(found.pose.vector(), best_of(filter).pose.vector());
+}
+
+TEST(ParticleFilter, WithoutMotionThePartitionLetsNothingMove) {
+  Scene scene;
+  ParticleFilter filter = make_filter(scene, thesis("hpm", 30));
+  filter.start(both_arms_seen());
+  EXPECT_EQ(filter.step(scene.frame, scene.model, 0.0).moving, all_parts()) << "there is no frame before";
+  const Pose before = best_of(filter).pose;
+  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  EXPECT_LT((scene.joints(found.pose)[Joint::neck] - scene.joints(before)[Joint::neck]).norm(), 0.05);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/posterior.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "telemime/body/testing_poses.h"
+#include "telemime/tracking/testing_scene.h"
+
+namespace telemime {
+namespace {
+
+using testing_scene::both_arms_seen;
+using testing_scene::kDegree;
+using testing_scene::particle;
+
+constexpr double kRadius = 0.08;
+
+const SpreadModel& numbers() {
+  static const SpreadModel model = default_filter_model().spread;
+  return model;
+}
+
+const Body& body() {
+  static const Body the_body = make_body(Shape{});
+  return the_body;
+}
+
+Pose with_left_elbow(double degrees) {
+  Pose pose = both_arms_seen();
+  pose[Angle::l_elbow_flexion] = degrees * kDegree;
+  return pose;
+}
+
+std::size_t at(Joint joint) {
+  return static_cast<std::size_t>(joint);
+}
+
+TEST(FindModes, GroupWhatIsNearTheBest) {
+  const std::vector<Particle> particles = {
+      particle(with_left_elbow(-20), 0.15, -1.0), particle(with_left_elbow(-100), 0.4, -5.0),
+      particle(with_left_elbow(-22), 0.2, -3.0),  particle(with_left_elbow(-104), 0.2, -4.0),
+      particle(with_left_elbow(-60), 0.05, -9.0),
+  };
+  const std::vector<Mode> modes = find_modes(body(), particles, kRadius, 10);
+  ASSERT_EQ(modes.size(), 3U);
+  EXPECT_EQ(modes[0].best, 1U);
+  EXPECT_EQ(modes[0].likeliest, 3U);
+  EXPECT_NEAR(modes[0].weight, 0.6, 1e-12);
+  EXPECT_EQ(modes[1].best, 2U);
+  EXPECT_EQ(modes[1].likeliest, 0U);
+  EXPECT_NEAR(modes[1].weight, 0.35, 1e-12);
+  EXPECT_EQ(modes[2].best, 4U);
+  EXPECT_EQ(modes[2].likeliest, 4U);
+  EXPECT_NEAR(modes[2].weight, 0.05, 1e-12);
+  const std::vector<Mode> two = find_modes(body(), particles, kRadius, 2);
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_NEAR(two[1].weight, 0.35, 1e-12) << "what is over goes to none";
+  EXPECT_EQ(find_modes(body(), particles, 2.0, 10).size(), 1U);
+}
+
+TEST(FindModes, EachElbowAndWristCountsAlone) {
+  for (const Angle angle : {Angle::l_elbow_flexion, Angle::r_elbow_flexion, Angle::l_shoulder_twisting,
+                            Angle::r_shoulder_abduct, Angle::root_torsion}) {
+    Pose other = both_arms_seen();
+    other[angle] += 40 * kDegree;
+    const std::vector<Particle> particles = {particle(both_arms_seen(), 0.6), particle(other, 0.4)};
+    EXPECT_EQ(find_modes(body(), particles, kRadius, 4).size(), 2U) << static_cast<int>(angle);
+  }
+  Pose nod = both_arms_seen();
+  nod[Angle::neck_tilt] += 0.4;
+  nod[Angle::l_wrist_flexion] += 0.4;
+  const std::vector<Particle> particles = {particle(both_arms_seen(), 0.6), particle(nod, 0.4)};
+  EXPECT_EQ(find_modes(body(), particles, kRadius, 4).size(), 1U) << "head and hands make no mode";
+}
+
+TEST(FindModes, WhatWeighsNothingMakesNone) {
+  const std::vector<Particle> particles = {particle(with_left_elbow(-20), 1.0),
+                                           particle(with_left_elbow(-100), 0.0)};
+  EXPECT_EQ(find_modes(body(), particles, kRadius, 4).size(), 1U);
+  EXPECT_TRUE(find_modes(body(), {}, kRadius, 4).empty());
+}
+
+TEST(SpreadOf, OneParticleLeavesWhatTheModelDoesNotKnow) {
+  const std::vector<Particle> one = {particle(both_arms_seen(), 1.0)};
+  const PoseSpread spread = spread_of(body(), one, both_arms_seen(), numbers(), 0.05);
+  const auto model = model_covariance(body(), both_arms_seen(), numbers(), 0.05);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_EQ(spread.covariance[j], model[j]) << kJointNames[j];
+  }
+  EXPECT_EQ(spread.second_mode, 0.0);
+  EXPECT_DOUBLE_EQ(spread.effective_particles, 1.0);
+}
+
+TEST(SpreadOf, TwoParticlesAddTheSquareOfHalfTheWayBetweenThem) {
+  const Pose middle = with_left_elbow(-60);
+  const std::vector<Particle> two = {particle(with_left_elbow(-75), 0.5),
+                                     particle(with_left_elbow(-45), 0.5)};
+  const PoseSpread spread = spread_of(body(), two, middle, numbers(), 0.05);
+  const auto model = model_covariance(body(), middle, numbers(), 0.05);
+  const auto wrist = [](const Pose& pose) { return forward_kinematics(body(), pose).joints[Joint::l_wrist]; };
+  const Eigen::Vector3d way = wrist(two[1].pose) - wrist(two[0].pose);
+  const double a = 0.5 * way.norm();
+  const Eigen::Vector3d along = way.normalized();
+  const Eigen::Matrix3d added = spread.covariance[at(Joint::l_wrist)] - model[at(Joint::l_wrist)];
+  ASSERT_GT(a, 0.03);
+  // The wrist goes along an arc, the middle of which is the estimate.
+  EXPECT_NEAR(along.dot(added * along), a * a, 1e-12);
+  const Eigen::Vector3d bow = wrist(middle) - 0.5 * (wrist(two[0].pose) + wrist(two[1].pose));
+  EXPECT_NEAR(added.trace(), a * a + bow.squaredNorm(), 1e-12);
+  EXPECT_EQ(spread.covariance[at(Joint::r_wrist)], model[at(Joint::r_wrist)]);
+  EXPECT_EQ(spread.covariance[at(Joint::l_elbow)], model[at(Joint::l_elbow)]);
+  EXPECT_DOUBLE_EQ(spread.effective_particles, 2.0);
+}
+
+TEST(SpreadOf, IsSeenFromTheMiddleOfTheShoulders) {
+  Pose near = both_arms_seen();
+  Pose far = both_arms_seen();
+  near.root.z() -= 0.1;
+  far.root.z() += 0.1;
+  const std::vector<Particle> two = {particle(near, 0.5), particle(far, 0.5)};
+  const PoseSpread spread = spread_of(body(), two, both_arms_seen(), numbers(), 0.05);
+  const auto model = model_covariance(body(), both_arms_seen(), numbers(), 0.05);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT((spread.covariance[j] - model[j]).norm(), 1e-12) << kJointNames[j];
+  }
+}
+
+TEST(SpreadOf, TellsTheWeightOfTheSecondMode) {
+  const std::vector<Particle> particles = {particle(with_left_elbow(-20), 0.3),
+                                           particle(with_left_elbow(-100), 0.6),
+                                           particle(with_left_elbow(-60), 0.1)};
+  const PoseSpread spread = spread_of(body(), particles, with_left_elbow(-100), numbers(), 0.05);
+  EXPECT_NEAR(spread.second_mode, 0.3, 1e-12);
+}
+
+TEST(SpreadOf, IsSymmetricAndPositiveDefinite) {
+  const JointLimits limits = anatomical_limits();
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Particle> particles;
+    for (int k = 0; k < 5; ++k) {
+      particles.push_back(particle(testing_poses::random_pose(limits, random), 0.2));
+    }
+    const PoseSpread spread = spread_of(body(), particles, particles[0].pose, numbers(), 0.05);
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const Eigen::Matrix3d& c = spread.covariance[j];
+      ASSERT_TRUE(c.allFinite());
+      ASSERT_LT((c - c.transpose()).cwiseAbs().maxCoeff(), 1e-15);
+      const Eigen::LLT<Eigen::Matrix3d> factor(c);
+      ASSERT_EQ(factor.info(), Eigen::Success) << kJointNames[j];
+      ASSERT_GT(factor.matrixL().determinant(), 0.0) << kJointNames[j];
+    }
+  }
+}
+
+// The left upper arm at this angle (rad) to the image plane, toward the camera.
+Pose upper_arm_raised(double angle) {
+  const Pose pose = both_arms_seen();
+  const Eigen::Vector3d ray = forward_kinematics(body(), pose).joints[Joint::l_shoulder].normalized();
+  const Eigen::Vector3d side = Eigen::Vector3d::UnitY().cross(ray).normalized();  // the person's left
+  const Eigen::Vector3d direction = std::cos(angle) * side - std::sin(angle) * ray;
+  const Eigen::Vector3d shoulder = forward_kinematics(body(), pose).joints[Joint::l_shoulder];
+  const Eigen::Vector3d elbow = shoulder + body().upper_arm_length[0] * direction;
+  Pose raised = pose;
+  set_arm_angles(raised, Side::left,
+                 arm_through(body(), pose, Side::left, elbow, elbow + 0.2 * Eigen::Vector3d::UnitY(),
+                             anatomical_limits()));
+  return raised;
+}
+
+// m^2: what the upper arm adds to its elbow's variance in depth.
+double depth_of_elbow(const Pose& pose) {
+  const auto covariance = model_covariance(body(), pose, numbers(), 0.0);
+  const Eigen::Vector3d ray = forward_kinematics(body(), pose).joints[Joint::l_shoulder].normalized();
+  return ray.dot((covariance[at(Joint::l_elbow)] - covariance[at(Joint::l_shoulder)]) * ray);
+}
+
+TEST(ModelCovariance, ABoneParallelToTheImageIsLessSureInDepth) {
+  const double length = body().upper_arm_length[0];
+  const double seen = numbers().seen;
+  const double flat = depth_of_elbow(upper_arm_raised(0.0));
+  const double slanted = depth_of_elbow(upper_arm_raised(45 * kDegree));
+  EXPECT_GT(flat, 1.5 * slanted);
+  // The shoulder rides a little, so the angles are not quite those.
+  EXPECT_NEAR(std::sqrt(flat), std::sqrt(seen / 2.0) * length, 0.02 * length);
+  EXPECT_NEAR(std::sqrt(slanted), seen * length / std::sqrt(0.5 + 2.0 * seen), 0.02 * length);
+}
+
+TEST(ModelCovariance, TheTrunkIsKnownAsWellAsTheNumbersSay) {
+  const auto covariance = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
+  for (const Joint j : {Joint::neck, Joint::l_shoulder, Joint::r_shoulder, Joint::head}) {
+    EXPECT_LT((covariance[at(j)] - numbers().trunk * numbers().trunk * Eigen::Matrix3d::Identity()).norm(),
+              1e-15);
+  }
+}
+
+TEST(ModelCovariance, GrowsFromTheShoulderToTheHand) {
+  const auto covariance = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
+  for (const auto& [from, to] :
+       {std::pair{Joint::l_shoulder, Joint::l_elbow}, std::pair{Joint::l_elbow, Joint::l_wrist},
+        std::pair{Joint::l_wrist, Joint::l_hand}, std::pair{Joint::r_shoulder, Joint::r_elbow},
+        std::pair{Joint::r_elbow, Joint::r_wrist}, std::pair{Joint::r_wrist, Joint::r_hand}}) {
+    const Eigen::Matrix3d more = covariance[at(to)] - covariance[at(from)];
+    EXPECT_EQ(Eigen::LLT<Eigen::Matrix3d>(more).info(), Eigen::Success) << kJointNames[at(to)];
+  }
+}
+
+TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
+  const auto known = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
+  const auto unsure = model_covariance(body(), both_arms_seen(), numbers(), 0.1);
+  const JointPositions joints = forward_kinematics(body(), both_arms_seen()).joints;
+  const Eigen::Vector3d middle = 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d way = joints.at[j] - middle;
+    const Eigen::Matrix3d more = unsure[j] - known[j];
+    EXPECT_NEAR(way.normalized().dot(more * way.normalized()), 0.01 * way.squaredNorm(), 1e-12);
+    EXPECT_NEAR(more.trace(), 0.01 * way.squaredNorm(), 1e-12) << "nothing across it";
+  }
+}
+
+}  // namespace
+}  // namespace telemime

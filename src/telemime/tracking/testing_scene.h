@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "telemime/body/arm_ik.h"
+#include "telemime/registration/budget.h"
+#include "telemime/tracking/context.h"
+
+/// A person whom the model itself draws, in small images, for the tests of the filter. Not installed.
+namespace telemime::testing_scene {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Seated, both arms beside the body and seen whole.
+inline Pose both_arms_seen() {
+  Pose pose;
+  pose.root = {0.0, 0.35, 1.5};
+  set_arm_angles(pose, Side::left, {-20 * kDegree, 10 * kDegree, 50 * kDegree, -60 * kDegree});
+  set_arm_angles(pose, Side::right, {-30 * kDegree, -10 * kDegree, -45 * kDegree, -70 * kDegree});
+  return pose;
+}
+
+/// Everything that a FilterContext refers to.
+struct Scene {
+  Model model = make_model(Shape{});
+  Camera camera = camera_from_field_of_view(120, 90, 60.0);
+  JointLimits limits = anatomical_limits();
+  FilterConfig config;
+  FilterModel numbers = default_filter_model();
+  RegistrationConfig search;
+  Evaluators evaluators{"scalar", 1};
+  Pose estimate = both_arms_seen();
+  Pose expected = both_arms_seen();
+  double facing = 0.0;
+  PreparedFrame frame = frame_of_model(model, both_arms_seen(), camera);
+  cv::Mat labels_before;
+
+  /// What a camera sees of the person in this pose from now on.
+  void show(const Pose& pose) { frame = frame_of_model(model, pose, camera); }
+  FilterContext context(std::uint64_t seed = 1) {
+    return {frame,      labels_before.empty() ? nullptr : &labels_before,
+            model,      limits,
+            config,     numbers,
+            search,     estimate,
+            expected,   facing,
+            evaluators, seed};
+  }
+  JointPositions joints(const Pose& pose) const { return forward_kinematics(model.body, pose).joints; }
+};
+
+inline Particle particle(const Pose& pose, double weight, double log_likelihood = 0.0) {
+  Particle p;
+  p.pose = pose;
+  p.weight = p.prior = weight;
+  p.log_likelihood = log_likelihood;
+  return p;
+}
+
+/// m, of the joint that is farthest away.
+inline double farthest_joint(const JointPositions& a, const JointPositions& b) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    most = std::max(most, (a.at[j] - b.at[j]).norm());
+  }
+  return most;
+}
+
+inline double mean_of(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double v : values) {
+    sum += v;
+  }
+  return sum / static_cast<double>(values.size());
+}
+
+/// Of two lists of one length.
+inline double covariance_of(std::span<const double> a, std::span<const double> b) {
+  const double mean_a = mean_of(a);
+  const double mean_b = mean_of(b);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+inline double deviation_of(std::span<const double> values) {
+  return std::sqrt(covariance_of(values, values));
+}
+
+}  // namespace telemime::testing_scene
