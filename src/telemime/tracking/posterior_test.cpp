@@ -28,6 +28,16 @@ const Body& body() {
   return the_body;
 }
 
+const Camera& camera() {
+  static const Camera the_camera;
+  return the_camera;
+}
+
+// A pose that fits well, of somebody whose size is known to `size`.
+SpreadContext context(double size) {
+  return {body(), camera(), 0.0, size};
+}
+
 Pose with_left_elbow(double degrees) {
   Pose pose = both_arms_seen();
   pose[Angle::l_elbow_flexion] = degrees * kDegree;
@@ -85,8 +95,8 @@ TEST(FindModes, WhatWeighsNothingMakesNone) {
 
 TEST(SpreadOf, OneParticleLeavesWhatTheModelDoesNotKnow) {
   const std::vector<Particle> one = {particle(both_arms_seen(), 1.0)};
-  const PoseSpread spread = spread_of(body(), one, both_arms_seen(), numbers(), 0.05);
-  const auto model = model_covariance(body(), both_arms_seen(), numbers(), 0.05);
+  const PoseSpread spread = spread_of(context(0.05), one, both_arms_seen(), numbers());
+  const auto model = model_covariance(context(0.05), both_arms_seen(), numbers());
   for (std::size_t j = 0; j < kJointCount; ++j) {
     EXPECT_EQ(spread.covariance[j], model[j]) << kJointNames[j];
   }
@@ -98,8 +108,8 @@ TEST(SpreadOf, TwoParticlesAddTheSquareOfHalfTheWayBetweenThem) {
   const Pose middle = with_left_elbow(-60);
   const std::vector<Particle> two = {particle(with_left_elbow(-75), 0.5),
                                      particle(with_left_elbow(-45), 0.5)};
-  const PoseSpread spread = spread_of(body(), two, middle, numbers(), 0.05);
-  const auto model = model_covariance(body(), middle, numbers(), 0.05);
+  const PoseSpread spread = spread_of(context(0.05), two, middle, numbers());
+  const auto model = model_covariance(context(0.05), middle, numbers());
   const auto wrist = [](const Pose& pose) { return forward_kinematics(body(), pose).joints[Joint::l_wrist]; };
   const Eigen::Vector3d way = wrist(two[1].pose) - wrist(two[0].pose);
   const double a = 0.5 * way.norm();
@@ -121,8 +131,8 @@ TEST(SpreadOf, IsSeenFromTheMiddleOfTheShoulders) {
   near.root.z() -= 0.1;
   far.root.z() += 0.1;
   const std::vector<Particle> two = {particle(near, 0.5), particle(far, 0.5)};
-  const PoseSpread spread = spread_of(body(), two, both_arms_seen(), numbers(), 0.05);
-  const auto model = model_covariance(body(), both_arms_seen(), numbers(), 0.05);
+  const PoseSpread spread = spread_of(context(0.05), two, both_arms_seen(), numbers());
+  const auto model = model_covariance(context(0.05), both_arms_seen(), numbers());
   for (std::size_t j = 0; j < kJointCount; ++j) {
     EXPECT_LT((spread.covariance[j] - model[j]).norm(), 1e-12) << kJointNames[j];
   }
@@ -132,7 +142,7 @@ TEST(SpreadOf, TellsTheWeightOfTheSecondMode) {
   const std::vector<Particle> particles = {particle(with_left_elbow(-20), 0.3),
                                            particle(with_left_elbow(-100), 0.6),
                                            particle(with_left_elbow(-60), 0.1)};
-  const PoseSpread spread = spread_of(body(), particles, with_left_elbow(-100), numbers(), 0.05);
+  const PoseSpread spread = spread_of(context(0.05), particles, with_left_elbow(-100), numbers());
   EXPECT_NEAR(spread.second_mode, 0.3, 1e-12);
 }
 
@@ -144,7 +154,7 @@ TEST(SpreadOf, IsSymmetricAndPositiveDefinite) {
     for (int k = 0; k < 5; ++k) {
       particles.push_back(particle(testing_poses::random_pose(limits, random), 0.2));
     }
-    const PoseSpread spread = spread_of(body(), particles, particles[0].pose, numbers(), 0.05);
+    const PoseSpread spread = spread_of(context(0.05), particles, particles[0].pose, numbers());
     for (std::size_t j = 0; j < kJointCount; ++j) {
       const Eigen::Matrix3d& c = spread.covariance[j];
       ASSERT_TRUE(c.allFinite());
@@ -173,7 +183,7 @@ Pose upper_arm_raised(double angle) {
 
 // m^2: what the upper arm adds to its elbow's variance in depth.
 double depth_of_elbow(const Pose& pose) {
-  const auto covariance = model_covariance(body(), pose, numbers(), 0.0);
+  const auto covariance = model_covariance(context(0.0), pose, numbers());
   const Eigen::Vector3d ray = forward_kinematics(body(), pose).joints[Joint::l_shoulder].normalized();
   return ray.dot((covariance[at(Joint::l_elbow)] - covariance[at(Joint::l_shoulder)]) * ray);
 }
@@ -190,7 +200,7 @@ TEST(ModelCovariance, ABoneParallelToTheImageIsLessSureInDepth) {
 }
 
 TEST(ModelCovariance, TheTrunkIsKnownAsWellAsTheNumbersSay) {
-  const auto covariance = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
+  const auto covariance = model_covariance(context(0.0), both_arms_seen(), numbers());
   for (const Joint j : {Joint::neck, Joint::l_shoulder, Joint::r_shoulder, Joint::head}) {
     EXPECT_LT((covariance[at(j)] - numbers().trunk * numbers().trunk * Eigen::Matrix3d::Identity()).norm(),
               1e-15);
@@ -198,7 +208,7 @@ TEST(ModelCovariance, TheTrunkIsKnownAsWellAsTheNumbersSay) {
 }
 
 TEST(ModelCovariance, GrowsFromTheShoulderToTheHand) {
-  const auto covariance = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
+  const auto covariance = model_covariance(context(0.0), both_arms_seen(), numbers());
   for (const auto& [from, to] :
        {std::pair{Joint::l_shoulder, Joint::l_elbow}, std::pair{Joint::l_elbow, Joint::l_wrist},
         std::pair{Joint::l_wrist, Joint::l_hand}, std::pair{Joint::r_shoulder, Joint::r_elbow},
@@ -209,8 +219,8 @@ TEST(ModelCovariance, GrowsFromTheShoulderToTheHand) {
 }
 
 TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
-  const auto known = model_covariance(body(), both_arms_seen(), numbers(), 0.0);
-  const auto unsure = model_covariance(body(), both_arms_seen(), numbers(), 0.1);
+  const auto known = model_covariance(context(0.0), both_arms_seen(), numbers());
+  const auto unsure = model_covariance(context(0.1), both_arms_seen(), numbers());
   const JointPositions joints = forward_kinematics(body(), both_arms_seen()).joints;
   const Eigen::Vector3d middle = 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
   for (std::size_t j = 0; j < kJointCount; ++j) {
@@ -219,6 +229,60 @@ TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
     EXPECT_NEAR(way.normalized().dot(more * way.normalized()), 0.01 * way.squaredNorm(), 1e-12);
     EXPECT_NEAR(more.trace(), 0.01 * way.squaredNorm(), 1e-12) << "nothing across it";
   }
+}
+
+TEST(ModelCovariance, OfAPoorFitIsWiderBySquares) {
+  const auto good =
+      model_covariance({body(), camera(), numbers().residual, 0.0}, both_arms_seen(), numbers());
+  const auto poor =
+      model_covariance({body(), camera(), 2.0 * numbers().residual, 0.0}, both_arms_seen(), numbers());
+  const auto better = model_covariance({body(), camera(), 0.0, 0.0}, both_arms_seen(), numbers());
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    EXPECT_LT((poor[j] - 16.0 * good[j]).norm(), 1e-12) << kJointNames[j];
+    EXPECT_LT((better[j] - good[j]).norm(), 1e-12) << kJointNames[j];
+  }
+}
+
+TEST(ModelCovariance, OfWhatIsOutsideThePictureIsWide) {
+  const Pose inside = both_arms_seen();
+  const auto seen = model_covariance(context(0.0), inside, numbers());
+  const JointPositions joints = forward_kinematics(body(), inside).joints;
+  Camera narrow = camera();
+  narrow.cx +=
+      narrow.width - 1.0 -
+      0.5 * (camera().project(joints[Joint::l_wrist]).x() + camera().project(joints[Joint::l_hand]).x());
+  ASSERT_GT(narrow.project(joints[Joint::l_hand]).x(), narrow.width);
+  ASSERT_LT(narrow.project(joints[Joint::l_wrist]).x(), narrow.width - 1.0);
+  const auto cut = model_covariance({body(), narrow, 0.0, 0.0}, inside, numbers());
+  EXPECT_GT(cut[at(Joint::l_hand)].trace(), 2.5 * seen[at(Joint::l_hand)].trace());
+  EXPECT_GT(cut[at(Joint::l_wrist)].trace(), 1.5 * seen[at(Joint::l_wrist)].trace());
+  EXPECT_LT((cut[at(Joint::l_elbow)] - seen[at(Joint::l_elbow)]).norm(), 1e-12);
+  EXPECT_LT((cut[at(Joint::r_hand)] - seen[at(Joint::r_hand)]).norm(), 1e-12);
+}
+
+TEST(ModelCovariance, OfAnArmInOneColourIsWider) {
+  Shape sleeves;
+  sleeves.sleeve = 2.0;
+  const Body covered = make_body(sleeves);
+  const auto bare = model_covariance(context(0.0), both_arms_seen(), numbers());
+  const auto dressed = model_covariance({covered, camera(), 0.0, 0.0}, both_arms_seen(), numbers());
+  for (const Joint j : {Joint::l_elbow, Joint::r_wrist}) {
+    EXPECT_GT(dressed[at(j)].trace(), 1.5 * bare[at(j)].trace());
+  }
+  EXPECT_LT((dressed[at(Joint::neck)] - bare[at(Joint::neck)]).norm(), 1e-15);
+}
+
+TEST(ModelCovariance, DepthErrorsAlongAStraightArmAddUp) {
+  // Both bones the same way: their parts along the ray add as they are.
+  const Pose straight = with_left_elbow(0.0);
+  const auto covariance = model_covariance(context(0.0), straight, numbers());
+  const JointPositions joints = forward_kinematics(body(), straight).joints;
+  const Eigen::Vector3d ray = joints[Joint::l_elbow].normalized();
+  const auto along = [&](Joint j) {
+    return std::sqrt(ray.dot((covariance[at(j)] - covariance[at(Joint::l_shoulder)]) * ray));
+  };
+  const double lengths = (body().upper_arm_length[0] + body().forearm_length[0]) / body().upper_arm_length[0];
+  EXPECT_NEAR(along(Joint::l_wrist) / along(Joint::l_elbow), lengths, 0.15 * lengths);
 }
 
 }  // namespace
