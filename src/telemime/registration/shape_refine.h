@@ -14,7 +14,7 @@ namespace telemime {
 struct ShapeRefineConfig {
   int keyframes = 8;             ///< frames that the shape is fitted to at once
   int rounds = 2;                ///< over all lengths, each with half the step of the one before
-  int pose_iterations = 80;      ///< evaluations that each arm of each keyframe gets for each length tried
+  int pose_iterations = 100;     ///< evaluations that each arm of each keyframe gets for each length tried
   int shapes = 60;               ///< girths and sleeves that are tried in each round
   double contour_weight = 0.15;  ///< of D_C beside F
   double natural_weight = 0.02;  ///< of natural_cost in each keyframe
