@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "telemime/body/arm_ik.h"
+#include "telemime/body/rotations.h"
 #include "telemime/capture/source.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
@@ -105,7 +107,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
       for (const Side side : {Side::left, Side::right}) {
         const double turn =
             arm_target(body, frame.motion.pose, side).swivel - arm_target(body, before->pose, side).swivel;
-        samples.swivel[static_cast<std::size_t>(side)].push_back(std::abs(std::remainder(turn, 2.0 * M_PI)));
+        samples.swivel[static_cast<std::size_t>(side)].push_back(std::abs(wrap_angle(turn)));
       }
       const auto shares = uncovered_shares(labels, frame.observation.labels, tracker.model(), before->pose,
                                            tracker.working_camera());
@@ -204,7 +206,9 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
   model.sigma_contour = mean_of(samples.sigma_contour);
   // Two standard deviations reach all but the fastest hundredth of the changes.
   const auto half_of_largest = [](const std::vector<double>& ways) {
-    return 0.5 * quantile(ways, 0.99).value_or(0.0);
+    // A number that never changed must still be one that a file may hold.
+    constexpr double kLeast = 1e-6;
+    return std::max(kLeast, 0.5 * quantile(ways, 0.99).value_or(0.0));
   };
   for (std::size_t i = 0; i < kPoseSize; ++i) {
     model.change[static_cast<Eigen::Index>(i)] = half_of_largest(samples.change[i]);

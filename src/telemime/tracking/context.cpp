@@ -52,7 +52,7 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   sum -= c.config.invalid * interpenetration(body, k);
   sum -= c.config.natural > 0.0 ? c.config.natural * natural_cost(body, pose, k, c.facing) : 0.0;
   if (c.config.temporal > 0.0) {
-    sum -= c.config.temporal * distance_from_expected(k, forward_kinematics(body, c.expected).joints);
+    sum -= c.config.temporal * distance_from_expected(k, c.expected_joints);
   }
   return sum;
 }

@@ -49,6 +49,8 @@ struct FilterContext {
   double facing = 0.0;               ///< torsion of the root that is expected: people look where they go, rad
   Evaluators& evaluators;
   std::uint64_t seed = 0;  ///< of this frame
+  /// m, camera frame; once a frame, not once a particle.
+  JointPositions expected_joints = forward_kinematics(model.body, expected).joints;
 
   /// A generator of its own for each purpose and particle.
   Random random(std::uint64_t purpose, std::uint64_t index = 0) const;

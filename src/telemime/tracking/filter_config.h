@@ -9,7 +9,8 @@ namespace telemime {
 
 /// Settings of the particle filter. The defaults are ours; reference_filter() gives the thesis's.
 struct FilterConfig {
-  /// Particles of a frame; each is one evaluation, those that a local search spends included.
+  /// Particles of a frame; each is one evaluation. The thesis's local search spends no more; with `blocks`
+  /// the second search of the best mode, mode_least and turned trunks come on top.
   int particles = 2000;
   std::string heuristics = "modes,wd,lo,turn,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
   std::string estimate = "heaviest";               ///< or mean

@@ -18,9 +18,9 @@ struct Particle {
   Pose pose;
   Score score;                ///< F and D_C in the frame that it was measured in
   double log_likelihood = 0;  ///< of equation 4.12, what is known without the image included
-  double prior = 0;           ///< share before the measurement; the sum over a generation is 1
+  double prior = 0;           ///< share before the measurement; searches and flips come on top of a sum of 1
   double weight = 0;          ///< share after it; the sum is 1
-  int parent = -1;            ///< index in the generation before; -1: none
+  int parent = -1;            ///< index in Generation::parents of its frame; -1: none
   Origin origin = Origin::start;
   bool measured = false;  ///< score and log_likelihood belong to the frame
 };

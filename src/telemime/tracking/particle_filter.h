@@ -37,7 +37,8 @@ class ParticleFilter {
   /// One frame. Must have been started. `velocity`: share of the last motion that is expected again.
   FilterResult step(const PreparedFrame& frame, const Model& model, double velocity);
 
-  /// Of the last frame, weights normalised; `parent` is an index of the generation before.
+  /// Of the last frame, weights normalised; `parent` is an index of the generation before, or of the modes
+  /// that it was merged to.
   const std::vector<Particle>& particles() const { return particles_; }
   const FilterModel& numbers() const { return numbers_; }
 

@@ -6,9 +6,9 @@
 
 namespace telemime {
 
-/// Parents of one mode - elbows and wrists within FilterConfig::mode_radius of the best one's - become one,
-/// with their weight; the FilterConfig::modes heaviest ones stay. Weights are raised to FilterConfig::memory
-/// first.
+/// Parents of one mode - elbows and wrists within FilterConfig::mode_radius of the best one's - become the
+/// likeliest of them, with their summed weight raised to FilterConfig::memory; the FilterConfig::modes
+/// heaviest ones stay.
 void merge_modes(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime
