@@ -123,6 +123,7 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   const std::string backend = own ? config.backend : "simd";
   fit_again(config, backend, scout.limits(), candidates, found.start);
   std::vector<Keyframe> all;
+  all.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
     all.push_back(candidate.keyframe);
   }

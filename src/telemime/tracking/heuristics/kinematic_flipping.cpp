@@ -19,6 +19,7 @@ void flip_best(const FilterContext& context, Generation& generation) {
     }
   }
   std::vector<std::size_t> order;
+  order.reserve(best.size());
   for (const auto& [parent, index] : best) {
     order.push_back(index);
   }
