@@ -97,6 +97,8 @@ void add_track_command(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
                       "signs and units of motion.bap: iso, greta, vreng-3.1, vreng-3.2 [iso]");
+  command->add_flag("--offline", options->offline,
+                    "look at a file's frames back in time, too: slower, and surer of depth");
   command->add_flag("--no-overlay{false}", options->request.overlay, "write no overlay video");
   command->add_flag("--show", options->show, "a window with overlay, top view and residuals");
   command->callback([options] { run(*options); });

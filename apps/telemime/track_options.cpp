@@ -100,6 +100,7 @@ TrackRequest make_request(const TrackOptions& o) {
   config.backend = o.backend.empty() ? config.backend : o.backend;
   config.seed = o.seed.value_or(config.seed);
   config.smoothing.name = o.smoothing.empty() ? config.smoothing.name : o.smoothing;
+  config.look_back = config.look_back || o.offline;
   config.validate();
   return request;
 }

@@ -29,6 +29,7 @@ struct TrackOptions {
   std::string smoothing;
   bool show = false;
   bool quiet = false;
+  bool offline = false;
 };
 
 /// Adds INPUT and all options of tracking to a subcommand; `options` must outlive the parsing.

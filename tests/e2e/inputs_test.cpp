@@ -69,6 +69,8 @@ TEST(Program, RefusesSettingsByName) {
   EXPECT_TRUE(fails_with(with_config("{\"image\": {\"widht\": 160}}"), kExitConfig, {"image/widht"}));
   EXPECT_TRUE(fails_with(with_config("{\"seed\": \"one\"}"), kExitConfig, {"seed"}));
   EXPECT_TRUE(fails_with(with_config("[]"), kExitConfig, {"object"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--offline", "--method", "two-step"}), kExitConfig,
+                         {"offline", "heuristics"}));
   EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--config", folder / "none.json"}), kExitConfig,
                          {"none.json"}));
   EXPECT_TRUE(

@@ -92,6 +92,21 @@ TEST(Results, AreTheSameForTheSameSeed) {
   EXPECT_NE(bytes_of(folder / "a/motion.bvh"), bytes_of(folder / "c/motion.bvh")) << "the seed is used";
 }
 
+TEST(Results, LookedBackOnHoldEveryFrameOnceInOrder) {
+  const Folder folder;
+  for (const char* out : {"a", "b"}) {
+    auto arguments = command(person_clip(), folder / out);
+    arguments.insert(arguments.end(), {"--offline", "--particles", "200"});
+    ASSERT_EQ(run(arguments).code, 0);
+  }
+  const auto lines = timeless(folder / "a/pose.jsonl");
+  ASSERT_EQ(lines.size(), 1U + kPersonFrames);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    EXPECT_EQ(lines[i]["frame"], i - 1);
+  }
+  EXPECT_EQ(lines, timeless(folder / "b/pose.jsonl")) << "same seed, same results";
+}
+
 TEST(Results, OfARunThatWasStoppedAreValid) {
   for (const int number : {SIGINT, SIGTERM}) {
     const Folder folder;

@@ -17,7 +17,7 @@ struct Experiment {
 };
 
 /// Every experiment, in the order of the thesis.
-inline constexpr std::array<Experiment, 33> kExperiments = {{
+inline constexpr std::array<Experiment, 34> kExperiments = {{
     {"F2-22", "Size of the first simplex",
      "Which factor of the typical change between frames leaves the smallest residual F?", simplex_size},
     {"T3-1", "Time of the background subtractions",
@@ -78,6 +78,8 @@ inline constexpr std::array<Experiment, 33> kExperiments = {{
      real_clips},
     {"T4-1", "Time of overlap histograms", "How long do so many overlap histograms take?", overlap_times},
     {"ablation", "Each heuristic left out", "What is each heuristic of a filter good for?", ablation},
+    {"levers", "Each part of the program left out", "What is each part of the whole program good for?",
+     levers},
 }};
 
 /// The experiment with this id, or null.

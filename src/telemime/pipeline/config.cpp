@@ -117,6 +117,15 @@ void each_setting(C& c, Visit&& visit) {
   visit("tracking/retry_every", c.tracking.retry_every);
   visit("tracking/calibration_patience", c.tracking.calibration_patience);
   visit("tracking/velocity", c.tracking.velocity);
+  visit("offline/on", c.look_back);
+  visit("offline/stretch", c.offline.stretch);
+  visit("offline/overlap", c.offline.overlap);
+  visit("offline/arms", c.offline.arms);
+  visit("offline/kept", c.offline.kept);
+  visit("offline/motion", c.offline.motion);
+  visit("offline/sweeps", c.offline.sweeps);
+  visit("offline/evaluations", c.offline.evaluations);
+  visit("offline/between", c.offline.between);
   visit("smoothing/name", c.smoothing.name);
   visit("smoothing/look_ahead", c.smoothing.look_ahead);
   visit("smoothing/recursive_coefficient", c.smoothing.recursive_coefficient);
@@ -212,6 +221,7 @@ void Config::validate() const {
   calibration.validate();
   registration.validate();
   filter.validate();
+  offline.validate();
   TwoWaySmoother(smoothing, make_body(Shape{}), Camera{});  // throws when it cannot be made
   require(field_of_view > 1.0 && field_of_view < 179.0,
           "camera.field_of_view must be between 1 and 179 degrees");
@@ -222,6 +232,8 @@ void Config::validate() const {
   require(
       tracking.method == "heuristics" || tracking.method == "condensation" || tracking.method == "two-step",
       "tracking.method must be heuristics, condensation or two-step");
+  require(!look_back || tracking.method != "two-step",
+          "offline.on needs the method heuristics or condensation");
   require(threads >= 0 && threads <= 1024, "threads must be between 0 and 1024");
   require(tracking.lost_region > 0.0 && tracking.lost_region <= 1.0,
           "tracking.lost_region must be in (0, 1]");

@@ -13,6 +13,7 @@
 #include "telemime/registration/two_step.h"
 #include "telemime/smoothing/smoother.h"
 #include "telemime/tracking/filter_config.h"
+#include "telemime/tracking/trajectory.h"
 
 namespace telemime {
 
@@ -46,6 +47,8 @@ struct Config {
   FilterConfig filter;
   TrackingConfig tracking;
   SmoothingOptions smoothing;
+  bool look_back = false;  ///< `track --offline`: decide with the frames that come after, too
+  TrajectoryConfig offline;
 
   /// The working image is 320x240 by default.
   Config();

@@ -88,7 +88,9 @@ void fit_again(const Config& config, const std::string& backend_name, const Join
 std::optional<LookAhead> look_ahead(Source& source, const Config& config, const Camera& camera,
                                     const ImageCalibration& scene, std::int64_t most_frames,
                                     const std::function<bool(std::int64_t)>& go_on) {
-  Tracker scout(config, camera);
+  Config forward = config;
+  forward.look_back = false;
+  Tracker scout(forward, camera);
   scout.set_scene(scene);
   std::vector<Candidate> candidates;
   LookAhead found;

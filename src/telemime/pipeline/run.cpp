@@ -5,16 +5,17 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
-#include <map>
 #include <set>
 #include <thread>
 
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/pipeline/look_ahead.h"
+#include "telemime/pipeline/offline.h"
 #include "telemime/pipeline/overlay.h"
 #include "telemime/pipeline/person_file.h"
 #include "telemime/pipeline/run_outputs.h"
+#include "telemime/pipeline/run_statistics.h"
 #include "telemime/pipeline/scene.h"
 #include "telemime/registration/budget.h"
 #include "telemime/smoothing/two_way_smoother.h"
@@ -23,46 +24,6 @@ namespace telemime {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Numbers over the frames of a run, for the report.
-struct Statistics {
-  std::int64_t frames = 0;
-  std::int64_t tracked = 0;
-  std::int64_t first_tracked = -1;
-  double region = 0.0;
-  double contour = 0.0;
-  double evaluations = 0.0;
-  std::map<std::string, std::vector<double>> stage_ms;
-
-  void add(const MotionFrame& m) {
-    ++frames;
-    for (const auto& [stage, ms] : m.stage_ms) {
-      stage_ms[stage].push_back(ms);
-    }
-    if (m.state != TrackState::tracking) {
-      return;
-    }
-    first_tracked = first_tracked < 0 ? m.frame : first_tracked;
-    ++tracked;
-    region += m.region_score;
-    contour += m.contour_score;
-    evaluations += m.evaluations;
-  }
-
-  nlohmann::json json() const {
-    const double n = std::max<double>(1.0, static_cast<double>(tracked));
-    nlohmann::json json = {
-        {"frames", frames},     {"tracked", tracked},      {"first_tracked", first_tracked},
-        {"mean_F", region / n}, {"mean_D_C", contour / n}, {"mean_evaluations", evaluations / n}};
-    for (const auto& [stage, values] : stage_ms) {
-      std::vector<double> sorted = values;
-      std::sort(sorted.begin(), sorted.end());
-      const auto at = [&](double q) { return sorted[static_cast<std::size_t>(q * (sorted.size() - 1))]; };
-      json["ms"][stage] = {{"median", at(0.5)}, {"p95", at(0.95)}};
-    }
-    return json;
-  }
-};
 
 StreamHeader header_of(const SourceInfo& info, const Tracker& tracker) {
   StreamHeader header;
@@ -89,7 +50,11 @@ struct Waiting {
 class Run {
  public:
   Run(const TrackRequest& request, const RunHooks& hooks, const SourceInfo& info, Tracker& tracker)
-      : request_(request), hooks_(hooks), info_(info), tracker_(tracker), outputs_(request, info.fps) {}
+      : request_(request), hooks_(hooks), info_(info), tracker_(tracker), outputs_(request, info.fps) {
+    if (tracker.config().look_back) {
+      offline_ = std::make_unique<OfflineTracker>(tracker.config(), tracker.limits());
+    }
+  }
 
   Wish step(const Frame& frame) {
     TrackedFrame result = tracker_.step(frame);
@@ -100,28 +65,37 @@ class Run {
     if (tracker_.calibration() && !outputs_.begun()) {
       begin();
     }
-    statistics_.add(result.motion);
-    if (smoother_) {
-      waiting_.push_back({frame, result.note});
-      smoother_->push(result.motion);
-      write_ready();
+    ++frames_;
+    if (offline_ && smoother_) {
+      Frame kept = frame;
+      if (!request_.overlay && !hooks_.draw) {
+        kept.image.release();  // of many frames they take much memory
+      }
+      offline_->push({kept, result.note, result.motion, std::move(result.stretch)});
+      take_decided();
     } else {
-      // Nobody was found yet, maybe for a long time: the pictures are not kept.
-      draw({frame, result.note}, result.motion);
-      before_.push_back(result.motion);
+      accept({frame, result.note}, result.motion);
     }
     if (!hooks_.progress) {
       return Wish::go_on;
     }
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    return hooks_.progress(
-        {statistics_.frames, info_.frames, seconds, &result, overlay_.empty() ? nullptr : &overlay_});
+    return hooks_.progress({frames_, info_.frames, seconds, &result, overlay_.empty() ? nullptr : &overlay_});
+  }
+
+  // What waits belongs to the person that is followed now.
+  void finish_person() {
+    if (offline_) {
+      offline_->finish();
+      take_decided();
+    }
   }
 
   TrackSummary finish(bool interrupted, const std::string& complaint, const nlohmann::json& scene) {
     if (!outputs_.begun()) {
       begin();
     }
+    finish_person();
     smoother_->finish();
     write_ready();
     TrackSummary summary;
@@ -150,6 +124,25 @@ class Run {
   }
 
  private:
+  void take_decided() {
+    while (const auto decided = offline_->next(tracker_.model(), tracker_.camera())) {
+      accept({decided->frame, decided->note}, decided->motion);
+    }
+  }
+
+  void accept(const Waiting& waiting, const MotionFrame& motion) {
+    statistics_.add(motion);
+    if (smoother_) {
+      waiting_.push_back(waiting);
+      smoother_->push(motion);
+      write_ready();
+    } else {
+      // Nobody was found yet, maybe for a long time: the pictures are not kept.
+      draw(waiting, motion);
+      before_.push_back(motion);
+    }
+  }
+
   void begin() {
     const StreamHeader header = header_of(info_, tracker_);
     outputs_.begin(header);
@@ -189,9 +182,9 @@ class Run {
     if (note.empty() || !told_.insert(kind).second) {
       return;
     }
-    notes_.push_back({{"frame", statistics_.frames}, {"note", note}});
+    notes_.push_back({{"frame", frames_}, {"note", note}});
     if (hooks_.message) {
-      hooks_.message("frame " + std::to_string(statistics_.frames) + ": " + note);
+      hooks_.message("frame " + std::to_string(frames_) + ": " + note);
     }
   }
 
@@ -202,7 +195,9 @@ class Run {
   Clock::time_point start_ = Clock::now();
   RunOutputs outputs_;
   std::unique_ptr<TwoWaySmoother> smoother_;
-  Statistics statistics_;
+  std::int64_t frames_ = 0;  // read so far; offline, fewer are decided
+  RunStatistics statistics_;
+  std::unique_ptr<OfflineTracker> offline_;
   std::vector<MotionFrame> before_;  // all lost: until the person's shape is known
   std::deque<Waiting> waiting_;
   cv::Mat overlay_;  // the last one drawn
@@ -292,6 +287,11 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
   Prepared p;
   p.source = open_source(request.input);
   const SourceInfo& info = p.source->info();
+  if (info.live && request.config.look_back) {
+    throw Error(ErrorKind::usage,
+                "--offline needs a file: " + request.input + " has no end to look back from",
+                "Leave --offline out, or record the camera first.");
+  }
   if (request.calibration.empty()) {
     const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
     p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
@@ -363,6 +363,7 @@ TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
       break;
     }
     if (wish == Wish::recalibrate) {
+      run.finish_person();
       tracker.recalibrate();
     }
   }

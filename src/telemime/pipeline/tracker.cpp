@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "telemime/likelihood/all.h"
+#include "telemime/pipeline/offline.h"
 #include "telemime/tracking/posterior.h"
 
 namespace telemime {
@@ -142,6 +143,11 @@ TrackedFrame Tracker::step(const Frame& frame) {
       search(prepared_, result.observation, result);
     }
   }
+  if (phase_ == Phase::tracking && config_.look_back) {
+    const bool searched = filter_->started();
+    result.stretch = StretchFrame{std::exchange(prepared_, {}), facing_,
+                                  searched ? mode_poses(*filter_, model_.body, pose_) : std::vector{pose_}};
+  }
   motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;
   motion.pose = pose_;
   complete(motion, model_.body, camera_);
@@ -232,6 +238,7 @@ void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& re
   result.motion.spread = spread_of({model_.body, working_camera_, found.score.region,
                                     config_.calibration.stature ? spread.size_given : spread.size},
                                    filter_->particles(), found.pose, spread);
+  facing_ = found.facing;
   previous_ = pose_;
   adopt(found.pose, found.score, result);
   watch(found.score, result);

@@ -43,6 +43,7 @@ struct TrackedFrame {
   std::string note;         ///< why the person is not tracked, in words; empty while tracking
   std::vector<std::string>
       warnings;  ///< what breaks the tracker's assumptions (light, sleeves, camera), in words
+  std::optional<StretchFrame> stretch;  ///< while tracking, where Config::look_back asks for it
 };
 
 /// Follows one person from frame to frame: features, calibration on the first good frame, registration, lost
@@ -105,6 +106,7 @@ class Tracker {
   Pose pose_;
   Pose previous_;
   bool face_just_seen_ = false;  ///< the person's colours were learned in this frame
+  double facing_ = 0.0;          ///< of the filter's last step
   int bad_frames_ = 0;
   int frames_until_search_ = 0;
   std::int64_t since_ = 0;

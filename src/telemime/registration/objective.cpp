@@ -81,6 +81,17 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
   return sum / 4.0;
 }
 
+void Objective::expect_between(const Pose& before, const Pose& after) {
+  const JointPositions a = forward_kinematics(model_.body, before).joints;
+  const JointPositions b = forward_kinematics(model_.body, after).joints;
+  // Of the pose only the trunk is looked at, whose angles are small: they may be averaged one by one.
+  Expected between{Pose::from_vector(0.5 * (before.vector() + after.vector())), a};
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    between.joints.at[j] = 0.5 * (a.at[j] + b.at[j]);
+  }
+  expected_ = between;
+}
+
 double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) {
   const Kinematics k = forward_kinematics(model_.body, pose);
   double cost = weights.invalid * (interpenetration(model_.body, k) + 0.5 * outside_limits(limits_, pose));

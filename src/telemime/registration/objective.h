@@ -47,6 +47,8 @@ class Objective {
   Score score(const Pose& pose, Reduction terms);
   /// The pose that is expected in this frame, for the terms "temporal" and "trunk"; without it they are 0.
   void expect(const Pose& pose) { expected_ = Expected{pose, forward_kinematics(model_.body, pose).joints}; }
+  /// The same from the frames before and after: every joint in the middle between its places there.
+  void expect_between(const Pose& before, const Pose& after);
 
   /// Where the person is expected to face, for the term "natural": torsion of the root, rad.
   void face(double facing) { facing_ = facing; }

@@ -114,7 +114,8 @@ void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& 
   }
 }
 
-FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model, double velocity) {
+FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model, double velocity,
+                                  std::optional<double> facing) {
   if (particles_.empty()) {
     throw Error(ErrorKind::usage, "the particle filter was not started");
   }
@@ -123,7 +124,7 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
                               model,       limits_,
                               config_,     numbers_,
                               search_,     estimate_,
-                              expected,    facing_of(velocity_),
+                              expected,    facing.value_or(facing_of(velocity_)),
                               evaluators_, seeds_.bits()};
   Generation generation;
   generation.parents = std::move(particles_);
@@ -155,6 +156,7 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
   result.score = best.score;
   result.effective_particles = effective_sample_size(particles_);
   result.moving = generation.moving;
+  result.facing = context.facing;
   return result;
 }
 

@@ -18,6 +18,7 @@ struct FilterResult {
   int evaluations = 0;
   double effective_particles = 0.0;
   PartSet moving;
+  double facing = 0.0;  ///< FilterContext::facing
 };
 
 /// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on one by one. The
@@ -35,7 +36,9 @@ class ParticleFilter {
   bool started() const { return !particles_.empty(); }
 
   /// One frame. Must have been started. `velocity`: share of the last motion that is expected again.
-  FilterResult step(const PreparedFrame& frame, const Model& model, double velocity);
+  /// `facing`: FilterContext::facing, where it is known better than from the root's way.
+  FilterResult step(const PreparedFrame& frame, const Model& model, double velocity,
+                    std::optional<double> facing = std::nullopt);
 
   /// Of the last frame, weights normalised; `parent` is an index of the generation before, or of the modes
   /// that it was merged to.

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracking/trajectory.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "telemime/body/arm_flips.h"
+#include "telemime/body/arm_ik.h"
+#include "telemime/core/errors.h"
+#include "telemime/registration/blocks.h"
+#include "telemime/registration/two_step.h"
+#include "telemime/tracking/purposes.h"
+
+namespace telemime {
+namespace {
+
+// What the image says of a pose, and what is known without it; nothing about the frames beside it.
+ObjectiveWeights still_weights(const TrajectoryContext& context) {
+  ObjectiveWeights weights = context.search.edge;
+  weights.temporal = 0.0;
+  weights.trunk = 0.0;
+  return weights;
+}
+
+// The arm of one pose on the trunk of another: the wrist and the elbow stay where they were.
+Pose with_arm_of(const TrajectoryContext& context, const Pose& pose, const Pose& from, Side side) {
+  const Body& body = context.model.body;
+  Pose to = with_wrist(body, pose, side, arm_target(body, from, side), context.limits);
+  for (const Angle angle : hand_angles(side)) {
+    to[angle] = from[angle];
+  }
+  return to;
+}
+
+// Elbow and wrist of one arm, m.
+Eigen::Matrix<double, 3, 2> arm_places(const Body& body, const Pose& pose, Side side) {
+  const JointPositions j = forward_kinematics(body, pose).joints;
+  const bool left = side == Side::left;
+  Eigen::Matrix<double, 3, 2> places;
+  places << j[left ? Joint::l_elbow : Joint::r_elbow], j[left ? Joint::l_wrist : Joint::r_wrist];
+  return places;
+}
+
+// The poses whose arm on that side is unlike those before them.
+std::vector<Pose> unlike_arms(const Body& body, const std::vector<Pose>& poses, Side side, std::size_t most) {
+  constexpr double kSame = 0.03;  // m
+  std::vector<Pose> kept;
+  std::vector<Eigen::Matrix<double, 3, 2>> places;
+  for (const Pose& pose : poses) {
+    const auto here = arm_places(body, pose, side);
+    const bool known = std::any_of(places.begin(), places.end(), [&](const auto& there) {
+      return (here - there).colwise().norm().maxCoeff() < kSame;
+    });
+    if (!known && kept.size() < most) {
+      kept.push_back(pose);
+      places.push_back(here);
+    }
+  }
+  return kept;
+}
+
+std::vector<ScoredPose> scored(const TrajectoryContext& context, const StretchFrame& frame,
+                               const std::vector<Pose>& poses, Backend& backend) {
+  Objective objective(backend, frame.frame, context.model, context.limits);
+  objective.face(frame.facing);
+  const ObjectiveWeights weights = still_weights(context);
+  std::vector<ScoredPose> result;
+  result.reserve(poses.size());
+  for (const Pose& pose : poses) {
+    result.push_back({pose, objective(pose, weights)});
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; });
+  return result;
+}
+
+std::vector<Pose> poses_of(const std::vector<ScoredPose>& scored) {
+  std::vector<Pose> poses;
+  poses.reserve(scored.size());
+  for (const ScoredPose& s : scored) {
+    poses.push_back(s.pose);
+  }
+  return poses;
+}
+
+}  // namespace
+
+void TrajectoryConfig::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "offline: " + what);
+    }
+  };
+  require(stretch >= 1 && stretch <= 10000, "stretch must be between 1 and 10000 frames");
+  require(overlap >= 0 && overlap <= 1000, "overlap must be between 0 and 1000 frames");
+  require(arms >= 1 && arms <= 100, "arms must be between 1 and 100");
+  require(kept >= 1 && kept <= 1000, "kept must be between 1 and 1000");
+  require(motion >= 0.0 && motion <= 1e6, "motion must be between 0 and 1e6");
+  require(between >= 0.0 && between <= 1e6, "between must be between 0 and 1e6");
+  require(sweeps >= 0 && sweeps <= 100, "sweeps must be between 0 and 100");
+  require(evaluations >= 1 && evaluations <= 1000000, "evaluations must be between 1 and 1000000");
+}
+
+std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchFrame& frame,
+                                Backend& backend) {
+  const Body& body = context.model.body;
+  const auto arms = static_cast<std::size_t>(context.config.arms);
+  std::vector<Pose> all = frame.candidates;
+  for (const Side side : {Side::left, Side::right}) {
+    for (const Pose& flipped : arm_flips(body, frame.candidates.front(), side, context.limits)) {
+      all.push_back(flipped);
+    }
+  }
+  const std::vector<Pose> ranked = poses_of(scored(context, frame, all, backend));
+  std::vector<Pose> trunks = {ranked.front()};
+  if (frame.candidates.size() > 1) {
+    trunks.push_back(frame.candidates.front());
+    trunks.push_back(frame.candidates.back());
+  }
+  const std::vector<Pose> left = unlike_arms(body, ranked, Side::left, arms);
+  const std::vector<Pose> right = unlike_arms(body, ranked, Side::right, arms);
+  for (const Pose& trunk : trunks) {
+    for (const Pose& l : left) {
+      for (const Pose& r : right) {
+        all.push_back(with_arm_of(context, with_arm_of(context, trunk, l, Side::left), r, Side::right));
+      }
+    }
+  }
+  std::vector<ScoredPose> best = scored(context, frame, all, backend);
+  best.resize(std::min(best.size(), static_cast<std::size_t>(context.config.kept)));
+  return best;
+}
+
+std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vector<ScoredPose>> frames,
+                                      double motion, const Pose* before) {
+  std::vector<std::vector<std::size_t>> from(frames.size());
+  std::vector<double> costs_before;
+  std::vector<JointPositions> joints_before;
+  if (before != nullptr) {
+    costs_before = {0.0};
+    joints_before = {forward_kinematics(body, *before).joints};
+  }
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    std::vector<double> costs;
+    std::vector<JointPositions> joints;
+    for (const ScoredPose& here : frames[t]) {
+      const Kinematics k = forward_kinematics(body, here.pose);
+      double least = costs_before.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+      std::size_t best = 0;
+      for (std::size_t i = 0; i < costs_before.size(); ++i) {
+        const double cost = costs_before[i] + motion * distance_from_expected(k, joints_before[i]);
+        if (cost < least) {
+          least = cost;
+          best = i;
+        }
+      }
+      costs.push_back(least + here.cost);
+      joints.push_back(k.joints);
+      from[t].push_back(best);
+    }
+    costs_before = std::move(costs);
+    joints_before = std::move(joints);
+  }
+  std::vector<std::size_t> way(frames.size());
+  auto at = static_cast<std::size_t>(std::min_element(costs_before.begin(), costs_before.end()) -
+                                     costs_before.begin());
+  for (std::size_t t = frames.size(); t-- > 0;) {
+    way[t] = at;
+    at = from[t][at];
+  }
+  return way;
+}
+
+std::vector<Pose> best_trajectory(const TrajectoryContext& context,
+                                  std::span<const StretchFrame* const> frames, const Pose* before) {
+  const Body& body = context.model.body;
+  const TrajectoryConfig& config = context.config;
+  std::vector<std::vector<ScoredPose>> choices(frames.size());
+  context.evaluators.each(frames.size(), [&](std::size_t t, Backend& backend) {
+    choices[t] = combine(context, *frames[t], backend);
+  });
+  std::vector<Pose> poses;
+  poses.reserve(frames.size());
+  if (frames.empty()) {
+    return poses;
+  }
+  const std::vector<std::size_t> way = cheapest_way(body, choices, config.motion, before);
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    poses.push_back(choices[t][way[t]].pose);
+  }
+  RegistrationConfig search = context.search;
+  search.iterations = config.evaluations;
+  search.proposals = no_proposals();
+  search.region.temporal = search.edge.temporal = config.between;
+  for (int half = 0; half < 2 * config.sweeps; ++half) {
+    // Every other frame, so that the neighbours stand still and threads do not matter.
+    const auto first = static_cast<std::size_t>(half % 2);
+    const std::size_t count = (frames.size() + 1 - first) / 2;
+    context.evaluators.each(count, [&](std::size_t i, Backend& backend) {
+      const std::size_t t = first + 2 * i;
+      const Pose& earlier = t > 0 ? poses[t - 1] : before != nullptr ? *before : poses[t];
+      const Pose& later = poses[t + 1 < poses.size() ? t + 1 : t];
+      Objective objective(backend, frames[t]->frame, context.model, context.limits);
+      objective.face(frames[t]->facing);
+      objective.expect_between(earlier, later);
+      Random random(context.seed,
+                    (purpose::kTrajectory << 32U) ^ (static_cast<std::uint64_t>(half) << 24U) ^ t);
+      poses[t] = register_pose(objective, poses[t], search, random).pose;
+    });
+  }
+  return poses;
+}
+
+}  // namespace telemime
