@@ -3,8 +3,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/rotations.h"
@@ -129,19 +131,23 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
   samples.sigma_contour.push_back(deviation(contours));
 }
 
-// Squared Mahalanobis distances of all errors of the joints that are scored, and the sum of log determinants.
+// Squared Mahalanobis distances of all errors of these joints, and the sum of log determinants.
 struct Fit {
   std::vector<double> squared;
   double log_determinants = 0.0;
 };
 
-Fit fit_of(const std::vector<Sample>& samples, const Camera& camera, const SpreadModel& model) {
+constexpr std::array<Joint, 6> kArmJoints = {Joint::l_shoulder, Joint::r_shoulder, Joint::l_elbow,
+                                             Joint::r_elbow,    Joint::l_wrist,    Joint::r_wrist};
+constexpr std::array<Joint, 4> kTrunkJoints = {Joint::root, Joint::neck, Joint::head, Joint::head_top};
+
+Fit fit_of(const std::vector<Sample>& samples, const Camera& camera, const SpreadModel& model,
+           std::span<const Joint> joints) {
   Fit fit;
   for (const Sample& sample : samples) {
     const auto covariance =
         model_covariance({sample.body, camera, sample.region, model.size}, sample.pose, model);
-    for (const Joint joint : {Joint::l_shoulder, Joint::r_shoulder, Joint::l_elbow, Joint::r_elbow,
-                              Joint::l_wrist, Joint::r_wrist}) {
+    for (const Joint joint : joints) {
       const auto j = static_cast<std::size_t>(joint);
       if (sample.error[j]) {
         fit.squared.push_back(sample.error[j]->dot(covariance[j].ldlt().solve(*sample.error[j])));
@@ -159,16 +165,17 @@ SpreadModel fit_spread(const std::vector<Sample>& samples, const Camera& camera,
     model.trunk = std::exp(x[0]);
     model.across = std::exp(x[1]);
     model.seen = std::exp(x[2]);
+    model.slide = std::exp(x[3]);
     return model;
   };
-  const Eigen::VectorXd from =
-      Eigen::Vector3d(std::log(start.trunk), std::log(start.across), std::log(start.seen));
+  const Eigen::VectorXd from = Eigen::Vector4d(std::log(start.trunk), std::log(start.across),
+                                               std::log(start.seen), std::log(start.slide));
   const Bounds bounds = {from.array() - 3.0, from.array() + 3.0};
   SimplexOptions options;
   options.max_evaluations = 300;
   const SimplexResult found = minimise(
       [&](const Eigen::VectorXd& x) {
-        const Fit fit = fit_of(samples, camera, model_at(x));
+        const Fit fit = fit_of(samples, camera, model_at(x), kArmJoints);
         double sum = fit.log_determinants;
         for (const double squared : fit.squared) {
           // Heavy tails: a flipped arm must not blow up all the others.
@@ -176,15 +183,22 @@ SpreadModel fit_spread(const std::vector<Sample>& samples, const Camera& camera,
         }
         return sum;
       },
-      axis_simplex(from, Eigen::Vector3d::Constant(0.5), bounds), bounds, options);
+      axis_simplex(from, Eigen::Vector4d::Constant(0.5), bounds), bounds, options);
   SpreadModel model = model_at(found.best().point);
   constexpr double kChiSquared = 7.8147;
   for (int round = 0; round < 30; ++round) {
-    const double reached = quantile(fit_of(samples, camera, model).squared, 0.95).value_or(kChiSquared);
-    const double wider = std::pow(reached / kChiSquared, 0.25);
-    model.trunk *= wider;
-    model.across *= wider;
-    model.seen *= wider;
+    const auto wider = [&](std::span<const Joint> joints) {
+      const double reached =
+          quantile(fit_of(samples, camera, model, joints).squared, 0.95).value_or(kChiSquared);
+      return std::pow(reached / kChiSquared, 0.25);
+    };
+    const double arms = wider(kArmJoints);
+    const double trunk = wider(kTrunkJoints);
+    model.trunk *= arms;
+    model.across *= arms;
+    model.seen *= arms;
+    model.slide *= arms;
+    model.lean *= trunk;
   }
   return model;
 }

@@ -70,6 +70,8 @@ FilterModel parse_filter_model(const std::string& text, const std::string& name)
   model.swivel = positive(wrist, "swivel_degrees", name) * kDegree;
   const Json& spread = group("spread");
   model.spread.trunk = positive(spread, "trunk_mm", name) * kMillimetre;
+  model.spread.lean = positive(spread, "lean", name);
+  model.spread.slide = positive(spread, "slide_mm", name) * kMillimetre;
   model.spread.across = positive(spread, "across", name);
   model.spread.seen = positive(spread, "seen", name);
   model.spread.residual = positive(spread, "residual", name);
@@ -111,7 +113,9 @@ std::string to_json_text(const FilterModel& model, const std::string& note) {
                           {"wrist_along_mm", digits(model.wrist_along / kMillimetre)},
                           {"swivel_degrees", digits(model.swivel / kDegree)}};
   json["spread"] = {{"trunk_mm", digits(model.spread.trunk / kMillimetre)},
+                    {"lean", digits(model.spread.lean)},
                     {"across", digits(model.spread.across)},
+                    {"slide_mm", digits(model.spread.slide / kMillimetre)},
                     {"seen", digits(model.spread.seen)},
                     {"residual", digits(model.spread.residual)},
                     {"size", digits(model.spread.size)},

@@ -12,11 +12,15 @@ namespace telemime {
 
 /// How far the truth is from a pose that fits the image (standard deviations).
 struct SpreadModel {
-  double trunk = 0.0;   ///< m, of each joint of the trunk
+  double trunk = 0.0;  ///< m, of each joint of the trunk
+  /// Of neck, head, crown and root, as a share of their way from the middle of the shoulders: how well the
+  /// trunk's and the head's lean are known.
+  double lean = 0.0;
   double across = 0.0;  ///< of a bone's end across the viewing ray, as a share of its length
   /// The part of its length to which a bone is seen: at the angle phi to the image plane it is known in depth
   /// to about seen / sin(phi) of its length, parallel to the image to sqrt(seen / 2).
   double seen = 0.0;
+  double slide = 0.0;  ///< m, of a wrist along its forearm: bare skin does not show where the hand begins
   /// F of the poses that these numbers are of. A pose that fits worse is known worse, in proportion to the
   /// square of its F over this.
   double residual = 0.0;

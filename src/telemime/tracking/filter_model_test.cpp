@@ -69,7 +69,7 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   model.wrist_across = 0.05;
   model.wrist_along = 0.11;
   model.swivel = 0.2;
-  model.spread = {0.004, 0.06, 0.13, 0.11, 0.07, 0.03};
+  model.spread = {0.004, 0.2, 0.06, 0.13, 0.02, 0.11, 0.07, 0.03};
   const FilterModel read = parse_filter_model(to_json_text(model, "note"), "written");
   EXPECT_DOUBLE_EQ(read.sigma_region, model.sigma_region);
   EXPECT_DOUBLE_EQ(read.sigma_contour, model.sigma_contour);
@@ -80,6 +80,8 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   EXPECT_NEAR(read.wrist_along, model.wrist_along, 1e-12);
   EXPECT_NEAR(read.swivel, model.swivel, 1e-4 * model.swivel);
   EXPECT_NEAR(read.spread.trunk, model.spread.trunk, 1e-12);
+  EXPECT_DOUBLE_EQ(read.spread.lean, model.spread.lean);
+  EXPECT_NEAR(read.spread.slide, model.spread.slide, 1e-12);
   EXPECT_DOUBLE_EQ(read.spread.across, model.spread.across);
   EXPECT_DOUBLE_EQ(read.spread.seen, model.spread.seen);
   EXPECT_DOUBLE_EQ(read.spread.residual, model.spread.residual);
@@ -91,7 +93,7 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
 TEST(FilterModel, EveryNumberCounts) {
   // A number that is changed in the file is changed in the model.
   const std::string before = to_json_text(default_filter_model(), "");
-  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 6);
+  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 8);
   for (const auto& place : all_numbers()) {
     Json json = default_json();
     json[place] = 2.0 * json[place].get<double>();

@@ -117,6 +117,13 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
     double& along_arm = along[static_cast<std::size_t>(to)];
     along_arm = along[static_cast<std::size_t>(from)];
     at(to) = end_of_bone(context.camera, joints[from], joints[to], arms, at(from), along_arm);
+    if (to == Joint::l_wrist || to == Joint::r_wrist) {
+      const Eigen::Vector3d forearm = (joints[to] - joints[from]).normalized();
+      at(to) += square(model.slide) * forearm * forearm.transpose();
+    }
+  }
+  for (const Joint joint : {Joint::root, Joint::neck, Joint::head, Joint::head_top}) {
+    at(joint) += Eigen::Matrix3d::Identity() * (square(model.lean) * (joints[joint] - middle).squaredNorm());
   }
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
