@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <functional>
+#include <limits>
 
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/evaluate.h"
@@ -121,10 +122,12 @@ Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std:
   const PoseFile pose = read_pose_jsonl(scratch.path() / "pose.jsonl");
   const Evaluation e = evaluate(pose.frames, pose.camera, read_truth(clip / "truth.json"), {});
   constexpr double kMillimetres = 1000.0;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // nothing was tracked
   const MeanErrors& errors = e.tracked.scored;
-  return {kMillimetres * errors.aligned.value_or(0.0), kMillimetres * errors.depth.value_or(0.0),
-          errors.pixels.value_or(0.0),
-          e.jitter && e.truth_jitter.value_or(0.0) > 0.0 ? *e.jitter / *e.truth_jitter : 0.0, e.lost_scored};
+  return {kMillimetres * errors.aligned.value_or(kNone), kMillimetres * errors.depth.value_or(kNone),
+          errors.pixels.value_or(kNone),
+          e.jitter && e.truth_jitter.value_or(0.0) > 0.0 ? *e.jitter / *e.truth_jitter : kNone,
+          e.lost_scored};
 }
 
 // By clip, then seed.
@@ -166,8 +169,8 @@ std::vector<fs::path> clips_of(const Lab& lab) {
 Finding levers(Lab& lab) {
   const std::vector<fs::path> clips = clips_of(lab);
   Table table{"the whole program, one part changed",
-              {"part", "changed", "3-D error (mm)", "gain of the part (mm)", "depth error (mm)",
-               "2-D error (px)", "jitter / truth's", "lost frames (%)"},
+              {"part", "changed", "3-D error (mm)", "change of it (mm)", "depth error (mm)", "2-D error (px)",
+               "jitter / truth's", "lost frames (%)"},
               {}};
   Table by_clip{"3-D error (mm) by clip", {"changed"}, {}};
   for (const fs::path& clip : clips) {
@@ -205,7 +208,7 @@ Finding levers(Lab& lab) {
       "`telemime track` on each clip with its background, all by default but for one part; elbows and "
       "wrists, middle of the shoulders aligned. Means over the clips; in brackets the lowest and highest "
       "of the " +
-      std::to_string(lab.seeds()) + " seeds. A part that pays has a positive gain."};
+      std::to_string(lab.seeds()) + " seeds. A part that pays has a positive change when it is left out."};
   finding.verdict = "no figure of the thesis. As it is " + number(base) + " mm; change in mm: " + pays + ".";
   return finding;
 }

@@ -244,6 +244,18 @@ void Config::validate() const {
   require(tracking.velocity >= 0.0 && tracking.velocity <= 1.0, "tracking.velocity must be between 0 and 1");
 }
 
+FilterConfig filter_of(const Config& config) {
+  if (config.tracking.method != "condensation") {
+    return config.filter;
+  }
+  FilterConfig filter = reference_filter("");
+  filter.particles = config.filter.particles;
+  filter.model = config.filter.model;
+  filter.diffusion = config.filter.diffusion;
+  filter.estimate = config.filter.estimate;
+  return filter;
+}
+
 Json to_json(const Config& config) {
   Json json = Json::object();
   each_setting(config, [&](const std::string& path, const auto& value) {

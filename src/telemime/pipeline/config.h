@@ -56,6 +56,10 @@ struct Config {
   void validate() const;
 };
 
+/// The particle filter that tracking.method asks for: with condensation the thesis's, without heuristics,
+/// with the particles, model, diffusion and estimate that are set.
+FilterConfig filter_of(const Config& config);
+
 /// The effective configuration, as written beside the results.
 nlohmann::json to_json(const Config& config);
 

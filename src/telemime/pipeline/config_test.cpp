@@ -131,6 +131,23 @@ TEST(Config, EverySettingCanBeReadAlone) {
   EXPECT_GE(settings, 50);
 }
 
+TEST(Config, CondensationIsTheThesissFilterWithWhatIsSet) {
+  Config config;
+  EXPECT_EQ(filter_of(config).heuristics, config.filter.heuristics);
+  config.tracking.method = "condensation";
+  config.filter.particles = 321;
+  config.filter.diffusion = 2.0;
+  config.filter.estimate = "mean";
+  config.filter.model = "numbers.json";
+  const FilterConfig filter = filter_of(config);
+  EXPECT_EQ(filter.heuristics, "");
+  EXPECT_EQ(filter.trust, 1.0);
+  EXPECT_EQ(filter.particles, 321);
+  EXPECT_EQ(filter.diffusion, 2.0);
+  EXPECT_EQ(filter.estimate, "mean");
+  EXPECT_EQ(filter.model, "numbers.json");
+}
+
 TEST(Config, WrongTypeIsRefusedWithTheKeysName) {
   const Json leaves = to_json(Config{}).flatten();
   for (const auto& [pointer, value] : leaves.items()) {

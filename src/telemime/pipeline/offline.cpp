@@ -44,7 +44,10 @@ OfflineTracker::OfflineTracker(const Config& config, const JointLimits& limits)
 
 std::optional<OfflineFrame> OfflineTracker::next(const Model& model, const Camera& camera) {
   if (waiting_.empty()) {
-    finished_ = false;
+    if (finished_) {
+      finished_ = false;
+      before_.reset();  // who comes next may be somebody else
+    }
     return std::nullopt;
   }
   if (decided_ == 0 && waiting_.front().stretch) {
@@ -74,6 +77,7 @@ void OfflineTracker::look_back(std::size_t frames, const Model& model) {
   filter.start(waiting_[frames - 1].motion.pose);
   for (std::size_t t = frames; t-- > 0;) {
     StretchFrame& frame = *waiting_[t].stretch;
+    frame.candidates.resize(frame.forward);  // an earlier look back may have reached into this stretch
     const FilterResult found = filter.step(frame.frame, model, config_.tracking.velocity, frame.facing);
     waiting_[t].motion.evaluations += found.evaluations;
     const std::vector<Pose> poses = mode_poses(filter, model.body, found.pose);
@@ -88,8 +92,7 @@ void OfflineTracker::decide(std::size_t frames, std::size_t keep, const Model& m
   for (std::size_t t = 0; t < frames; ++t) {
     stretch.push_back(&*waiting_[t].stretch);
   }
-  const TrajectoryContext context{model,           limits_,     config_.registration,
-                                  config_.offline, evaluators_, seeds_.bits()};
+  const TrajectoryContext context{model, limits_, config_.registration, config_.offline, evaluators_};
   const std::vector<Pose> poses = best_trajectory(context, stretch, before_ ? &*before_ : nullptr);
   for (std::size_t t = 0; t < keep; ++t) {
     MotionFrame& motion = waiting_[t].motion;

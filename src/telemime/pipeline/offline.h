@@ -33,6 +33,8 @@ class OfflineTracker {
   void push(OfflineFrame frame) { waiting_.push_back(std::move(frame)); }
   /// No frame comes any more, or none of the same person: next() gives the rest.
   void finish() { finished_ = true; }
+  /// The frames that wait keep the poses that the forward filter found.
+  void give_up() { decided_ = waiting_.size(); }
   /// The next decided frame, in the order in which they came; nothing when it must still wait. `camera`: of
   /// the input images.
   std::optional<OfflineFrame> next(const Model& model, const Camera& camera);

@@ -35,8 +35,9 @@ OfflineFrame seen(Scene& scene, std::int64_t index, bool tracked) {
   complete(frame.motion, scene.model.body, scene.camera);
   if (tracked) {
     frame.stretch =
-        StretchFrame{frame_of_model(scene.model, both_arms_seen(), scene.camera), 0.0, {both_arms_seen()}};
+        StretchFrame{frame_of_model(scene.model, both_arms_seen(), scene.camera), 0.0, {both_arms_seen()}, 1};
     frame.motion.spread = PoseSpread{};
+    frame.motion.spread->covariance.fill(Eigen::Matrix3d::Zero());
   }
   return frame;
 }
@@ -84,6 +85,27 @@ TEST(OfflineTracker, GoesOnAfterItWasFinished) {
   EXPECT_EQ(take(offline, scene).size(), 1U);
   offline.push(seen(scene, 1, true));
   EXPECT_TRUE(take(offline, scene).empty()) << "another stretch has begun";
+}
+
+TEST(OfflineTracker, GivesWhatWaitsAsItIsWhenItGivesUp) {
+  Scene scene;
+  OfflineTracker offline(quick(), scene.limits);
+  Pose wrong = both_arms_seen();
+  wrong[Angle::l_shoulder_abduct] += 0.4;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    OfflineFrame frame = seen(scene, i, i != 1);
+    frame.motion.pose = wrong;
+    offline.push(std::move(frame));
+  }
+  EXPECT_TRUE(take(offline, scene).size() <= 2);
+  offline.push(seen(scene, 3, true));
+  offline.give_up();
+  std::size_t count = 0;
+  while (const auto frame = offline.next(scene.model, scene.camera)) {
+    EXPECT_EQ(frame->motion.frame, static_cast<std::int64_t>(2 + count));
+    ++count;
+  }
+  EXPECT_EQ(count, 2U);
 }
 
 TEST(OfflineTracker, PoseJointsPixelsAndScoresBelongTogether) {

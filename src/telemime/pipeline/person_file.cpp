@@ -64,6 +64,7 @@ void save_person(const PersonFile& p, const std::filesystem::path& file) {
                      {"version", 1},
                      {"shape", shape_json(p.person.shape)},
                      {"scale_from", p.person.scale_from},
+                     {"height_given", p.person.height_given},
                      {"refusal", p.person.refusal},
                      {"F", p.person.score.region},
                      {"camera",
@@ -88,6 +89,7 @@ PersonFile parse_person(std::string_view text, const std::filesystem::path& name
   try {
     p.person.shape = shape_from(json.at("shape"));
     p.person.scale_from = json.at("scale_from").get<std::string>();
+    p.person.height_given = json.at("height_given").get<bool>();
     p.person.refusal = json.at("refusal").get<std::string>();
     const Json& c = json.at("camera");
     p.camera.width = static_cast<int>(number(c, "width", 1, 32768));

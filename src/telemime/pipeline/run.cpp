@@ -95,6 +95,9 @@ class Run {
     if (!outputs_.begun()) {
       begin();
     }
+    if (interrupted && offline_) {
+      offline_->give_up();  // who stops a run does not want to wait for it
+    }
     finish_person();
     smoother_->finish();
     write_ready();
@@ -249,14 +252,21 @@ Config with_budget(const Config& config, const Camera& camera) {
                    kRepeats, random, seconds);
   const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());
   Config fixed = config;
-  fixed.registration.iterations = split.total() + 1;  // the last evaluation scores the pose
-  // The best mode's search is one after the other; the rest is shared by the threads.
-  const int threads = config.threads > 0
-                          ? config.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  fixed.filter.mode_most =
-      std::max(fixed.filter.mode_least, std::min(fixed.filter.mode_most, 2 * split.total() / 3));
-  fixed.filter.particles = std::max(1, split.total() * threads / 2);
+  constexpr std::int64_t kMost = 1000000;  // that a configuration may ask for
+  const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
+  fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
+  // The best mode has two searches, side by side where there are two threads, and up to two trunks are
+  // turned.
+  const std::int64_t threads =
+      config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
+  const auto at_most = [](int number, std::int64_t most) {
+    return static_cast<int>(std::clamp<std::int64_t>(number, 1, std::max<std::int64_t>(1, most)));
+  };
+  FilterConfig& filter = fixed.filter;
+  filter.mode_most = at_most(filter.mode_most, threads > 1 ? 2 * total / 3 : total / 3);
+  filter.mode_least = at_most(filter.mode_least, std::min<std::int64_t>(filter.mode_most, total / 10));
+  filter.turn_evaluations = at_most(filter.turn_evaluations, total / 10);
+  filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();
   }
@@ -302,6 +312,10 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
     p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
     p.tracker->set_calibration(person.person, person.image);
     p.scene.messages.push_back("person and background: " + request.calibration);
+    if (request.config.calibration.stature) {
+      p.scene.messages.push_back("the height is not used: the person's size stands in " +
+                                 request.calibration);
+    }
   }
   if (hooks.message) {
     for (const std::string& words : p.scene.messages) {
@@ -316,7 +330,9 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
 TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& hooks,
                                  const std::filesystem::path& file) {
   prepare_file(file);
-  Prepared p = prepare_run(request, hooks);
+  TrackRequest forward = request;
+  forward.config.look_back = false;
+  Prepared p = prepare_run(forward, hooks);
   if (const auto found = look_ahead_of(request, hooks, p)) {
     save_person({found->start.person, p.tracker->camera(), found->image}, file);
     return found->start.person;

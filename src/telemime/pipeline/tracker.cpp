@@ -61,14 +61,10 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       random_(config.seed) {
   config_.validate();
   if (config_.tracking.method != "two-step") {
-    FilterConfig filter = config_.filter;
-    if (config_.tracking.method == "condensation") {
-      filter = reference_filter("");
-      filter.particles = config_.filter.particles;
-    }
+    config_.filter = filter_of(config_);
     evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads);
-    filter_ =
-        std::make_unique<ParticleFilter>(filter, config_.registration, limits_, *evaluators_, config_.seed);
+    filter_ = std::make_unique<ParticleFilter>(config_.filter, config_.registration, limits_, *evaluators_,
+                                               config_.seed);
   }
   Shape average;
   average.stature = config.calibration.stature.value_or(average.stature);
@@ -98,6 +94,11 @@ void Tracker::set_calibration(const TrackerCalibration& calibration, const Image
 void Tracker::recalibrate() {
   known_.reset();
   calibration_.reset();
+  if (filter_) {
+    filter_->stop();
+  }
+  bad_frames_ = 0;
+  facing_ = 0.0;
   phase_ = Phase::waiting;
   waited_ = 0;
   frames_until_search_ = 0;
@@ -145,8 +146,9 @@ TrackedFrame Tracker::step(const Frame& frame) {
   }
   if (phase_ == Phase::tracking && config_.look_back) {
     const bool searched = filter_->started();
-    result.stretch = StretchFrame{std::exchange(prepared_, {}), facing_,
-                                  searched ? mode_poses(*filter_, model_.body, pose_) : std::vector{pose_}};
+    std::vector<Pose> poses = searched ? mode_poses(*filter_, model_.body, pose_) : std::vector{pose_};
+    const std::size_t count = poses.size();
+    result.stretch = StretchFrame{std::exchange(prepared_, {}), facing_, std::move(poses), count};
   }
   motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;
   motion.pose = pose_;
@@ -191,7 +193,8 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
       lose("waiting for a better first frame: " + fit.refusal, result);
       return;
     }
-    calibration_ = TrackerCalibration{fit.shape, scale_words(config_.calibration), fit.refusal, fit.score};
+    calibration_ = TrackerCalibration{fit.shape, scale_words(config_.calibration), fit.refusal, fit.score,
+                                      config_.calibration.stature.has_value()};
     model_ = make_model(fit.shape);
     phase_ = Phase::tracking;
     previous_ = fit.pose;
@@ -236,7 +239,7 @@ void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& re
   result.motion.evaluations += found.evaluations;
   const SpreadModel& spread = filter_->numbers().spread;
   result.motion.spread = spread_of({model_.body, working_camera_, found.score.region,
-                                    config_.calibration.stature ? spread.size_given : spread.size},
+                                    calibration_->height_given ? spread.size_given : spread.size},
                                    filter_->particles(), found.pose, spread);
   facing_ = found.facing;
   previous_ = pose_;

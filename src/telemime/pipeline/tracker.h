@@ -24,6 +24,7 @@ struct TrackerCalibration {
   std::string scale_from;  ///< where the absolute scale comes from, in words
   std::string refusal;     ///< why the arms kept average proportions; empty: they were fitted
   Score score;
+  bool height_given = false;  ///< the scale is that of a height that was given
 };
 
 /// A person who was calibrated before: where tracking starts, and from which pose.

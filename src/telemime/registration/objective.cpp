@@ -5,6 +5,7 @@
 #include <array>
 
 #include "telemime/body/interpenetration.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -72,7 +73,7 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
     sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
   }
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
-  sum += 0.3 * (square((pose[Angle::root_torsion] - facing) / 0.5) + bend(Angle::root_roll, 0.25) +
+  sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - facing) / 0.5) + bend(Angle::root_roll, 0.25) +
                 bend(Angle::root_tilt, 0.3));
   sum += 0.3 * (bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3));
   sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +

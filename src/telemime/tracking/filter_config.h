@@ -9,15 +9,17 @@ namespace telemime {
 
 /// Settings of the particle filter. The defaults are ours; reference_filter() gives the thesis's.
 struct FilterConfig {
-  /// Particles of a frame; each is one evaluation. The thesis's local search spends no more; with `blocks`
-  /// the second search of the best mode, mode_least and turned trunks come on top.
+  /// Particles of a frame; each is one evaluation. The thesis's local search spends no more. With `blocks`
+  /// the searches take their evaluations from the children of their mode; where these are too few (two
+  /// searches of the best mode, mode_least of the others) and for turned trunks they come on top.
   int particles = 2000;
   std::string heuristics = "modes,wd,lo,turn,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
   std::string estimate = "heaviest";               ///< or mean
   std::string model;       ///< file of the numbers that `telemime learn` writes; empty: data/filter.json
   double diffusion = 1.0;  ///< S of equation 4.13: multiplies every standard deviation
-  /// Share of a generation's log weights that the next one remembers: 1 is a Markov chain with independent
-  /// frames; errors of the model last for many frames, so less is nearer to the truth.
+  /// Share of the modes' log weights that the next generation remembers (heuristic modes; without it all): 1
+  /// is a Markov chain with independent frames; errors of the model last for many frames, so less is nearer
+  /// to the truth.
   double memory = 0.7;
   /// Multiplies the log likelihood of the image (1: equation 4.12 as it stands). What the model gets wrong of
   /// a person it gets wrong in every pose, so differences between poses tell less than the spread of F and

@@ -79,7 +79,8 @@ double facing_of(const Eigen::Vector3d& velocity) {
   constexpr double kWalks = 0.016;
   const double speed = std::hypot(velocity.x(), velocity.z());
   const double share = std::clamp((speed - kStands) / (kWalks - kStands), 0.0, 1.0);
-  return share > 0.0 ? share * std::atan2(velocity.x(), -velocity.z()) : 0.0;
+  // Who steps back from the camera still looks at it: at most side on.
+  return share > 0.0 ? share * std::atan2(velocity.x(), std::abs(velocity.z())) : 0.0;
 }
 
 }  // namespace
@@ -149,11 +150,16 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
   particles_ = std::move(generation.particles);
   const Particle& best = particles_[heaviest(particles_)];
   before_ = estimate_;
-  velocity_ += kVelocityRate * (best.pose.root - estimate_.root - velocity_);
-  estimate_ = config_.estimate == "mean" ? limits_.clamp(mean_pose(particles_)) : best.pose;
+  estimate_ = best.pose;
+  result.score = best.score;
+  if (config_.estimate == "mean") {
+    estimate_ = limits_.clamp(mean_pose(particles_));
+    evaluators_.evaluate(frame, model, {&estimate_, 1}, {&result.score, 1});
+    ++result.evaluations;
+  }
+  velocity_ += kVelocityRate * (estimate_.root - before_.root - velocity_);
   frame.labels.copyTo(labels_before_);
   result.pose = estimate_;
-  result.score = best.score;
   result.effective_particles = effective_sample_size(particles_);
   result.moving = generation.moving;
   result.facing = context.facing;

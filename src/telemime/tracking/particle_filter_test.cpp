@@ -69,6 +69,55 @@ TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   EXPECT_LT(sum / kFrames, 0.13) << "m, mean over the frames";
 }
 
+TEST(ParticleFilter, WhoStepsBackStillFacesTheCamera) {
+  Scene scene;
+  FilterConfig config;
+  config.particles = 300;
+  config.mode_most = 300;
+  ParticleFilter filter = make_filter(scene, config);
+  Pose truth = both_arms_seen();
+  filter.start(truth);
+  for (int i = 0; i < 20; ++i) {
+    truth.root.z() += 0.03;  // m a frame
+    scene.show(truth);
+    const FilterResult found = filter.step(scene.frame, scene.model, 0.5);
+    EXPECT_LT(std::abs(found.facing), 60 * kDegree) << i;
+    EXPECT_LT(std::abs(found.pose[Angle::root_torsion]), 60 * kDegree) << i;
+  }
+}
+
+TEST(ParticleFilter, WhoWalksAcrossFacesWhereTheyGo) {
+  Scene scene;
+  FilterConfig config;
+  config.particles = 300;
+  config.mode_most = 300;
+  for (const double side : {-1.0, 1.0}) {
+    ParticleFilter filter = make_filter(scene, config);
+    Pose truth = both_arms_seen();
+    filter.start(truth);
+    double facing = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      truth.root.x() += side * 0.03;
+      scene.show(truth);
+      facing = filter.step(scene.frame, scene.model, 0.5).facing;
+    }
+    EXPECT_GT(side * facing, 30 * kDegree);
+  }
+}
+
+TEST(ParticleFilter, TheMeanIsScoredItself) {
+  Scene scene;
+  FilterConfig config = thesis("", 60);
+  config.estimate = "mean";
+  ParticleFilter filter = make_filter(scene, config);
+  filter.start(both_arms_seen());
+  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  Score score;
+  scene.evaluators.evaluate(scene.frame, scene.model, {&found.pose, 1}, {&score, 1});
+  EXPECT_EQ(found.score.region, score.region);
+  EXPECT_EQ(found.score.contour, score.contour);
+}
+
 TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
   Scene scene;
   ParticleFilter filter = make_filter(scene, thesis("", 100));

@@ -11,6 +11,5 @@ inline constexpr std::uint64_t kResampling = 1;
 inline constexpr std::uint64_t kDiffusion = 2;
 inline constexpr std::uint64_t kSimplex = 3;
 inline constexpr std::uint64_t kTurning = 4;
-inline constexpr std::uint64_t kTrajectory = 5;
 
 }  // namespace telemime::purpose

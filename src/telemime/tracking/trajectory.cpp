@@ -10,7 +10,6 @@
 #include "telemime/core/errors.h"
 #include "telemime/registration/blocks.h"
 #include "telemime/registration/two_step.h"
-#include "telemime/tracking/purposes.h"
 
 namespace telemime {
 namespace {
@@ -114,9 +113,9 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchF
   }
   const std::vector<Pose> ranked = poses_of(scored(context, frame, all, backend));
   std::vector<Pose> trunks = {ranked.front()};
-  if (frame.candidates.size() > 1) {
-    trunks.push_back(frame.candidates.front());
-    trunks.push_back(frame.candidates.back());
+  trunks.push_back(frame.candidates.front());
+  if (frame.forward < frame.candidates.size()) {
+    trunks.push_back(frame.candidates[frame.forward]);
   }
   const std::vector<Pose> left = unlike_arms(body, ranked, Side::left, arms);
   const std::vector<Pose> right = unlike_arms(body, ranked, Side::right, arms);
@@ -204,9 +203,8 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
       Objective objective(backend, frames[t]->frame, context.model, context.limits);
       objective.face(frames[t]->facing);
       objective.expect_between(earlier, later);
-      Random random(context.seed,
-                    (purpose::kTrajectory << 32U) ^ (static_cast<std::uint64_t>(half) << 24U) ^ t);
-      poses[t] = register_pose(objective, poses[t], search, random).pose;
+      Random nothing(0);  // without proposals nothing is drawn
+      poses[t] = register_pose(objective, poses[t], search, nothing).pose;
     });
   }
   return poses;

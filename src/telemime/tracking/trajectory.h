@@ -30,6 +30,7 @@ struct StretchFrame {
   PreparedFrame frame;
   double facing = 0.0;           ///< as in FilterContext
   std::vector<Pose> candidates;  ///< the first one is the filter's estimate
+  std::size_t forward = 1;  ///< so many of them know only the frames before; then the estimate of the others
 };
 
 /// What does not change within a stretch.
@@ -39,11 +40,10 @@ struct TrajectoryContext {
   const RegistrationConfig& search;
   const TrajectoryConfig& config;
   Evaluators& evaluators;
-  std::uint64_t seed = 0;
 };
 
-/// The poses of a frame that a trajectory may go through, the cheapest first: the candidates, each one's arms
-/// on the trunks of the others, and their flips in depth.
+/// The poses of a frame that a trajectory may go through, the cheapest first: the candidates, the estimate's
+/// flips in depth, and the arms of all these on the trunks of the cheapest and of both estimates.
 struct ScoredPose {
   Pose pose;
   double cost = 0.0;
@@ -57,8 +57,8 @@ std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vec
                                       double motion, const Pose* before);
 
 /// One pose for each frame: the cheapest way, each pose then searched again near the middle of those before
-/// and after it. `before`: the pose in the frame before the first, null when there is none. Same seed, same
-/// poses, for any number of threads.
+/// and after it. `before`: the pose in the frame before the first, null when there is none. The same
+/// for any number of threads.
 std::vector<Pose> best_trajectory(const TrajectoryContext& context,
                                   std::span<const StretchFrame* const> frames, const Pose* before);
 

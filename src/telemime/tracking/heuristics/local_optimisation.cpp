@@ -103,6 +103,7 @@ std::vector<Particle> search_blocks(const FilterContext& context, const Generati
 
 std::vector<Job> jobs_of(const FilterContext& context, const Generation& generation) {
   std::vector<Job> jobs;
+  const std::size_t best = heaviest(generation.parents);
   const auto dimensions = static_cast<int>(numbers_of(generation.moving).size());
   for (std::size_t i = 0; i < generation.counts.size(); ++i) {
     const int count = generation.counts[i];
@@ -111,7 +112,7 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
           count >= context.config.mode_least) {
         const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
         // The best one from where it is expected, and from where it was: different valleys may be nearest.
-        for (int number = 0; number < (i == 0 ? 2 : 1); ++number) {
+        for (int number = 0; number < (i == best ? 2 : 1); ++number) {
           jobs.push_back({static_cast<int>(i), evaluations, number});
         }
       }
@@ -126,10 +127,11 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
 
 void optimise_families(const FilterContext& context, Generation& generation) {
   const std::vector<Job> jobs = jobs_of(context, generation);
+  const auto best = static_cast<int>(heaviest(generation.parents));
   std::vector<std::vector<Particle>> made(jobs.size());
   context.evaluators.each(jobs.size(), [&](std::size_t i, Backend& backend) {
     made[i] = context.config.blocks
-                  ? search_blocks(context, generation, jobs[i], jobs[i].parent == 0, backend)
+                  ? search_blocks(context, generation, jobs[i], jobs[i].parent == best, backend)
                   : descend(context, generation, jobs[i], backend);
   });
   for (std::size_t i = 0; i < jobs.size(); ++i) {

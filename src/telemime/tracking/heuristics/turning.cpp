@@ -41,8 +41,9 @@ void turn_trunk(const FilterContext& context, Generation& generation) {
     trunks.push_back({context.facing, 0.0, 0.0});
   }
   if (random.uniform() < 0.5) {
-    const double away = random.uniform(kNew, kFarthest) * (random.uniform() < 0.5 ? -1.0 : 1.0);
-    trunks.push_back({now.torsion + away, now.roll, now.tilt});
+    const double way = random.uniform(kNew, kFarthest);
+    const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
+    trunks.push_back({now.torsion + side * way, now.roll, now.tilt});
   }
   std::vector<Particle> made(trunks.size());
   context.evaluators.each(trunks.size(), [&](std::size_t i, Backend& backend) {
