@@ -41,7 +41,7 @@ lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@cmake --preset lint > /dev/null
 	@scripts/lint.sh $(FILES)
 
-asan: deps ## all but the slow tests under the address and undefined-behaviour sanitizers
+asan: deps ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
 	@cmake --preset asan $(CCACHE)
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan -j $(JOBS)
