@@ -46,41 +46,92 @@ std::vector<std::size_t> best_portraits(const std::vector<Candidate>& candidates
   return best;
 }
 
-// Somebody who walks in is first seen from the side: where a later frame fits much better, the person is
-// fitted there, and all poses are looked for again.
-void fit_again(const Config& config, const std::string& backend_name, const JointLimits& limits,
-               std::vector<Candidate>& candidates, KnownStart& start) {
-  constexpr double kMuchBetter = 0.8;
-  const auto backend = make_backend(backend_name);
-  Random random(config.seed);
-  std::optional<Calibration> best;
-  std::size_t where = 0;
-  for (const std::size_t i : best_portraits(candidates)) {
-    const Calibration fit = calibrate(*backend, candidates[i].keyframe.frame, candidates[i].head, limits,
-                                      config.calibration, config.registration, random);
-    if (!best || fit.score.region < best->score.region) {
-      best = fit;
-      where = i;
-    }
-  }
-  if (!best || best->score.region > kMuchBetter * start.person.score.region) {
-    return;
-  }
-  start.person.shape = best->shape;
-  start.person.score = best->score;
-  start.person.refusal = best->refusal;
-  start.pose = best->pose;
-  start.frame = candidates[where].frame;
-  const Model model = make_model(best->shape);
-  for (Candidate& candidate : candidates) {
-    Objective objective(*backend, candidate.keyframe.frame, model, limits);
+// A person as one frame shows them, with the poses of all candidates for that shape. The first candidate is
+// the frame where tracking starts.
+struct Portrait {
+  KnownStart start;
+  std::vector<Candidate> candidates;
+};
+
+Portrait portrait_of(const Config& config, Backend& backend, const JointLimits& limits, const Portrait& from,
+                     const Calibration& fit, std::size_t where, Random& random) {
+  Portrait portrait = from;
+  KnownStart& start = portrait.start;
+  start.person.shape = fit.shape;
+  start.person.score = fit.score;
+  start.person.refusal = fit.refusal;
+  start.pose = fit.pose;
+  start.frame = from.candidates[where].frame;
+  const Model model = make_model(fit.shape);
+  for (Candidate& candidate : portrait.candidates) {
+    Objective objective(backend, candidate.keyframe.frame, model, limits);
     candidate.keyframe.pose =
         initialise_pose(objective, candidate.head, config.calibration, config.registration, random);
     candidate.keyframe.region = objective.score(candidate.keyframe.pose, Reduction::overlap).region;
   }
-  // The first candidate is the frame where tracking starts.
-  std::swap(candidates.front(), candidates[where]);
-  candidates.front().keyframe.pose = best->pose;
+  std::swap(portrait.candidates.front(), portrait.candidates[where]);
+  portrait.candidates.front().keyframe.pose = fit.pose;
+  return portrait;
+}
+
+// Somebody who walks in is first seen from the side: where later frames fit much better, the person is fitted
+// there, and all poses are looked for again. One such frame may still hide where a sleeve ends or how far
+// away the arms are: all of them are tried. Else what the first frame gave.
+std::vector<Portrait> portraits_of(const Config& config, const std::string& backend_name,
+                                   const JointLimits& limits, Portrait first) {
+  constexpr double kMuchBetter = 0.8;
+  const auto backend = make_backend(backend_name);
+  Random random(config.seed);
+  std::vector<std::pair<std::size_t, Calibration>> fits;
+  bool better = false;
+  for (const std::size_t i : best_portraits(first.candidates)) {
+    fits.emplace_back(i, calibrate(*backend, first.candidates[i].keyframe.frame, first.candidates[i].head,
+                                   limits, config.calibration, config.registration, random));
+    better = better || fits.back().second.score.region <= kMuchBetter * first.start.person.score.region;
+  }
+  std::vector<Portrait> portraits;
+  for (const auto& [where, fit] : fits) {
+    if (better && fit.score.region < first.start.person.score.region) {
+      portraits.push_back(portrait_of(config, *backend, limits, first, fit, where, random));
+    }
+  }
+  if (portraits.empty()) {
+    portraits.push_back(std::move(first));
+  }
+  return portraits;
+}
+
+// The shape fitted to the most different of the candidates; nothing when there are too few.
+std::optional<LookAhead> refined(const Config& config, const std::string& backend, const JointLimits& limits,
+                                 const Portrait& portrait) {
+  std::vector<Keyframe> all;
+  all.reserve(portrait.candidates.size());
+  for (const Candidate& candidate : portrait.candidates) {
+    all.push_back(candidate.keyframe);
+  }
+  const auto count = static_cast<std::size_t>(config.calibration.refine.keyframes);
+  const Body body = make_body(portrait.start.person.shape);
+  std::vector<Keyframe> keyframes;
+  for (const std::size_t i : pick_keyframes(body, all, count)) {
+    keyframes.push_back(all[i]);
+  }
+  if (keyframes.size() < kFewest) {
+    return std::nullopt;
+  }
+  LookAhead found;
+  found.start = portrait.start;
+  found.keyframes = keyframes.size();
+  found.start.person.refusal.clear();  // whatever the first frame hid, these show
+  // The pose in the first frame is needed for the new shape, too.
+  keyframes.insert(keyframes.begin(), all.front());
+  const ShapeRefinement refined =
+      refine_shape([&backend] { return make_backend(backend); }, keyframes, portrait.start.person.shape,
+                   limits, config.calibration.shape, config.calibration.refine);
+  found.start.person.shape = refined.shape;
+  found.start.pose = refined.poses.front();
+  found.cost_before = refined.cost_before;
+  found.cost = refined.cost;
+  return found;
 }
 
 }  // namespace
@@ -92,11 +143,12 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   forward.look_back = false;
   Tracker scout(forward, camera);
   scout.set_scene(scene);
-  std::vector<Candidate> candidates;
-  LookAhead found;
+  Portrait first;
+  std::vector<Candidate>& candidates = first.candidates;
+  std::int64_t frames = 0;
   for (std::int64_t i = 0; most_frames == 0 || i < most_frames; ++i) {
     const std::optional<Frame> frame = source.next();
-    if (!frame || found.frames >= config.calibration.look_ahead) {
+    if (!frame || frames >= config.calibration.look_ahead) {
       break;
     }
     const TrackedFrame seen = scout.step(*frame);
@@ -107,9 +159,9 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
       continue;
     }
     if (candidates.empty()) {
-      found.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
+      first.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
     }
-    if (seen.motion.state == TrackState::tracking && found.frames++ % kStride == 0 && seen.observation.head) {
+    if (seen.motion.state == TrackState::tracking && frames++ % kStride == 0 && seen.observation.head) {
       candidates.push_back(
           {{prepare(seen.observation, scout.working_camera()), seen.motion.pose, seen.motion.region_score},
            seen.motion.frame,
@@ -119,37 +171,21 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
   if (candidates.empty()) {
     return std::nullopt;
   }
-  found.image = scout.features().calibration();
   // Single poses on many threads suit no device.
   const bool own = config.backend == "scalar" || config.backend == "parts";
   const std::string backend = own ? config.backend : "simd";
-  fit_again(config, backend, scout.limits(), candidates, found.start);
-  std::vector<Keyframe> all;
-  all.reserve(candidates.size());
-  for (const Candidate& candidate : candidates) {
-    all.push_back(candidate.keyframe);
+  const std::vector<Portrait> portraits = portraits_of(config, backend, scout.limits(), std::move(first));
+  LookAhead best;
+  best.start = portraits.front().start;
+  for (const Portrait& portrait : portraits) {
+    const auto found = refined(config, backend, scout.limits(), portrait);
+    if (found && (best.keyframes == 0 || found->cost < best.cost)) {
+      best = *found;
+    }
   }
-  const auto count = static_cast<std::size_t>(config.calibration.refine.keyframes);
-  std::vector<Keyframe> keyframes;
-  const Body body = make_body(found.start.person.shape);
-  for (const std::size_t i : pick_keyframes(body, all, count)) {
-    keyframes.push_back(all[i]);
-  }
-  if (keyframes.size() < kFewest) {
-    return found;
-  }
-  found.keyframes = keyframes.size();
-  found.start.person.refusal.clear();  // whatever the first frame hid, these show
-  // The pose in the first frame is needed for the new shape, too.
-  keyframes.insert(keyframes.begin(), all.front());
-  const ShapeRefinement refined =
-      refine_shape([&backend] { return make_backend(backend); }, keyframes, found.start.person.shape,
-                   scout.limits(), config.calibration.shape, config.calibration.refine);
-  found.start.person.shape = refined.shape;
-  found.start.pose = refined.poses.front();
-  found.cost_before = refined.cost_before;
-  found.cost = refined.cost;
-  return found;
+  best.frames = frames;
+  best.image = scout.features().calibration();
+  return best;
 }
 
 }  // namespace telemime
