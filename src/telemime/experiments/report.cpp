@@ -25,7 +25,7 @@ constexpr Published kPublished[] = {
 constexpr std::string_view kStyle = R"(
 body { font: 16px/1.5 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
 h2 { border-top: 1px solid #bbb; padding-top: 1.2rem; }
-table { border-collapse: collapse; margin: .6rem 0 1rem; font-size: .86rem; }
+table { display: block; max-width: 100%; overflow-x: auto; border-collapse: collapse; margin: .6rem 0 1rem; font-size: .86rem; }
 caption { text-align: left; color: #555; }
 td, th { border: 1px solid #ccc; padding: .15rem .5rem; text-align: left; }
 th { background: #f2f2f2; }
