@@ -104,6 +104,9 @@ function(telemime_test name)
     set(labels LABELS "${TEST_LABELS}")
   endif()
   add_executable(${name}_test ${TEST_SOURCES})
+  if(TELEMIME_SANITIZE AND "slow" IN_LIST TEST_LABELS)
+    set_target_properties(${name}_test PROPERTIES EXCLUDE_FROM_ALL ON)  # it would not run: see CMakePresets.json
+  endif()
   list(TRANSFORM TEST_ROOMS PREPEND telemime::)
   target_link_libraries(${name}_test PRIVATE ${TEST_ROOMS} ${TEST_LIBRARIES} telemime_test_flags GTest::gtest
                                              GTest::gtest_main)
