@@ -202,32 +202,6 @@ Fitted search_length(Refiner& refiner, const Fitted& from, LengthChange change, 
                                                                  : tried[static_cast<std::size_t>(lowest)];
 }
 
-// Sleeves and girths far from those of the first frame, one after the other: where that frame hid a sleeve's
-// end or showed a hand from its edge, a search nearby does not get away from what it said.
-Fitted scan_girths(Refiner& refiner, const Fitted& from) {
-  Fitted best = from;
-  const auto take_better = [&](const Shape& shape) {
-    Fitted other = refiner.fit(best, shape, 0);
-    if (other.cost < best.cost) {
-      best = std::move(other);
-    }
-  };
-  for (const double sleeve : {0.2, 0.35, 0.5, 0.65, 0.8, 1.0, 1.3, 1.6, 2.0}) {
-    Shape shape = best.shape;
-    shape.sleeve = sleeve;
-    take_better(shape);
-  }
-  for (const Eigen::Index part : {Eigen::Index{2}, Eigen::Index{1}, Eigen::Index{0}}) {
-    const Shape middle = best.shape;
-    for (const double girth : {-0.3, -0.15, 0.15, 0.3, 0.45}) {
-      Eigen::Vector4d x = Eigen::Vector4d::Zero();
-      x[part] = girth;
-      take_better(with_girths(middle, x));
-    }
-  }
-  return best;
-}
-
 // Girths move no joint: the poses are not searched anew.
 Fitted search_girths(Refiner& refiner, const Fitted& from, double step, int shapes) {
   const Eigen::VectorXd reach = Eigen::Vector4d(0.5, 0.5, 0.5, 1.0);
@@ -328,7 +302,6 @@ ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const K
   ShapeRefinement result;
   best = refiner.fit(best, shape, config.pose_iterations);
   result.cost_before = best.cost;
-  best = scan_girths(refiner, best);
   for (int round = 0; round < config.rounds; ++round) {
     const double scale = std::pow(0.5, round);
     for (const auto& [change, step] : kLengths) {
