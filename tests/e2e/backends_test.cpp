@@ -13,7 +13,7 @@ namespace telemime::e2e {
 namespace {
 
 TEST(Bench, MeasuresTheBackEndsThatWereAskedFor) {
-  const testing::ScratchFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "bench.json").string();
   const Ended ended = run({"bench", "--engine-only", "--quick", "--backend", "simd", "--json", file});
   ASSERT_EQ(ended.code, 0) << ended.words;

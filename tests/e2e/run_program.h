@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime::e2e {
 
@@ -31,7 +31,7 @@ class Program {
   Ended wait();
 
  private:
-  testing::ScratchFolder folder_;  ///< of its standard output and error
+  ScratchFolder folder_;  ///< of its standard output and error
   pid_t process_ = -1;
   int status_ = 0;
 };
@@ -39,7 +39,7 @@ class Program {
 Ended run(const std::vector<std::string>& arguments);
 
 /// A new empty folder that goes away with its content.
-class Folder : public testing::ScratchFolder {
+class Folder : public ScratchFolder {
  public:
   std::string operator/(const std::string& name) const { return file(name); }
 };

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "rules.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime::layering {
 namespace {
@@ -70,7 +70,7 @@ class SmallProject : public ::testing::Test {
     EXPECT_NE(violations().find(words), std::string::npos) << violations();
   }
 
-  testing::ScratchFolder folder_;
+  ScratchFolder folder_;
   fs::path root_ = folder_.path();
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 
 #include "support/list_source.h"
@@ -190,6 +191,29 @@ TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
   EXPECT_EQ(found.motion.state, TrackState::tracking) << found.note;
   EXPECT_EQ(second.model().body.shape[Segment::l_forearm].length,
             first.calibration()->shape[Segment::l_forearm].length);
+}
+
+TEST(Tracker, AfterARecalibrationNoOldParticleIsLeft) {
+  Config config = quick_config();
+  config.look_back = true;  // its candidates show what the filter holds
+  Tracker tracker = make_tracker(config);
+  tracker.learn_background(clip().background);
+  std::size_t most = 0;
+  for (const Frame& frame : clip().person) {
+    const TrackedFrame seen = tracker.step(frame);
+    most = seen.stretch ? std::max(most, seen.stretch->candidates.size()) : most;
+  }
+  ASSERT_GT(most, 1U) << "the filter is at work";
+  tracker.recalibrate();
+  for (const Frame& frame : clip().person) {
+    const TrackedFrame seen = tracker.step(frame);
+    if (seen.stretch) {
+      ASSERT_EQ(seen.stretch->candidates.size(), 1U);
+      EXPECT_EQ(seen.stretch->candidates.front().vector(), seen.motion.pose.vector());
+      return;
+    }
+  }
+  FAIL() << "nobody was calibrated again";
 }
 
 TEST(Tracker, RecalibratesWhenAsked) {

@@ -10,7 +10,7 @@
 
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
@@ -129,7 +129,7 @@ class LimitsFile : public ::testing::Test {
   }
   std::string refusal() const { return refusal(json_.dump()); }
 
-  testing::ScratchFolder scratch_;
+  ScratchFolder scratch_;
   std::filesystem::path folder_ = scratch_.path();
   nlohmann::json json_;
 };

@@ -35,6 +35,11 @@ struct JointPositions {
   const Eigen::Vector3d& operator[](Joint j) const { return at[static_cast<std::size_t>(j)]; }
 };
 
+/// The middle between the shoulders: what errors and spreads are seen from.
+inline Eigen::Vector3d mid_shoulders(const JointPositions& joints) {
+  return 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
+}
+
 /// Rigid parts that carry a surface mesh.
 enum class Segment : std::size_t {
   chest,

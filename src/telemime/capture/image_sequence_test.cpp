@@ -33,7 +33,7 @@ class ImageSequenceTest : public ::testing::Test {
     return all;
   }
 
-  testing::ScratchFolder scratch_;
+  ScratchFolder scratch_;
 };
 
 TEST_F(ImageSequenceTest, AFolderIsReadInNaturalOrder) {

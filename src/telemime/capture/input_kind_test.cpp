@@ -26,7 +26,7 @@ TEST(InputKind, IsToldByTheName) {
 }
 
 TEST(InputKind, IsToldByTheFileSystemWhereTheNameDoesNot) {
-  const testing::ScratchFolder scratch;
+  const ScratchFolder scratch;
   EXPECT_EQ(input_kind(scratch.file("")), InputKind::folder);
   const std::string awkward = scratch.file("take[2]_100%d.mp4");
   EXPECT_EQ(input_kind(awkward), InputKind::pattern);

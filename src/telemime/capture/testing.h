@@ -10,7 +10,7 @@
 #include <string>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime::testing {
 

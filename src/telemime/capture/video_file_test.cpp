@@ -20,7 +20,7 @@ class VideoFileTest : public ::testing::Test {
     return testing::input_error([&] { open_source(input); });
   }
 
-  testing::ScratchFolder scratch_;
+  ScratchFolder scratch_;
 };
 
 TEST_F(VideoFileTest, HandsOutEveryFrameInOrderWithItsTime) {

@@ -2,11 +2,10 @@
 // What each part of the whole program is good for, the part left out: body, cues, what is known without the
 // image, time.
 #include <array>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
 #include "telemime/evaluation/evaluate.h"
 #include "telemime/experiments/experiments.h"
 #include "telemime/outputs/readers/jsonl.h"
@@ -68,28 +67,6 @@ const std::array<Lever, 15> kLevers = {{
     {"search", "one pose, no particles (two-step)", [](Config& c) { c.tracking.method = "two-step"; }},
 }};
 
-// A folder of its own for what a run writes; it goes away.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "telemime-levers-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw Error(ErrorKind::output, "no folder can be made in " + fs::temp_directory_path().string());
-    }
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 struct Measured {
   double aligned = 0.0;  // mm
   double depth = 0.0;    // mm
@@ -99,7 +76,7 @@ struct Measured {
 };
 
 Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std::uint64_t seed) {
-  const Scratch scratch;
+  const ScratchFolder scratch;
   TrackRequest request;
   request.input = video_of(clip).string();
   for (const char* name : {"background.mp4", "background.mkv"}) {

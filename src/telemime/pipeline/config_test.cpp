@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
@@ -261,7 +261,7 @@ class ConfigFile : public ::testing::Test {
     Config config;
     return refusal([&] { update_from_file(config, file); });
   }
-  testing::ScratchFolder scratch_;
+  ScratchFolder scratch_;
   std::filesystem::path folder_ = scratch_.path();
 };
 

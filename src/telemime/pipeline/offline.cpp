@@ -10,27 +10,11 @@
 #include "telemime/tracking/posterior.h"
 
 namespace telemime {
-namespace {
-
-// The spread about another estimate than the one that it was found for.
-void move_spread(PoseSpread& spread, const JointPositions& from, const JointPositions& to) {
-  const auto middle = [](const JointPositions& j) -> Eigen::Vector3d {
-    return 0.5 * (j[Joint::l_shoulder] + j[Joint::r_shoulder]);
-  };
-  const Eigen::Vector3d shift = middle(to) - middle(from);
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    const Eigen::Vector3d way = to.at[j] - from.at[j] - shift;
-    spread.covariance[j] += way * way.transpose();
-  }
-}
-
-}  // namespace
-
-std::vector<Pose> mode_poses(const ParticleFilter& filter, const Body& body, const Pose& estimate) {
-  constexpr double kRadius = 0.08;  // m
-  constexpr std::size_t kMost = 4;
+std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
+                             const Pose& estimate) {
   std::vector<Pose> poses = {estimate};
-  for (const Mode& mode : find_modes(body, filter.particles(), kRadius, kMost)) {
+  for (const Mode& mode :
+       find_modes(body, filter.particles(), config.mode_radius, static_cast<std::size_t>(config.modes))) {
     poses.push_back(filter.particles()[mode.likeliest].pose);
   }
   return poses;
@@ -80,7 +64,7 @@ void OfflineTracker::look_back(std::size_t frames, const Model& model) {
     frame.candidates.resize(frame.forward);  // an earlier look back may have reached into this stretch
     const FilterResult found = filter.step(frame.frame, model, config_.tracking.velocity, frame.facing);
     waiting_[t].motion.evaluations += found.evaluations;
-    const std::vector<Pose> poses = mode_poses(filter, model.body, found.pose);
+    const std::vector<Pose> poses = mode_poses(config_.filter, filter, model.body, found.pose);
     frame.candidates.insert(frame.candidates.end(), poses.begin(), poses.end());
   }
 }
@@ -100,7 +84,7 @@ void OfflineTracker::decide(std::size_t frames, std::size_t keep, const Model& m
     motion.pose = poses[t];
     complete(motion, model.body, camera);
     if (motion.spread) {
-      move_spread(*motion.spread, joints, motion.joints);
+      motion.spread = about(*motion.spread, joints, motion.joints);
     }
     Score score;
     evaluators_.evaluate(stretch[t]->frame, model, {&poses[t], 1}, {&score, 1});

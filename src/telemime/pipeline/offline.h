@@ -53,7 +53,8 @@ class OfflineTracker {
   bool finished_ = false;
 };
 
-/// The best poses of a filter's modes, the estimate first.
-std::vector<Pose> mode_poses(const ParticleFilter& filter, const Body& body, const Pose& estimate);
+/// The best poses of a filter's modes (FilterConfig::modes, mode_radius), the estimate first.
+std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
+                             const Pose& estimate);
 
 }  // namespace telemime

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
@@ -34,7 +34,7 @@ class PersonFileTest : public ::testing::Test {
     return nlohmann::json::parse(in);
   }
 
-  testing::ScratchFolder folder_;
+  ScratchFolder folder_;
   std::filesystem::path file_ = folder_.file("person.json");
 };
 

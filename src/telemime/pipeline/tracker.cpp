@@ -28,14 +28,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The arms are expected to go on as they did; the trunk hardly moves, and extrapolating it would only shake
-// it.
-Pose expected_pose(const Pose& pose, const Pose& previous, double velocity, const JointLimits& limits) {
-  PoseVector motion = pose.vector() - previous.vector();
-  motion.head<9>().setZero();
-  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
-}
-
 std::string scale_words(const CalibrationConfig& config) {
   return config.stature ? "the height given" : "an average adult's head (no height was given)";
 }
@@ -146,7 +138,8 @@ TrackedFrame Tracker::step(const Frame& frame) {
   }
   if (phase_ == Phase::tracking && config_.look_back) {
     const bool searched = filter_->started();
-    std::vector<Pose> poses = searched ? mode_poses(*filter_, model_.body, pose_) : std::vector{pose_};
+    std::vector<Pose> poses =
+        searched ? mode_poses(config_.filter, *filter_, model_.body, pose_) : std::vector{pose_};
     const std::size_t count = poses.size();
     result.stretch = StretchFrame{std::exchange(prepared_, {}), facing_, std::move(poses), count};
   }

@@ -56,6 +56,12 @@ double distance_from_expected(const Kinematics& k, const JointPositions& expecte
   return sum / static_cast<double>(kArms.size());
 }
 
+Pose expected_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
+  PoseVector motion = pose.vector() - before.vector();
+  motion.head<9>().setZero();
+  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
+}
+
 double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double facing) {
   const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
   const double arm = body.upper_arm_length[0] + body.forearm_length[0];

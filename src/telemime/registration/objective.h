@@ -35,6 +35,11 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinema
 /// 2 at most: an arm that was lost must be able to come back.
 double distance_from_expected(const Kinematics& kinematics, const JointPositions& expected);
 
+/// The pose that is expected in the next frame after `before` and `pose`: the arms go on by the share
+/// `velocity` (0 to 1) of their last motion, inside the limits. The trunk hardly moves, and to carry it on
+/// would only shake it.
+Pose expected_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits);
+
 /// Cost of one pose against one frame. Counts its evaluations. Holds references: use it within one frame.
 class Objective {
  public:

@@ -25,7 +25,7 @@ using ArmPoints = Eigen::Matrix<double, 3, 4>;
 // Elbows and wrists from the middle of the shoulders.
 ArmPoints arm_points(const Body& body, const Pose& pose) {
   const JointPositions j = forward_kinematics(body, pose).joints;
-  const Eigen::Vector3d middle = 0.5 * (j[Joint::l_shoulder] + j[Joint::r_shoulder]);
+  const Eigen::Vector3d middle = mid_shoulders(j);
   ArmPoints points;
   points << j[Joint::l_elbow], j[Joint::l_wrist], j[Joint::r_elbow], j[Joint::r_wrist];
   return points.colwise() - middle;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
@@ -145,7 +145,7 @@ TEST(FilterModel, AFormatThatIsNoTextIsRefused) {
 }
 
 TEST(FilterModel, AreReadFromAFile) {
-  const telemime::testing::ScratchFolder folder;
+  const telemime::ScratchFolder folder;
   const auto file = folder.path() / "mine.json";
   FilterModel model = default_filter_model();
   model.sigma_region = 0.25;

@@ -63,14 +63,6 @@ void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
   particles.resize(count);
 }
 
-// The arms are expected to go on as they did; the trunk hardly moves, and extrapolating it would only shake
-// it.
-Pose extrapolated(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
-  PoseVector motion = pose.vector() - before.vector();
-  motion.head<9>().setZero();
-  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
-}
-
 constexpr double kVelocityRate = 0.2;  // of the smoothed velocity, a frame
 
 // The torsion of the root of somebody who walks so (m a frame); 0 for somebody who stays.
@@ -120,7 +112,7 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
   if (particles_.empty()) {
     throw Error(ErrorKind::usage, "the particle filter was not started");
   }
-  const Pose expected = extrapolated(estimate_, before_, velocity, limits_);
+  const Pose expected = expected_pose(estimate_, before_, velocity, limits_);
   const FilterContext context{frame,       labels_before_.empty() ? nullptr : &labels_before_,
                               model,       limits_,
                               config_,     numbers_,

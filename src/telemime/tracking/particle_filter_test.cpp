@@ -11,7 +11,7 @@
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/core/errors.h"
-#include "telemime/core/testing_folder.h"
+#include "telemime/core/scratch_folder.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
@@ -42,7 +42,7 @@ double left_wrist_error(const Scene& scene, const Pose& a, const Pose& b) {
 TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   // With the likelihood as narrow and the diffusion as wide as those of a tracker's own sequences, so few
   // particles lose the arm soon.
-  const testing::ScratchFolder folder;
+  const ScratchFolder folder;
   FilterModel numbers = default_filter_model();
   numbers.sigma_region = 0.03;
   numbers.sigma_contour = 0.004;

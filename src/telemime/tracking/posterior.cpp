@@ -18,10 +18,6 @@ ArmPoints arm_points(const Body& body, const Pose& pose) {
   return points;
 }
 
-Eigen::Vector3d mid_shoulders(const JointPositions& joints) {
-  return 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
-}
-
 double square(double x) {
   return x * x;
 }
@@ -167,6 +163,15 @@ PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> par
   const std::vector<Mode> modes = find_modes(body, particles, kModeRadius, 2);
   spread.second_mode = modes.size() > 1 ? modes[1].weight : 0.0;
   spread.effective_particles = effective_sample_size(particles);
+  return spread;
+}
+
+PoseSpread about(PoseSpread spread, const JointPositions& from, const JointPositions& to) {
+  const Eigen::Vector3d shift = mid_shoulders(to) - mid_shoulders(from);
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d way = to.at[j] - from.at[j] - shift;
+    spread.covariance[j] += way * way.transpose();
+  }
   return spread;
 }
 

@@ -38,6 +38,10 @@ struct SpreadContext {
 PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> particles, const Pose& estimate,
                      const SpreadModel& model);
 
+/// The spread about another estimate: `spread` was found for one whose joints are `from`, the other one's are
+/// `to` (m, camera frame). What lies between them is added.
+PoseSpread about(PoseSpread spread, const JointPositions& from, const JointPositions& to);
+
 /// The part of spread_of that does not come from particles. A joint outside the image is known to little
 /// better than its bone's length.
 std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& context, const Pose& estimate,

@@ -202,7 +202,7 @@ TEST(ModelCovariance, ABoneParallelToTheImageIsLessSureInDepth) {
 TEST(ModelCovariance, TheTrunkIsKnownAsWellAsTheNumbersSay) {
   const auto covariance = model_covariance(context(0.0), both_arms_seen(), numbers());
   const JointPositions joints = forward_kinematics(body(), both_arms_seen()).joints;
-  const Eigen::Vector3d middle = 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
+  const Eigen::Vector3d middle = mid_shoulders(joints);
   const double trunk = numbers().trunk * numbers().trunk;
   for (const Joint j : {Joint::l_shoulder, Joint::r_shoulder}) {
     EXPECT_LT((covariance[at(j)] - trunk * Eigen::Matrix3d::Identity()).norm(), 1e-15);
@@ -246,7 +246,7 @@ TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
   const auto known = model_covariance(context(0.0), both_arms_seen(), numbers());
   const auto unsure = model_covariance(context(0.1), both_arms_seen(), numbers());
   const JointPositions joints = forward_kinematics(body(), both_arms_seen()).joints;
-  const Eigen::Vector3d middle = 0.5 * (joints[Joint::l_shoulder] + joints[Joint::r_shoulder]);
+  const Eigen::Vector3d middle = mid_shoulders(joints);
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d way = joints.at[j] - middle;
     const Eigen::Matrix3d more = unsure[j] - known[j];

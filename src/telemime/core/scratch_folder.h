@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// For tests. Not installed.
-
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 #include "telemime/core/errors.h"
 
-namespace telemime::testing {
+namespace telemime {
 
-/// A new empty folder that goes away with its content.
+/// A new empty folder among the temporary ones, which goes away with its content. Throws Error(output) when
+/// there can be none.
 class ScratchFolder {
  public:
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "telemime_XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr) {
-      throw Error(ErrorKind::output, "no temporary folder");
+      throw Error(ErrorKind::output,
+                  "no folder can be made in " + std::filesystem::temp_directory_path().string(),
+                  "Set TMPDIR to a folder that you may write.");
     }
     path_ = name;
   }
@@ -34,4 +35,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace telemime::testing
+}  // namespace telemime
