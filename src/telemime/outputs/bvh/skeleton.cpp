@@ -3,37 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "telemime/body/rotations.h"
+#include "telemime/outputs/t_pose.h"
 
 namespace telemime {
 namespace {
 
 constexpr double kCentimetresPerMetre = 100.0;
 
-// Fractions of stature of what is not tracked: plausible, so that a retargeter sees a whole person who
-// stands.
-constexpr double kHipsBelowRoot = 0.03;
-constexpr double kHipHalfWidth = 0.05;
-constexpr double kThigh = 0.225;
-constexpr double kShank = 0.225;
-constexpr double kAnkleHeight = 0.032;
-constexpr double kFootLength = 0.11;
-// The inner end of the clavicle from C7, and the height of its outer end above the shoulder centre.
-constexpr double kCollarSide = 0.012;
-constexpr double kCollarBelowNeck = 0.035;
-constexpr double kCollarForward = 0.020;
+constexpr LegProportions kLegs;
+// The height of the clavicle's outer end above the shoulder centre, of stature.
 constexpr double kBlade = 0.030;
-
-double side_sign(Side side) {
-  return side == Side::left ? 1.0 : -1.0;
-}
-
-/// From the hanging arm of our rest pose to the arm of the T-pose.
-Eigen::Matrix3d t_pose_from_rest(Side side) {
-  return rotation_z(side_sign(side) * std::numbers::pi / 2.0);
-}
 
 /// Clavicle and shoulder blade: two links in the chest frame, m.
 struct Girdle {
@@ -41,11 +22,6 @@ struct Girdle {
   Eigen::Vector3d blade;     ///< outer end of the clavicle
   Eigen::Vector3d shoulder;  ///< shoulder centre
 };
-
-Eigen::Vector3d collar_in_chest(const Body& body, Side side) {
-  return body.neck_from_root + body.shape.stature * Eigen::Vector3d(side_sign(side) * kCollarSide,
-                                                                    -kCollarBelowNeck, kCollarForward);
-}
 
 /// Direction in the plane of `along` and the vertical, perpendicular to `along`, upward.
 Eigen::Vector3d upward(const Eigen::Vector3d& along) {
@@ -118,22 +94,16 @@ void add_arm(const Body& body, Side side, std::vector<BvhJoint>& joints) {
 void add_leg(const Body& body, Side side, std::vector<BvhJoint>& joints) {
   const bool left = side == Side::left;
   const double h = body.shape.stature;
-  joints.push_back(
-      joint(left ? "LeftUpLeg" : "RightUpLeg", BvhBone::hips, {side_sign(side) * kHipHalfWidth * h, 0, 0}));
-  joints.push_back(
-      joint(left ? "LeftLeg" : "RightLeg", left ? BvhBone::l_thigh : BvhBone::r_thigh, {0, -kThigh * h, 0}));
+  joints.push_back(joint(left ? "LeftUpLeg" : "RightUpLeg", BvhBone::hips,
+                         {side_sign(side) * kLegs.hip_half_width * h, 0, 0}));
+  joints.push_back(joint(left ? "LeftLeg" : "RightLeg", left ? BvhBone::l_thigh : BvhBone::r_thigh,
+                         {0, -kLegs.thigh * h, 0}));
   joints.push_back(last_joint(left ? "LeftFoot" : "RightFoot", left ? BvhBone::l_shank : BvhBone::r_shank,
-                              {0, -kShank * h, 0}, {0, -kAnkleHeight * h, kFootLength * h}));
+                              {0, -kLegs.shank * h, 0}, {0, -kLegs.ankle_height * h, kLegs.foot_length * h}));
 }
 
 Eigen::Vector3d spine_from_hips(const Body& body) {
-  return {0.0, kHipsBelowRoot * body.shape.stature, 0.0};
-}
-
-/// Angle about the vertical by which the trunk faces away from +z; 0 for one that lies.
-double heading(const Eigen::Matrix3d& trunk) {
-  const Eigen::Vector3d front = trunk.col(2);
-  return std::hypot(front.x(), front.z()) > 1e-6 ? std::atan2(front.x(), front.z()) : 0.0;
+  return {0.0, kLegs.hips_below_root * body.shape.stature, 0.0};
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "telemime/body/body.h"
+
+namespace telemime {
+
+/// Bones of a VRM humanoid that this project names; the legs are not tracked and stand still.
+enum class HumanBone : std::size_t {
+  hips,
+  spine,
+  chest,
+  neck,
+  head,
+  l_shoulder,
+  l_upper_arm,
+  l_lower_arm,
+  l_hand,
+  r_shoulder,
+  r_upper_arm,
+  r_lower_arm,
+  r_hand,
+  l_upper_leg,
+  l_lower_leg,
+  l_foot,
+  r_upper_leg,
+  r_lower_leg,
+  r_foot,
+};
+inline constexpr std::size_t kHumanBoneCount = 19;
+/// As VRM 1.0 spells them.
+inline constexpr std::array<std::string_view, kHumanBoneCount> kHumanBoneNames = {
+    "hips",          "spine",         "chest",         "neck",         "head",
+    "leftShoulder",  "leftUpperArm",  "leftLowerArm",  "leftHand",     "rightShoulder",
+    "rightUpperArm", "rightLowerArm", "rightHand",     "leftUpperLeg", "leftLowerLeg",
+    "leftFoot",      "rightUpperLeg", "rightLowerLeg", "rightFoot"};
+
+/// The parent of each bone, by index; the hips have -1.
+inline constexpr std::array<int, kHumanBoneCount> kHumanBoneParent = {-1, 0,  1,  2, 3,  2,  5, 6,  7, 2,
+                                                                      9,  10, 11, 0, 13, 14, 0, 16, 17};
+
+/// A body in the T-pose of VRM 1.0: facing +z, x to its own left, y up, soles at y = 0, arms along x, palms
+/// down; m. At rest all bones have the axes of the world.
+struct HumanoidSkeleton {
+  std::array<Eigen::Vector3d, kHumanBoneCount> position;  ///< of each bone's joint, in the world
+  std::array<Eigen::Vector3d, kHumanBoneCount> end;       ///< where bones without a child end; others: child
+  Eigen::Vector3d offset(HumanBone bone) const;           ///< from the parent's joint; of the hips: position
+};
+
+/// A pose of that skeleton: what a VRM calls the normalised pose.
+struct HumanoidMotion {
+  Eigen::Vector3d hips;                                      ///< m, in the frame of the skeleton's world
+  std::array<Eigen::Quaterniond, kHumanBoneCount> rotation;  ///< parent from bone, w >= 0; identity at rest
+  const Eigen::Quaterniond& operator[](HumanBone b) const { return rotation[static_cast<std::size_t>(b)]; }
+};
+
+HumanoidSkeleton humanoid_skeleton(const Body& body);
+
+/// The pose of humanoid_skeleton(body). The hips take the trunk's heading, the spine the rest of its
+/// rotation; half of the wrist's twist is the forearm's. A single clavicle cannot carry the shoulder centre
+/// to quite where it is in our body (body.h): hands are within 10 mm. `origin` is the root's place (m, camera
+/// frame) at which the hips stand over the skeleton's.
+HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::Vector3d& origin);
+
+/// Where the bones' joints are, by forward kinematics; m.
+std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,
+                                                             const HumanoidMotion& motion);
+
+}  // namespace telemime
