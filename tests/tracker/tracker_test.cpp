@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <opencv2/core.hpp>
+#include <thread>
 
 #include "support/list_source.h"
 #include "support/synthetic_clip.h"
@@ -214,6 +216,38 @@ TEST(Tracker, AfterARecalibrationNoOldParticleIsLeft) {
     }
   }
   FAIL() << "nobody was calibrated again";
+}
+
+TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
+  Tracker in_turn = make_tracker(quick_config());
+  in_turn.learn_background(clip().background);
+  Tracker beside = make_tracker(quick_config());
+  beside.learn_background(clip().background);
+  std::array<SeenFrame, 2> seen;
+  const std::vector<Frame>& frames = clip().person;
+  beside.look(frames.front(), beside.settled(), seen[0]);
+  int together = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    SeenFrame& now = seen[i % 2];
+    SeenFrame& next = seen[(i + 1) % 2];
+    const bool last = i + 1 == frames.size();
+    std::thread image_side;
+    if (beside.settled() && !last) {
+      ++together;
+      image_side = std::thread([&] { beside.look(frames[i + 1], true, next); });
+    }
+    const TrackedFrame ours = beside.decide(now);
+    if (image_side.joinable()) {
+      image_side.join();
+    } else if (!last) {
+      beside.look(frames[i + 1], beside.settled(), next);
+    }
+    const TrackedFrame theirs = in_turn.step(frames[i]);
+    ASSERT_EQ(ours.motion.state, theirs.motion.state) << i;
+    ASSERT_EQ(ours.motion.pose.vector(), theirs.motion.pose.vector()) << i;
+    ASSERT_EQ(ours.note, theirs.note) << i;
+  }
+  EXPECT_GT(together, 3);
 }
 
 TEST(Tracker, RecalibratesWhenAsked) {

@@ -23,17 +23,21 @@ class LiveSource : public Source {
       : open_(std::move(open)), device_(std::move(device)), options_(std::move(options)) {
     info_ = {name, first.cols, first.rows, usable_fps(device_.fps, notes_), 0, /*live=*/true};
     start_ = options_.clock.now();
-    newest_ = Frame{first, 0, 0.0};
+    newest_ = Frame{first, 0, 0.0, start_};
     reader_ = std::thread([this] { read(); });
   }
 
   ~LiveSource() override {
+    stop();
+    reader_.join();
+  }
+
+  void stop() override {
     {
       const std::lock_guard lock(mutex_);
       stop_ = true;
     }
     changed_.notify_all();
-    reader_.join();
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -54,8 +58,8 @@ class LiveSource : public Source {
 
   std::optional<Frame> next() override {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return newest_ || ended_; });
-    return std::exchange(newest_, std::nullopt);
+    changed_.wait(lock, [this] { return newest_ || ended_ || stop_; });
+    return stop_ ? std::nullopt : std::exchange(newest_, std::nullopt);
   }
 
  private:
@@ -80,10 +84,10 @@ class LiveSource : public Source {
       return;
     }
     failed_attempts_ = 0;
-    const double time = options_.clock.now() - start_;
+    const double taken = options_.clock.now();
     {
       const std::lock_guard lock(mutex_);
-      newest_ = Frame{fit_to(picture, {info_.width, info_.height}, notes_), ++index_, time};
+      newest_ = Frame{fit_to(picture, {info_.width, info_.height}, notes_), ++index_, taken - start_, taken};
     }
     changed_.notify_all();
   }

@@ -16,6 +16,8 @@ class PacedSource : public Source {
   const SourceInfo& info() const override { return info_; }
   std::string complaint() const override { return file_->complaint(); }
 
+  void stop() override { file_->stop(); }
+
   std::optional<Frame> next() override {
     if (!start_) {
       start_ = clock_.now();
@@ -30,6 +32,7 @@ class PacedSource : public Source {
     do {
       newest = std::exchange(upcoming_, file_->next());
     } while (upcoming_ && upcoming_->time <= elapsed);
+    newest->taken = *start_ + newest->time;
     return newest;
   }
 

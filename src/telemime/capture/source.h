@@ -30,6 +30,8 @@ class Source {
   virtual const SourceInfo& info() const = 0;
   /// The next frame, or nothing at the end. A frame of another size than the first is resized to it.
   virtual std::optional<Frame> next() = 0;
+  /// From any thread: a next() that waits for a camera gives nothing, now and from now on. Files never wait.
+  virtual void stop() {}
   /// Words about what went wrong on the way (truncated file, stream interrupted); empty when nothing did.
   virtual std::string complaint() const = 0;
 };

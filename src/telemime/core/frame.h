@@ -11,6 +11,7 @@ struct Frame {
   cv::Mat image;           ///< (height x width) CV_8UC3, BGR, not mirrored
   std::int64_t index = 0;  ///< from 0, counts every input frame
   double time = 0.0;       ///< seconds from the first frame
+  double taken = 0.0;      ///< seconds of the source's clock when it was taken, of live inputs; others: 0
 };
 
 }  // namespace telemime

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <set>
-#include <thread>
 
 #include "telemime/core/errors.h"
-#include "telemime/likelihood/all.h"
 #include "telemime/pipeline/look_ahead.h"
 #include "telemime/pipeline/offline.h"
 #include "telemime/pipeline/overlay.h"
@@ -17,28 +14,13 @@
 #include "telemime/pipeline/run_outputs.h"
 #include "telemime/pipeline/run_statistics.h"
 #include "telemime/pipeline/scene.h"
-#include "telemime/registration/budget.h"
+#include "telemime/pipeline/set_up.h"
 #include "telemime/smoothing/two_way_smoother.h"
 
 namespace telemime {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-StreamHeader header_of(const SourceInfo& info, const Tracker& tracker) {
-  StreamHeader header;
-  header.body = tracker.model().body;
-  header.camera = tracker.camera();
-  header.fps = info.fps;
-  header.limits = tracker.limits();
-  header.config = to_json(tracker.config());
-  header.extra = {{"input", info.name}};
-  if (tracker.calibration()) {
-    header.extra["scale_from"] = tracker.calibration()->scale_from;
-    header.extra["calibration_refusal"] = tracker.calibration()->refusal;
-  }
-  return header;
-}
 
 // A tracked frame until it is smoothed and can be written.
 struct Waiting {
@@ -208,70 +190,12 @@ class Run {
   nlohmann::json notes_ = nlohmann::json::array();
 };
 
-// The camera scaled to the input's size; another aspect ratio cannot be the same camera's.
-Camera fitting(const Camera& camera, const SourceInfo& info) {
-  const double aspect =
-      static_cast<double>(camera.width) * info.height / (static_cast<double>(camera.height) * info.width);
-  if (std::abs(aspect - 1.0) > 0.02) {
-    throw Error(ErrorKind::config,
-                "the camera is for " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
-                    " and the input has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
-                    " pixels",
-                "Calibrate at the input's aspect ratio, or use --fov.");
-  }
-  return camera.scaled_to(info.width, info.height);
-}
-
-}  // namespace
-
-Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view) {
-  return file.empty() ? camera_from_field_of_view(info.width, info.height, field_of_view)
-                      : fitting(load_camera(file), info);
-}
-
-namespace {
-
 // The tracker of an input, with what the scene or a calibration file teaches it.
 struct Prepared {
   std::unique_ptr<Source> source;
   std::unique_ptr<Tracker> tracker;
   Footage scene;
 };
-
-// A time budget becomes a number of evaluations by what one costs here and now (thesis 3.6).
-Config with_budget(const Config& config, const Camera& camera) {
-  if (!config.budget_ms) {
-    return config;
-  }
-  const auto backend = make_backend(config.backend);
-  Random random(config.seed);
-  const auto seconds = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
-  constexpr int kRepeats = 5;
-  const EvaluationCost cost =
-      measure_cost(*backend, make_model(Shape{}), camera.scaled_to(config.image.width, config.image.height),
-                   kRepeats, random, seconds);
-  const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());
-  Config fixed = config;
-  constexpr std::int64_t kMost = 1000000;  // that a configuration may ask for
-  const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
-  fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
-  // The best mode has two searches, side by side where there are two threads, and up to two trunks are
-  // turned.
-  const std::int64_t threads =
-      config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
-  const auto at_most = [](int number, std::int64_t most) {
-    return static_cast<int>(std::clamp<std::int64_t>(number, 1, std::max<std::int64_t>(1, most)));
-  };
-  FilterConfig& filter = fixed.filter;
-  filter.mode_most = at_most(filter.mode_most, threads > 1 ? 2 * total / 3 : total / 3);
-  filter.mode_least = at_most(filter.mode_least, std::min<std::int64_t>(filter.mode_most, total / 10));
-  filter.turn_evaluations = at_most(filter.turn_evaluations, total / 10);
-  filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
-  if (!config.registration.blocks) {
-    fixed.registration.region_share = split.region_share();
-  }
-  return fixed;
-}
 
 // Files can be read twice: the person's shape is fitted to many frames before the first one is written.
 std::optional<LookAhead> look_ahead_of(const TrackRequest& request, const RunHooks& hooks,
@@ -302,21 +226,12 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
                 "--offline needs a file: " + request.input + " has no end to look back from",
                 "Leave --offline out, or record the camera first.");
   }
+  std::vector<std::string> messages;
+  p.tracker = make_tracker(request, info, messages);
   if (request.calibration.empty()) {
-    const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
-    p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
     p.scene = learn_scene(request, info, *p.source, *p.tracker);
-  } else {
-    const PersonFile person = load_person(request.calibration);
-    const Camera camera = fitting(person.camera, info);
-    p.tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
-    p.tracker->set_calibration(person.person, person.image);
-    p.scene.messages.push_back("person and background: " + request.calibration);
-    if (request.config.calibration.stature) {
-      p.scene.messages.push_back("the height is not used: the person's size stands in " +
-                                 request.calibration);
-    }
   }
+  p.scene.messages.insert(p.scene.messages.begin(), messages.begin(), messages.end());
   if (hooks.message) {
     for (const std::string& words : p.scene.messages) {
       hooks.message(words);

@@ -96,44 +96,64 @@ void Tracker::recalibrate() {
   frames_until_search_ = 0;
 }
 
-bool Tracker::person_colours(const Frame& frame, std::string& note) {
+void Tracker::person_colours(SeenFrame& seen) {
   // A masked face is never found: after a while the outline of the head must do, and colours that were
   // learned from somebody still walking are learned again.
   const bool again = phase_ == Phase::waiting && waited_ > 0 && waited_ % kFaceless == 0;
-  if (calibration_ || (features_.calibration().colours.known() && !again)) {
-    return true;
+  if (features_.calibration().colours.known() && !again) {
+    seen.coloured = true;
+    return;
   }
-  const PersonReport report = features_.begin_person(frame);
-  note = report.reason;
-  face_just_seen_ = report.accepted;
-  since_ = report.accepted ? frame.index : since_;
-  return report.accepted || again;
+  const PersonReport report = features_.begin_person(seen.frame);
+  seen.note = report.reason;
+  seen.face_just_seen = report.accepted;
+  since_ = report.accepted ? seen.frame.index : since_;
+  seen.coloured = report.accepted || again;
+}
+
+void Tracker::look(const Frame& frame, bool settled, SeenFrame& seen) {
+  Stopwatch watch;
+  seen.frame = frame;
+  seen.note.clear();
+  seen.coloured = settled;
+  seen.face_just_seen = false;
+  if (!settled) {
+    person_colours(seen);
+  }
+  seen.observation = features_.extract(frame);
+  seen.warnings = features_.status().warnings;
+  seen.person = features_.status().person;
+  if (!seen.observation.head) {
+    since_ = frame.index + 1;
+  }
+  if (seen.coloured) {
+    prepare(seen.observation, working_camera_, seen.prepared);
+  }
+  seen.ms = watch.lap();
 }
 
 TrackedFrame Tracker::step(const Frame& frame) {
+  look(frame, settled(), seen_);
+  return decide(seen_);
+}
+
+TrackedFrame Tracker::decide(SeenFrame& seen) {
   Stopwatch watch;
   TrackedFrame result;
   MotionFrame& motion = result.motion;
-  motion.frame = frame.index;
-  motion.time = frame.time;
+  motion.frame = seen.frame.index;
+  motion.time = seen.frame.time;
   motion.pose = pose_;
-  face_just_seen_ = false;
-  const bool coloured = person_colours(frame, result.note);
-  result.observation = features_.extract(frame);
-  result.warnings = features_.status().warnings;
-  motion.stage_ms.emplace_back("features", watch.lap());
-
-  if (!result.observation.head) {
-    since_ = frame.index + 1;
-  }
-  if (coloured) {
-    prepare(result.observation, working_camera_, prepared_);
+  motion.stage_ms.emplace_back("features", seen.ms);
+  result.note = seen.note;
+  result.warnings = seen.warnings;
+  if (seen.coloured) {
     if (phase_ == Phase::tracking && filter_) {
-      follow_with_filter(prepared_, result);
+      follow_with_filter(seen, result);
     } else if (phase_ == Phase::tracking) {
-      follow(prepared_, result);
-    } else if (++waited_; --frames_until_search_ <= 0 || (known_ && frame.index == known_->frame)) {
-      search(prepared_, result.observation, result);
+      follow(seen, result);
+    } else if (++waited_; --frames_until_search_ <= 0 || (known_ && motion.frame == known_->frame)) {
+      search(seen, result);
     }
   }
   if (phase_ == Phase::tracking && config_.look_back) {
@@ -141,16 +161,19 @@ TrackedFrame Tracker::step(const Frame& frame) {
     std::vector<Pose> poses =
         searched ? mode_poses(config_.filter, *filter_, model_.body, pose_) : std::vector{pose_};
     const std::size_t count = poses.size();
-    result.stretch = StretchFrame{std::exchange(prepared_, {}), facing_, std::move(poses), count};
+    result.stretch = StretchFrame{std::exchange(seen.prepared, {}), facing_, std::move(poses), count};
   }
   motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;
   motion.pose = pose_;
   complete(motion, model_.body, camera_);
+  result.observation = std::move(seen.observation);
   motion.stage_ms.emplace_back("search", watch.lap());
   return result;
 }
 
-void Tracker::search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result) {
+void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
+  const Observation& observation = seen.observation;
+  const PreparedFrame& prepared = seen.prepared;
   if (!observation.head) {
     waited_ = 0;
     lose("no head is seen", result);
@@ -167,7 +190,7 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
   }
   if (!calibration_) {
     // Somebody in profile has a head, too, but no shape that could be fitted.
-    if (!observation.head->detected && !face_just_seen_) {
+    if (!observation.head->detected && !seen.face_just_seen) {
       lose("waiting for a face that looks at the camera", result);
       frames_until_search_ = 1;
       return;
@@ -208,8 +231,8 @@ void Tracker::search(const PreparedFrame& prepared, const Observation& observati
   adopt(found, score, result);
 }
 
-void Tracker::follow(const PreparedFrame& prepared, TrackedFrame& result) {
-  Objective objective(*backend_, prepared, model_, limits_);
+void Tracker::follow(const SeenFrame& seen, TrackedFrame& result) {
+  Objective objective(*backend_, seen.prepared, model_, limits_);
   const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity, limits_);
   const bool goes_on =
       objective(expected, config_.registration.region) < objective(pose_, config_.registration.region);
@@ -221,14 +244,14 @@ void Tracker::follow(const PreparedFrame& prepared, TrackedFrame& result) {
   result.motion.stage_ms.emplace_back("edges", found.edge_ms);
   previous_ = pose_;
   adopt(found.pose, found.score, result);
-  watch(found.score, result);
+  watch(seen, found.score, result);
 }
 
-void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& result) {
+void Tracker::follow_with_filter(const SeenFrame& seen, TrackedFrame& result) {
   if (!filter_->started()) {
     filter_->start(pose_);
   }
-  const FilterResult found = filter_->step(prepared, model_, config_.tracking.velocity);
+  const FilterResult found = filter_->step(seen.prepared, model_, config_.tracking.velocity);
   result.motion.evaluations += found.evaluations;
   const SpreadModel& spread = filter_->numbers().spread;
   result.motion.spread = spread_of({model_.body, working_camera_, found.score.region,
@@ -237,15 +260,15 @@ void Tracker::follow_with_filter(const PreparedFrame& prepared, TrackedFrame& re
   facing_ = found.facing;
   previous_ = pose_;
   adopt(found.pose, found.score, result);
-  watch(found.score, result);
+  watch(seen, found.score, result);
 }
 
-void Tracker::watch(const Score& score, TrackedFrame& result) {
-  if (!features_.status().person) {
+void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& result) {
+  if (!seen.person) {
     lose("nobody is in the picture", result);
     return;
   }
-  const bool bad = score.region > config_.tracking.lost_region || !result.observation.head;
+  const bool bad = score.region > config_.tracking.lost_region || !seen.observation.head;
   bad_frames_ = bad ? bad_frames_ + 1 : 0;
   if (bad_frames_ >= config_.tracking.patience) {
     lose("the body no longer fits the picture", result);

@@ -47,6 +47,19 @@ struct TrackedFrame {
   std::optional<StretchFrame> stretch;  ///< while tracking, where Config::look_back asks for it
 };
 
+/// The image side of one frame: what the search side goes on with.
+struct SeenFrame {
+  Frame frame;
+  Observation observation;
+  PreparedFrame prepared;             ///< when `coloured`; memory is used again
+  std::vector<std::string> warnings;  ///< as TrackedFrame::warnings
+  std::string note;                   ///< why the person's colours are not known
+  bool coloured = false;              ///< the person's colours are known
+  bool face_just_seen = false;        ///< they were learned in this frame
+  bool person = false;                ///< somebody is in the picture
+  double ms = 0.0;                    ///< time that it took
+};
+
 /// Follows one person from frame to frame: features, calibration on the first good frame, registration, lost
 /// and found. Same frames, same configuration: same results.
 class Tracker {
@@ -64,9 +77,19 @@ class Tracker {
   /// search finds the pose.
   void start_with(const KnownStart& start) { known_ = start; }
 
+  /// decide(look(frame)).
   TrackedFrame step(const Frame& frame);
 
-  /// Starts over with the person (not the scene) at the next frame.
+  /// The image side: features of a frame, into `seen`, whose memory is used again. Frames in the order of
+  /// time. `settled` is settled() after decide() of the frame before; with true, look() may run beside
+  /// decide(), and both give what they would give one after the other.
+  void look(const Frame& frame, bool settled, SeenFrame& seen);
+  /// The search side: the pose of a frame that was looked at.
+  TrackedFrame decide(SeenFrame& seen);
+  /// A person was calibrated: the image side needs nothing of the search side.
+  bool settled() const { return calibration_.has_value(); }
+
+  /// Starts over with the person (not the scene) at the next frame. Not beside look().
   void recalibrate();
 
   const std::optional<TrackerCalibration>& calibration() const { return calibration_; }
@@ -82,11 +105,11 @@ class Tracker {
  private:
   enum class Phase { waiting, tracking, lost };
 
-  bool person_colours(const Frame& frame, std::string& note);
-  void search(const PreparedFrame& prepared, const Observation& observation, TrackedFrame& result);
-  void follow(const PreparedFrame& prepared, TrackedFrame& result);
-  void follow_with_filter(const PreparedFrame& prepared, TrackedFrame& result);
-  void watch(const Score& score, TrackedFrame& result);
+  void person_colours(SeenFrame& seen);
+  void search(const SeenFrame& seen, TrackedFrame& result);
+  void follow(const SeenFrame& seen, TrackedFrame& result);
+  void follow_with_filter(const SeenFrame& seen, TrackedFrame& result);
+  void watch(const SeenFrame& seen, const Score& score, TrackedFrame& result);
   void adopt(const Pose& pose, const Score& score, TrackedFrame& result);
   void lose(const std::string& why, TrackedFrame& result);
 
@@ -98,7 +121,7 @@ class Tracker {
   std::unique_ptr<Backend> backend_;
   std::unique_ptr<Evaluators> evaluators_;
   std::unique_ptr<ParticleFilter> filter_;  ///< null: registration alone
-  PreparedFrame prepared_;                  ///< the last frame, for its memory
+  SeenFrame seen_;                          ///< of step(), for its memory
   Random random_;
   Model model_;
   std::optional<TrackerCalibration> calibration_;
@@ -106,12 +129,11 @@ class Tracker {
   Phase phase_ = Phase::waiting;
   Pose pose_;
   Pose previous_;
-  bool face_just_seen_ = false;  ///< the person's colours were learned in this frame
-  double facing_ = 0.0;          ///< of the filter's last step
+  double facing_ = 0.0;  ///< of the filter's last step
   int bad_frames_ = 0;
   int frames_until_search_ = 0;
-  std::int64_t since_ = 0;
-  int waited_ = 0;  ///< frames since a head came into the picture
+  std::int64_t since_ = 0;  ///< of the image side
+  int waited_ = 0;          ///< frames since a head came into the picture
 };
 
 /// Fills joints and pixels of a frame from its pose.
