@@ -6,8 +6,14 @@ list="$(dirname "$0")/packages.txt"
 uses="${*:-build}"
 
 missing=()
-while read -r use name version; do
+while read -r use name version command; do
   [[ "$use" != "#"* && -n "$name" && " $uses " == *" $use "* ]] || continue
+  if [[ "$version" == command=* ]]; then
+    command="$version" version=""
+  fi
+  if [[ -n "$command" ]] && command -v "${command#command=}" > /dev/null; then
+    continue
+  fi
   installed="$(dpkg-query -W -f '${db:Status-Abbrev}${Version}' "$name" 2>/dev/null || true)"
   # shellcheck disable=SC2053  # the version is a pattern
   [[ "$installed" == "ii "${version:-*} ]] || missing+=("$name${version:+=$version}")

@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 
+#include "avatar_command.h"
 #include "bench_command.h"
 #include "calibrate_command.h"
 #include "config_command.h"
@@ -13,6 +14,7 @@
 #include "exit_codes.h"
 #include "experiments_command.h"
 #include "learn_command.h"
+#include "live_command.h"
 #include "synth_command.h"
 #include "telemime/capture/quiet.h"
 #include "track_command.h"
@@ -23,6 +25,7 @@ int main(int argc, char** argv) {
   CLI::App app("Telemime: 3-D motion capture of the upper body from one camera", "telemime");
   app.require_subcommand(1);
   app.set_version_flag("--version", TELEMIME_VERSION);
+  telemime::add_live_command(app);
   telemime::add_track_command(app);
   telemime::add_calibrate_command(app);
   telemime::add_evaluate_command(app);
@@ -31,6 +34,7 @@ int main(int argc, char** argv) {
   telemime::add_learn_command(app);
   telemime::add_bench_command(app);
   telemime::add_experiments_command(app);
+  telemime::add_avatar_command(app);
   telemime::add_config_command(app);
   try {
     app.parse(argc, argv);

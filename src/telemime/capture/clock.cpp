@@ -8,11 +8,10 @@ namespace telemime {
 
 Clock monotonic_clock() {
   using Steady = std::chrono::steady_clock;
-  const Steady::time_point start = Steady::now();
-  return {[start] { return std::chrono::duration<double>(Steady::now() - start).count(); },
-          [start](double seconds) {
-            std::this_thread::sleep_until(
-                start + std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(seconds)));
+  return {[] { return std::chrono::duration<double>(Steady::now().time_since_epoch()).count(); },
+          [](double seconds) {
+            std::this_thread::sleep_until(Steady::time_point(
+                std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(seconds))));
           }};
 }
 

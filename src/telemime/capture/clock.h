@@ -11,7 +11,7 @@ struct Clock {
   std::function<void(double)> wait_until;  ///< returns when now() has reached this many seconds
 };
 
-/// The computer's monotonic clock.
+/// The computer's monotonic clock: all of them in one program show the same time.
 Clock monotonic_clock();
 
 }  // namespace telemime

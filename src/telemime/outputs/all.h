@@ -10,7 +10,10 @@
 #include "telemime/outputs/encoders/bap.h"
 #include "telemime/outputs/encoders/bvh.h"
 #include "telemime/outputs/encoders/csv.h"
+#include "telemime/outputs/encoders/glb.h"
 #include "telemime/outputs/encoders/jsonl.h"
+#include "telemime/outputs/encoders/trc.h"
+#include "telemime/outputs/encoders/vrma.h"
 
 namespace telemime {
 
@@ -28,7 +31,7 @@ struct OutputFormat {
 };
 
 /// All of them. A new format is an encoder and a line here.
-inline constexpr std::array<OutputFormat, 4> kOutputFormats = {{
+inline constexpr std::array<OutputFormat, 7> kOutputFormats = {{
     {"jsonl", "pose.jsonl", "everything, one JSON object a frame",
      [](const OutputOptions&) { return make_jsonl_encoder(); }},
     {"csv", "pose.csv", "a table for spreadsheets", [](const OutputOptions&) { return make_csv_encoder(); }},
@@ -36,6 +39,12 @@ inline constexpr std::array<OutputFormat, 4> kOutputFormats = {{
      [](const OutputOptions&) { return make_bvh_encoder(); }},
     {"bap", "motion.bap", "MPEG-4 body animation parameters",
      [](const OutputOptions& options) { return make_bap_encoder(options.bap_profile); }},
+    {"glb", "motion.glb", "skeleton animation with a mannequin, for Blender, three.js and game engines",
+     [](const OutputOptions&) { return make_glb_encoder(); }},
+    {"vrma", "motion.vrma", "animation for any VRM avatar",
+     [](const OutputOptions&) { return make_vrma_encoder(); }},
+    {"trc", "motion.trc", "joints as markers, for OpenSim",
+     [](const OutputOptions&) { return make_trc_encoder(); }},
 }};
 
 /// By name. Throws Error(usage) that lists the names.

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "avatar_command.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "telemime/avatar/avatar.h"
+#include "telemime/pipeline/run_outputs.h"
+
+namespace telemime {
+namespace {
+
+struct AvatarArguments {
+  std::string look = std::string(kAvatarLooks.front().name);
+  std::filesystem::path out;
+  double height = Shape().stature;
+  bool list = false;
+};
+
+void run(const AvatarArguments& arguments) {
+  if (arguments.list) {
+    for (const AvatarLook& look : kAvatarLooks) {
+      std::cout << look.name << ": " << look.summary << '\n';
+    }
+    return;
+  }
+  const std::filesystem::path out =
+      arguments.out.empty() ? std::filesystem::path(arguments.look + ".vrm") : arguments.out;
+  Shape shape;
+  shape.stature = arguments.height;
+  write_whole_file(out, make_avatar(shape, avatar_look(arguments.look)));
+  std::cout << "written to " << out.string() << '\n';
+}
+
+}  // namespace
+
+void add_avatar_command(CLI::App& app) {
+  const auto arguments = std::make_shared<AvatarArguments>();
+  CLI::App* const command =
+      app.add_subcommand("avatar", "Write one of telemime's own avatars as a VRM 1.0 file");
+  std::string names;
+  for (const AvatarLook& look : kAvatarLooks) {
+    names += (names.empty() ? "" : ", ") + std::string(look.name);
+  }
+  command->add_option("--look", arguments->look, names)->capture_default_str();
+  command->add_option("--out", arguments->out, "file to write; LOOK.vrm when not given");
+  command->add_option("--height", arguments->height, "of the person, m")->capture_default_str();
+  command->add_flag("--list", arguments->list, "say what looks there are");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace telemime

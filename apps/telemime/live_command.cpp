@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "live_command.h"
+
+#include <chrono>
+#include <csignal>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "data_folder.h"
+#include "telemime/capture/input_kind.h"
+#include "telemime/capture/loop.h"
+#include "telemime/capture/paced.h"
+#include "telemime/core/errors.h"
+#include "telemime/live/live_program.h"
+#include "track_options.h"
+
+namespace telemime {
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+
+void on_interrupt(int) {
+  interrupt_requested = 1;
+}
+
+struct LiveCommand {
+  TrackOptions track;
+  LiveOptions live;
+  bool unguided = false;
+  bool paced = false;
+  bool loop = false;
+  double seconds = 0.0;
+};
+
+bool is_file(const std::string& input) {
+  const InputKind kind = input_kind(input);
+  return kind != InputKind::camera && kind != InputKind::device && kind != InputKind::stream;
+}
+
+std::unique_ptr<Source> open_live(const LiveCommand& command, const std::string& input) {
+  if (!is_file(input)) {
+    return open_source(input);
+  }
+  return pace(command.loop ? loop([input] { return open_source(input); }) : open_source(input));
+}
+
+void print_report(const LiveReport& report) {
+  const LiveRates& r = report.state.rates;
+  std::cout << std::fixed << std::setprecision(1) << r.frames << " frames, " << r.dropped << " dropped, "
+            << r.tracked << " a second\n"
+            << "ms: wait " << r.ms.wait << ", features " << r.ms.features << ", queue " << r.ms.queue
+            << ", search " << r.ms.search << "; camera to pose " << r.ms.total << " (95 %: " << r.ms.total_p95
+            << ")\n";
+  if (report.latency) {
+    std::cout << "camera to avatar drawn, as the page measured it: " << report.latency->median
+              << " ms (95 %: " << report.latency->p95 << ")\n";
+  }
+  std::cout << std::setprecision(2) << "processor: " << report.cpu << " cores\n";
+  for (const SenderStatus& s : report.outputs) {
+    std::cout << s.url << ": " << s.sent << " frames sent, " << s.dropped << " dropped"
+              << (s.words.empty() ? "" : "; " + s.words) << '\n';
+  }
+}
+
+// Until the user stops it, the time is over, or a source without a page has ended.
+void wait_for_end(const LiveCommand& command, const LiveProgram& program) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  bool told = false;
+  while (interrupt_requested == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (command.seconds > 0.0 && seconds >= command.seconds) {
+      return;
+    }
+    if (!told && program.report().state.phase == LivePhase::ended) {
+      told = true;
+      std::cerr << "the input has ended; the page stays until Ctrl-C\n";
+    }
+  }
+}
+
+void run(LiveCommand command) {
+  if (command.track.request.input == "demo") {
+    const auto demo = data_folder() / "demo";
+    command.track.request.input = (demo / "video.mp4").string();
+    command.track.request.background = command.track.request.background.empty()
+                                           ? (demo / "background.mp4").string()
+                                           : command.track.request.background;
+    command.loop = true;
+  }
+  command.live.request = make_request(command.track);
+  const std::string& input = command.live.request.input;
+  if ((command.loop || command.paced) && !is_file(input)) {
+    throw Error(ErrorKind::usage, input + " is no file: it cannot be paced or looped",
+                "Leave --paced and --loop out.");
+  }
+  command.live.guided = !command.unguided && !is_file(input);
+  command.live.version = TELEMIME_VERSION;
+  std::mutex mutex;
+  const auto say = [&mutex, quiet = command.track.quiet](const std::string& words) {
+    if (!quiet) {
+      const std::lock_guard lock(mutex);
+      std::cerr << words << '\n';
+    }
+  };
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  LiveProgram program(command.live, open_live(command, input), say);
+  std::cout << "the page: http://localhost:" << program.port() << "   Ctrl-C ends" << std::endl;
+  wait_for_end(command, program);
+  print_report(program.report());
+}
+
+}  // namespace
+
+void add_live_command(CLI::App& app) {
+  const auto options = std::make_shared<LiveCommand>();
+  CLI::App* command =
+      app.add_subcommand("live", "From the webcam to an avatar, on a page and in other programs");
+  add_track_options(*command, options->track);
+  command->get_option("INPUT")->required(false)->default_str("0")->description(
+      "camera index or device, stream URL, file, or demo: the bundled clip [0]");
+  command->remove_option(command->get_option("--frames"));
+  options->track.request.input = "0";
+  LiveOptions& live = options->live;
+  command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
+  command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");
+  command->add_flag("--paced", options->paced, "a file behaves like a camera (files always do here)");
+  command->add_flag("--loop", options->loop, "a file begins again when it has ended");
+  command->add_option("--send", live.send,
+                      "also send the motion there, any number of URLs: vmc://localhost:39539, ...");
+  command->add_option("--port", live.web.port, "of the page [7070]");
+  command->add_option("--address", live.web.address,
+                      "where the page is served [127.0.0.1: only this machine]");
+  command->add_option("--allow-host", live.web.hosts, "another name under which the page may be opened");
+  command->add_option("--recordings", live.recordings, "folder of recordings [telemime-recordings]");
+  command->add_option("--seconds", options->seconds, "end after so many seconds [0: never]");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace telemime

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "telemime/live/live_session.h"
+
+namespace telemime {
+
+/// What a page asks for (docs/live-protocol.md, "From the page").
+struct Guide {
+  GuideStep step;
+};
+struct Recalibrate {};
+struct AddOutput {
+  std::string url;
+};
+struct RemoveOutput {
+  std::string url;
+};
+struct Record {
+  bool on;
+};
+struct Forget {
+  int number;
+};
+struct Pictures {
+  bool on;
+};
+struct Drawn {
+  std::int64_t frame;
+  double stamp;  ///< ms
+};
+struct Ping {
+  std::int64_t id;
+};
+using Command =
+    std::variant<Guide, Recalibrate, AddOutput, RemoveOutput, Record, Forget, Pictures, Drawn, Ping>;
+
+/// Throws Error(usage) in words for anything that is not such a message: no JSON, unknown type, a field that
+/// is missing or of the wrong type or range.
+Command parse_command(std::string_view text);
+
+}  // namespace telemime

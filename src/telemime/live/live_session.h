@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "telemime/capture/clock.h"
+#include "telemime/capture/source.h"
+#include "telemime/live/live_statistics.h"
+#include "telemime/outputs/encoder.h"
+#include "telemime/pipeline/run.h"
+
+namespace telemime {
+
+/// Where a live run stands.
+enum class LivePhase {
+  empty_room,  ///< waits for the user to step out of the picture
+  background,  ///< learns the scene
+  person,      ///< waits for a person who can be calibrated
+  tracking,
+  lost,
+  stopped,  ///< the camera gives no pictures now
+  ended,    ///< there will be no more frames
+};
+
+std::string_view to_string(LivePhase phase);
+
+/// What a user may answer in the guided start.
+enum class GuideStep { empty, skip, again };
+
+/// Called from the session's threads; none may block. All may be empty.
+struct LiveHooks {
+  std::function<void(const Frame&)> picture;        ///< each frame that is looked at, first of all
+  std::function<void(const StreamHeader&)> person;  ///< a person was calibrated: their frames follow
+  std::function<void(const MotionFrame&, double taken)> motion;  ///< smoothed; `taken` in s of the clock
+  std::function<void(const std::string&)> message;               ///< what the user should know, in words
+};
+
+struct LiveState {
+  LivePhase phase = LivePhase::person;
+  std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
+  LiveRates rates;
+};
+
+/// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of
+/// the one before. Each thread has one frame at most and the source keeps the newest, so nothing is ever late
+/// by more than the work in hand. A source that drops no frame gives the poses that Tracker::step gives in
+/// turn.
+class LiveSession {
+ public:
+  /// `request`: input's name, background, camera, calibration file, configuration; the rest is not used.
+  /// `guided` waits for the empty room where nothing else teaches the scene. Throws Error(config, input).
+  LiveSession(const TrackRequest& request, bool guided, std::unique_ptr<Source> source, LiveHooks hooks,
+              Clock clock = monotonic_clock());
+  LiveSession(const LiveSession&) = delete;
+  LiveSession& operator=(const LiveSession&) = delete;
+  ~LiveSession();  ///< stops at once; no hook is called any more
+
+  /// The next three from any thread; they act at the next frame.
+  void guide(GuideStep step);
+  void recalibrate();
+  LiveState state() const;
+
+  const SourceInfo& info() const;
+  const Camera& camera() const;  ///< of the input's pictures
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/live_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kFrames = 100;
+constexpr std::size_t kLatencies = 250;
+constexpr double kStopped = 2.0;         // s without a frame
+constexpr double kLongestLatency = 1e4;  // ms
+
+}  // namespace
+
+double quantile_of(std::vector<double> values, double q) {
+  if (values.empty()) {
+    return 0.0;
+  }
+  const double place = std::clamp(q, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::lround(place));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+void LiveStatistics::add(const FrameTimes& times) {
+  if (!last_.empty()) {
+    dropped_ += std::max<std::int64_t>(0, times.index - last_.back().index - 1);
+  }
+  ++frames_;
+  last_.push_back(times);
+  if (last_.size() > kFrames) {
+    last_.pop_front();
+  }
+}
+
+void LiveStatistics::clear() {
+  last_.clear();
+}
+
+LiveRates LiveStatistics::rates(double now) const {
+  LiveRates rates;
+  rates.frames = frames_;
+  rates.dropped = dropped_;
+  if (last_.empty()) {
+    return rates;
+  }
+  const double span = last_.back().taken - last_.front().taken;
+  if (span > 0.0 && now - last_.back().taken < kStopped) {
+    rates.input = static_cast<double>(last_.back().index - last_.front().index) / span;
+    rates.tracked = static_cast<double>(last_.size() - 1) / span;
+  }
+  const auto ms = [this](double FrameTimes::*from, double FrameTimes::*to, double q) {
+    std::vector<double> values;
+    for (const FrameTimes& t : last_) {
+      values.push_back(1000.0 * (t.*to - t.*from));
+    }
+    return quantile_of(std::move(values), q);
+  };
+  rates.ms.wait = ms(&FrameTimes::taken, &FrameTimes::begun, 0.5);
+  rates.ms.features = ms(&FrameTimes::begun, &FrameTimes::seen, 0.5);
+  rates.ms.queue = ms(&FrameTimes::seen, &FrameTimes::searched, 0.5);
+  rates.ms.search = ms(&FrameTimes::searched, &FrameTimes::decided, 0.5);
+  rates.ms.total = ms(&FrameTimes::taken, &FrameTimes::decided, 0.5);
+  rates.ms.total_p95 = ms(&FrameTimes::taken, &FrameTimes::decided, 0.95);
+  return rates;
+}
+
+void LatencyRecord::add(double ms) {
+  if (!(ms >= 0.0 && ms <= kLongestLatency)) {
+    return;
+  }
+  last_.push_back(ms);
+  if (last_.size() > kLatencies) {
+    last_.pop_front();
+  }
+}
+
+std::optional<LatencyRecord::Summary> LatencyRecord::summary() const {
+  if (last_.empty()) {
+    return std::nullopt;
+  }
+  const std::vector<double> values(last_.begin(), last_.end());
+  return Summary{quantile_of(values, 0.5), quantile_of(values, 0.95)};
+}
+
+}  // namespace telemime

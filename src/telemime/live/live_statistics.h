@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace telemime {
+
+/// When one live frame passed which station; seconds of one clock.
+struct FrameTimes {
+  std::int64_t index = 0;  ///< of the input
+  double taken = 0.0;      ///< by the camera
+  double begun = 0.0;      ///< its features
+  double seen = 0.0;       ///< features done
+  double searched = 0.0;   ///< search begun
+  double decided = 0.0;    ///< pose known and handed out
+};
+
+/// Medians over the last frames, ms.
+struct StageTimes {
+  double wait = 0.0;      ///< from the camera to the features
+  double features = 0.0;  ///< the image side
+  double queue = 0.0;     ///< from there to the search
+  double search = 0.0;    ///< search, smoothing, handing out
+  double total = 0.0;     ///< from the camera to the pose
+  double total_p95 = 0.0;
+};
+
+struct LiveRates {
+  double input = 0.0;    ///< frames a second that the camera gave
+  double tracked = 0.0;  ///< frames a second that were tracked
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;  ///< frames of the camera that were never looked at
+  StageTimes ms;
+};
+
+/// Rates and times over the last 100 frames. Not for several threads.
+class LiveStatistics {
+ public:
+  void add(const FrameTimes& times);
+  /// At `now`: a camera that has stopped for 2 s has no rate.
+  LiveRates rates(double now) const;
+  void clear();
+
+ private:
+  std::deque<FrameTimes> last_;
+  std::int64_t frames_ = 0;
+  std::int64_t dropped_ = 0;
+};
+
+/// The last 250 latencies that pages reported, ms.
+class LatencyRecord {
+ public:
+  struct Summary {
+    double median = 0.0;
+    double p95 = 0.0;
+  };
+  /// Values that no page can have measured (negative, above 10 s, not a number) are not counted.
+  void add(double ms);
+  /// Nothing before the first one.
+  std::optional<Summary> summary() const;
+
+ private:
+  std::deque<double> last_;
+};
+
+/// The value below which the share `q` (0 to 1) of the values lies; 0 of none.
+double quantile_of(std::vector<double> values, double q);
+
+}  // namespace telemime

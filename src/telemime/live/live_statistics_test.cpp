@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/live_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace telemime {
+namespace {
+
+FrameTimes at(std::int64_t index, double taken) {
+  return {index, taken, taken + 0.001, taken + 0.010, taken + 0.012, taken + 0.034};
+}
+
+TEST(Quantile, OfFewValues) {
+  EXPECT_EQ(quantile_of({}, 0.5), 0.0);
+  EXPECT_EQ(quantile_of({3.0}, 0.95), 3.0);
+  EXPECT_EQ(quantile_of({5.0, 1.0, 3.0}, 0.5), 3.0);
+  EXPECT_EQ(quantile_of({5.0, 1.0, 3.0}, 1.0), 5.0);
+  EXPECT_EQ(quantile_of({5.0, 1.0, 3.0}, 0.0), 1.0);
+}
+
+TEST(LiveStatistics, CountsRatesAndDroppedFrames) {
+  LiveStatistics statistics;
+  for (int i = 0; i <= 50; ++i) {
+    statistics.add(at(2 * i, 0.04 * 2 * i));  // every other frame of a camera of 25 a second
+  }
+  const LiveRates rates = statistics.rates(4.01);
+  EXPECT_NEAR(rates.input, 25.0, 1e-9);
+  EXPECT_NEAR(rates.tracked, 12.5, 1e-9);
+  EXPECT_EQ(rates.dropped, 50);
+  EXPECT_EQ(rates.frames, 51);
+  EXPECT_NEAR(rates.ms.wait, 1.0, 1e-6);
+  EXPECT_NEAR(rates.ms.features, 9.0, 1e-6);
+  EXPECT_NEAR(rates.ms.queue, 2.0, 1e-6);
+  EXPECT_NEAR(rates.ms.search, 22.0, 1e-6);
+  EXPECT_NEAR(rates.ms.total, 34.0, 1e-6);
+}
+
+TEST(LiveStatistics, ACameraThatStoppedHasNoRate) {
+  LiveStatistics statistics;
+  EXPECT_EQ(statistics.rates(0.0).input, 0.0);
+  statistics.add(at(0, 0.0));
+  statistics.add(at(1, 0.04));
+  EXPECT_GT(statistics.rates(1.0).input, 0.0);
+  EXPECT_EQ(statistics.rates(5.0).input, 0.0);
+}
+
+TEST(LatencyRecord, LeavesOutWhatNoPageCanHaveMeasured) {
+  LatencyRecord record;
+  EXPECT_FALSE(record.summary());
+  record.add(-1.0);
+  record.add(std::numeric_limits<double>::quiet_NaN());
+  record.add(1e9);
+  EXPECT_FALSE(record.summary());
+  record.add(60.0);
+  ASSERT_TRUE(record.summary());
+  EXPECT_EQ(record.summary()->median, 60.0);
+}
+
+TEST(LatencyRecord, ForgetsTheOldest) {
+  LatencyRecord record;
+  for (int i = 0; i < 1000; ++i) {
+    record.add(i < 500 ? 1000.0 : 50.0);
+  }
+  EXPECT_EQ(record.summary()->p95, 50.0);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/recorder.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "telemime/core/errors.h"
+#include "telemime/live/resampler.h"
+#include "telemime/outputs/file_output.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kMostWaiting = 250;  // frames
+
+// One thing to do for the recorder's thread.
+struct Task {
+  enum class Kind { person, frame, start, stop } kind = Kind::frame;
+  std::shared_ptr<const StreamHeader> header;
+  MotionFrame frame;
+};
+
+// A recording while it is written.
+struct Open {
+  Recording recording;
+  Resampler resampler;
+  std::vector<std::unique_ptr<FileOutput>> files;
+};
+
+}  // namespace
+
+struct Recorder::State {
+  void push(Task task) {
+    {
+      const std::lock_guard lock(mutex);
+      if (task.kind == Task::Kind::frame && tasks.size() >= kMostWaiting) {
+        ++lost;
+        return;
+      }
+      tasks.push_back(std::move(task));
+    }
+    changed.notify_all();
+  }
+
+  void work() {
+    while (true) {
+      Task task;
+      {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [this] { return stop || !tasks.empty(); });
+        if (tasks.empty()) {
+          break;
+        }
+        task = std::move(tasks.front());
+        tasks.pop_front();
+      }
+      try {
+        carry_out(task);
+      } catch (const std::exception& e) {
+        // A full disk: what was written so far is kept.
+        say(std::string("the recording was ended: ") + e.what());
+        wanted = false;
+        close();
+      }
+    }
+    close();
+  }
+
+  void carry_out(const Task& task) {
+    switch (task.kind) {
+      case Task::Kind::person:
+        header = task.header;
+        close();
+        break;
+      case Task::Kind::start:
+        wanted = true;
+        if (!header) {
+          say("the recording begins when a person is tracked");
+        }
+        break;
+      case Task::Kind::stop:
+        wanted = false;
+        close();
+        break;
+      case Task::Kind::frame:
+        if (wanted && header) {
+          write(task.frame);
+        }
+        break;
+    }
+  }
+
+  void write(const MotionFrame& frame) {
+    if (!open) {
+      begin();
+    }
+    for (const MotionFrame& made : open->resampler.push(frame)) {
+      for (const auto& file : open->files) {
+        file->write(made);
+      }
+      const std::lock_guard lock(mutex);
+      open->recording.frames = made.frame + 1;
+      open->recording.seconds = static_cast<double>(made.frame + 1) / header->fps;
+    }
+    const std::lock_guard lock(mutex);
+    current = open->recording;
+  }
+
+  void begin() {
+    Recording recording;
+    recording.number = next_number++;
+    do {  // recordings of earlier runs stay
+      recording.folder = folder / ("recording-" + std::to_string(next_folder++));
+    } while (std::filesystem::exists(recording.folder));
+    std::error_code failed;
+    std::filesystem::create_directories(recording.folder, failed);
+    if (failed) {
+      throw Error(ErrorKind::output,
+                  "the folder " + recording.folder.string() + " cannot be made: " + failed.message(),
+                  "Choose another one with --recordings.");
+    }
+    Open made{recording, Resampler(header->body, header->camera, header->fps), {}};
+    for (const OutputFormat& format : kOutputFormats) {
+      made.files.push_back(
+          std::make_unique<FileOutput>(recording.folder / format.file_name, format.make(options), *header));
+    }
+    open.emplace(std::move(made));
+  }
+
+  void close() {
+    if (!open) {
+      return;
+    }
+    Recording recording = open->recording;
+    for (const auto& file : open->files) {
+      try {
+        file->close();
+      } catch (const Error& e) {
+        say(e.what());
+      }
+    }
+    for (const auto& file : open->files) {
+      std::error_code failed;
+      const auto bytes = std::filesystem::file_size(file->path(), failed);
+      if (!failed) {
+        recording.files.push_back({file->path().filename().string(), bytes});
+      }
+    }
+    open.reset();
+    std::int64_t missing = 0;
+    {
+      const std::lock_guard lock(mutex);
+      current.reset();
+      ended.push_back(recording);
+      missing = std::exchange(lost, 0);
+    }
+    say("recorded " + std::to_string(recording.frames) + " frames in " + recording.folder.string());
+    if (missing > 0) {
+      say(std::to_string(missing) + " frames are missing in it: the disk was too slow");
+    }
+  }
+
+  void say(const std::string& words) const {
+    if (message) {
+      message(words);
+    }
+  }
+
+  std::filesystem::path folder;
+  OutputOptions options;
+  std::function<void(const std::string&)> message;
+
+  // Of the recorder's thread.
+  std::shared_ptr<const StreamHeader> header;
+  std::optional<Open> open;
+  bool wanted = false;
+  int next_number = 1;
+  int next_folder = 1;
+
+  mutable std::mutex mutex;  // of what follows
+  std::condition_variable changed;
+  std::deque<Task> tasks;
+  bool stop = false;
+  std::int64_t lost = 0;
+  std::optional<Recording> current;
+  std::vector<Recording> ended;
+
+  std::thread thread;
+};
+
+Recorder::Recorder(std::filesystem::path folder, OutputOptions options,
+                   std::function<void(const std::string&)> message)
+    : state_(std::make_unique<State>()) {
+  state_->folder = std::move(folder);
+  state_->options = std::move(options);
+  state_->message = std::move(message);
+  state_->thread = std::thread([s = state_.get()] { s->work(); });
+}
+
+Recorder::~Recorder() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->stop = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+void Recorder::person(const StreamHeader& header) {
+  state_->push({Task::Kind::person, std::make_shared<const StreamHeader>(header), {}});
+}
+
+void Recorder::write(const MotionFrame& frame) {
+  state_->push({Task::Kind::frame, {}, frame});
+}
+
+void Recorder::start() {
+  state_->push({Task::Kind::start, {}, {}});
+}
+
+void Recorder::stop() {
+  state_->push({Task::Kind::stop, {}, {}});
+}
+
+std::optional<Recording> Recorder::current() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->current;
+}
+
+std::vector<Recording> Recorder::ended() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->ended;
+}
+
+std::optional<std::filesystem::path> Recorder::file(int number, const std::string& name) const {
+  for (const Recording& recording : ended()) {
+    for (const RecordedFile& file : recording.files) {
+      if (recording.number == number && file.name == name) {
+        return recording.folder / name;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool Recorder::forget(int number) {
+  const std::lock_guard lock(state_->mutex);
+  const auto found = std::find_if(state_->ended.begin(), state_->ended.end(),
+                                  [number](const Recording& r) { return r.number == number; });
+  if (found == state_->ended.end()) {
+    return false;
+  }
+  for (const RecordedFile& file : found->files) {
+    std::error_code ignored;
+    std::filesystem::remove(found->folder / file.name, ignored);
+  }
+  std::error_code ignored;
+  std::filesystem::remove(found->folder, ignored);  // when nothing else was put there
+  state_->ended.erase(found);
+  return true;
+}
+
+}  // namespace telemime

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/outputs/all.h"
+
+namespace telemime {
+
+struct RecordedFile {
+  std::string name;
+  std::uintmax_t bytes = 0;
+};
+
+/// A recording that has ended, or the one that goes on.
+struct Recording {
+  int number = 0;  ///< from 1
+  double seconds = 0.0;
+  std::int64_t frames = 0;
+  std::filesystem::path folder;
+  std::vector<RecordedFile> files;  ///< of an ended one
+};
+
+/// Records live motion into files, one folder for each recording, in every format and at a constant rate
+/// (resampler.h). Writes in a thread of its own: a slow disk costs frames of the recording, after 10 s, and
+/// never the tracker's time. Everything from any thread; nothing throws but the constructor.
+class Recorder {
+ public:
+  /// `folder` is made with the first recording. `message` gets what the user should know, from the recorder's
+  /// thread.
+  Recorder(std::filesystem::path folder, OutputOptions options,
+           std::function<void(const std::string&)> message);
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+  ~Recorder();  ///< ends the recording and writes its files to the end
+
+  /// The person whose frames follow. A recording that goes on is ended and another one begun: a file is of
+  /// one body.
+  void person(const StreamHeader& header);
+  void write(const MotionFrame& frame);
+
+  void start();
+  void stop();
+
+  std::optional<Recording> current() const;
+  std::vector<Recording> ended() const;
+  /// Of an ended recording; nothing where there is no such file.
+  std::optional<std::filesystem::path> file(int number, const std::string& name) const;
+  /// Deletes an ended recording's files; false when there is none of that number.
+  bool forget(int number);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/resampler.h"
+
+#include <algorithm>
+
+#include "telemime/smoothing/joint_rotations.h"
+#include "telemime/smoothing/smoother.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kLongestGap = 0.5;  // s
+constexpr double kSlack = 1e-6;      // s, of rounded times
+
+Pose blend(const Pose& a, const Pose& b, double share) {
+  const JointRotations from = rotations_of(a);
+  const JointRotations to = rotations_of(b);
+  JointRotations mixed = from;
+  mixed.root += share * (to.root - from.root);
+  for (std::size_t i = 0; i < mixed.rotation.size(); ++i) {
+    mixed.rotation[i] = from.rotation[i].slerp(share, to.rotation[i]);
+  }
+  for (std::size_t i = 0; i < mixed.elbow.size(); ++i) {
+    mixed.elbow[i] += share * (to.elbow[i] - from.elbow[i]);
+  }
+  return pose_of(mixed, a);
+}
+
+}  // namespace
+
+MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, double time) const {
+  const double gap = b.time - a.time;
+  const double share = gap > 0.0 ? std::clamp((time - a.time) / gap, 0.0, 1.0) : 1.0;
+  if (share * gap >= gap - kSlack) {
+    return b;
+  }
+  if (gap <= kLongestGap && a.state == TrackState::tracking && b.state == TrackState::tracking) {
+    return with_pose(share < 0.5 ? a : b, blend(a.pose, b.pose, share), body_, camera_);
+  }
+  MotionFrame held = a;
+  if (gap > kLongestGap) {
+    held.state = TrackState::lost;
+  }
+  return held;
+}
+
+std::vector<MotionFrame> Resampler::push(const MotionFrame& frame) {
+  if (!last_) {
+    start_ = frame.time;
+    last_ = frame;
+  }
+  std::vector<MotionFrame> frames;
+  while (start_ + static_cast<double>(count_) / fps_ <= frame.time + kSlack) {
+    const double time = static_cast<double>(count_) / fps_;
+    MotionFrame made = between(*last_, frame, start_ + time);
+    made.frame = count_++;
+    made.time = time;
+    frames.push_back(std::move(made));
+  }
+  last_ = frame;
+  return frames;
+}
+
+}  // namespace telemime

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/resampler.h"
+
+#include <gtest/gtest.h>
+
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+using testing_motion::frame_of;
+using testing_motion::header;
+
+MotionFrame bent(double time, double elbow) {
+  const StreamHeader head = header();
+  Pose pose;
+  pose[Angle::l_elbow_flexion] = elbow;
+  MotionFrame frame = frame_of(head.body, head.camera, pose, static_cast<std::int64_t>(time * 25.0), 25.0);
+  frame.time = time;
+  return frame;
+}
+
+Resampler at_25() {
+  return {header().body, header().camera, 25.0};
+}
+
+TEST(Resampler, FramesAtTheRateStayAsTheyAre) {
+  Resampler resampler = at_25();
+  for (int i = 0; i < 20; ++i) {
+    const MotionFrame frame = bent(7.0 + i / 25.0, -0.05 * i);
+    const auto out = resampler.push(frame);
+    ASSERT_EQ(out.size(), 1U) << i;
+    EXPECT_EQ(out[0].frame, i);
+    EXPECT_NEAR(out[0].time, i / 25.0, 1e-12);
+    EXPECT_EQ(out[0].pose.vector(), frame.pose.vector());
+  }
+}
+
+TEST(Resampler, ADroppedFrameLiesBetweenItsNeighbours) {
+  Resampler resampler = at_25();
+  EXPECT_EQ(resampler.push(bent(0.0, -0.2)).size(), 1U);
+  const auto out = resampler.push(bent(0.08, -0.6));
+  ASSERT_EQ(out.size(), 2U);
+  EXPECT_EQ(out[0].state, TrackState::tracking);
+  EXPECT_NEAR(out[0].pose[Angle::l_elbow_flexion], -0.4, 1e-9);
+  const JointPositions joints = forward_kinematics(header().body, out[0].pose).joints;
+  EXPECT_NEAR((out[0].joints[Joint::l_wrist] - joints[Joint::l_wrist]).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(out[1].pose[Angle::l_elbow_flexion], -0.6, 1e-12);
+}
+
+TEST(Resampler, AFasterCameraGivesFewerFrames) {
+  Resampler resampler = at_25();
+  std::size_t count = 0;
+  for (int i = 0; i < 60; ++i) {
+    count += resampler.push(bent(i / 60.0, 0.0)).size();
+  }
+  EXPECT_EQ(count, 25U);
+}
+
+TEST(Resampler, InALongGapThePersonIsLost) {
+  Resampler resampler = at_25();
+  resampler.push(bent(0.0, 0.0));
+  const auto out = resampler.push(bent(2.0, -1.0));
+  ASSERT_EQ(out.size(), 50U);
+  EXPECT_EQ(out.front().state, TrackState::lost);
+  EXPECT_EQ(out[48].state, TrackState::lost);
+  EXPECT_EQ(out[49].state, TrackState::tracking);
+}
+
+TEST(Resampler, WhoIsLostStaysLost) {
+  Resampler resampler = at_25();
+  MotionFrame lost = bent(0.0, 0.0);
+  lost.state = TrackState::lost;
+  EXPECT_EQ(resampler.push(lost).at(0).state, TrackState::lost);
+  const auto out = resampler.push(bent(0.12, -1.0));
+  ASSERT_EQ(out.size(), 3U);
+  EXPECT_EQ(out[0].state, TrackState::lost);
+  EXPECT_EQ(out[2].state, TrackState::tracking);
+}
+
+}  // namespace
+}  // namespace telemime

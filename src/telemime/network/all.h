@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "telemime/network/bap_serve.h"
+#include "telemime/network/bap_tcp.h"
+#include "telemime/network/sender.h"
+#include "telemime/network/url.h"
+#include "telemime/network/vmc.h"
+#include "telemime/network/web_socket_sender.h"
+
+namespace telemime {
+
+/// One way to send frames to other programs.
+struct SenderKind {
+  std::string_view scheme;   ///< before "://"
+  std::string_view example;  ///< a URL that can be typed as it is
+  std::string_view options;  ///< behind "?", for the user; the first value of each is the default
+  std::string_view summary;
+  /// Throws Error(usage) when the URL cannot be used.
+  std::unique_ptr<Sender> (*make)(const SendUrl&);
+};
+
+/// All of them. A new kind is a Link (send_queue.h) and a line here. `mirror` is an option of each.
+inline constexpr std::array<SenderKind, 4> kSenderKinds = {{
+    {"vmc", "vmc://localhost:39539", "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
+     "avatar programs that take the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
+    {"bap+tcp", "bap+tcp://localhost:5000", "profile=iso|greta|vreng-3.1|vreng-3.2, mirror=0|1",
+     "MPEG-4 body animation parameters as lines of text, to a program that listens", make_bap_tcp_sender},
+    {"bap+serve", "bap+serve://:4150", "profile=vreng-3.1|vreng-3.2|iso|greta, mirror=0|1",
+     "a server of MPEG-4 body animation parameters that VREng's clients can play", make_bap_serve_sender},
+    {"ws", "ws://localhost:8080/motion", "mirror=0|1; others go to the receiver",
+     "JSON messages over a WebSocket, for programs of one's own", make_web_socket_sender},
+}};
+
+inline std::span<const SenderKind> sender_kinds() {
+  return kSenderKinds;
+}
+
+}  // namespace telemime

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "telemime/network/person_motion.h"
+
+namespace telemime {
+
+/// The messages `body` and `pose` of docs/live-protocol.md, JSON without line breaks, for one person. Numbers
+/// that are not finite never appear: see outputs/finite.h for what stands in their place.
+class PoseMessages {
+ public:
+  /// Where the scale comes from is read from header.extra["scale_from"], when it is there.
+  explicit PoseMessages(const StreamHeader& header);
+
+  /// The person: their skeleton in its T-pose.
+  std::string body() const;
+  /// One frame, in the order of the stream. `stamp` is ms of the program's monotonic clock.
+  std::string pose(const MotionFrame& frame, double stamp);
+
+ private:
+  PersonMotion motion_;
+  std::string scale_from_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "telemime/body/motion_frame.h"
+#include "telemime/outputs/encoder.h"
+
+namespace telemime {
+
+enum class SenderState { connecting, sending, failed };
+
+/// How an output over the network is doing.
+struct SenderStatus {
+  std::string url;  ///< as the user gave it
+  SenderState state = SenderState::connecting;
+  std::string words;           ///< what happened last and what will be done, for the user
+  std::int64_t sent = 0;       ///< frames
+  std::int64_t dropped = 0;    ///< frames that the receiver was too slow or too dead for
+  std::int64_t receivers = 0;  ///< that take part now; 1 for the ones that cannot tell
+};
+
+/// Sends frames to another program. Nothing here blocks or throws once it is made: a thread of its own
+/// connects, writes, and tries again after a failure (first at once, then ever less often, every 5 s at
+/// most); a short queue keeps the newest frames and drops the oldest.
+class Sender {
+ public:
+  Sender() = default;
+  Sender(const Sender&) = delete;
+  Sender& operator=(const Sender&) = delete;
+  /// Stops at once, whatever the receiver does.
+  virtual ~Sender() = default;
+
+  /// The person whose frames follow. Called again when the person was calibrated anew.
+  virtual void begin(const StreamHeader& header) = 0;
+  virtual void send(const MotionFrame& frame) = 0;
+  virtual SenderStatus status() const = 0;
+};
+
+/// By the scheme of the URL: one of sender_kinds() (all.h). Throws Error(usage) for one that is unknown or
+/// malformed, in words that show a right one.
+std::unique_ptr<Sender> make_sender(const std::string& url);
+
+}  // namespace telemime

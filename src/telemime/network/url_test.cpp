@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/network/url.h"
+
+#include <gtest/gtest.h>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::string_view kExample = "x://host:1";
+
+TEST(Url, HasItsParts) {
+  const SendUrl url = parse_url("BAP+tcp://my-host.example:80/a/b?x=1&y=a=b", kExample);
+  EXPECT_EQ(url.text, "BAP+tcp://my-host.example:80/a/b?x=1&y=a=b");
+  EXPECT_EQ(url.scheme, "bap+tcp");
+  EXPECT_EQ(url.host, "my-host.example");
+  EXPECT_EQ(url.port, 80);
+  EXPECT_EQ(url.path, "/a/b");
+  EXPECT_EQ(url.options, (std::vector<std::pair<std::string, std::string>>{{"x", "1"}, {"y", "a=b"}}));
+}
+
+TEST(Url, MostPartsMayBeMissing) {
+  EXPECT_FALSE(parse_url("vmc://localhost", kExample).port);
+  EXPECT_EQ(parse_url("vmc://localhost?a=b", kExample).host, "localhost");
+  EXPECT_EQ(parse_url("s://:4150", kExample).host, "");
+  EXPECT_EQ(parse_url("s://:4150", kExample).port, 4150);
+  EXPECT_EQ(parse_url("s://[::1]:7", kExample).host, "::1");
+  EXPECT_EQ(parse_url("s://[::1]", kExample).host, "::1");
+}
+
+TEST(Url, WhatIsNoneIsRefusedWithARightOne) {
+  for (const char* const text :
+       {"", "localhost:39539", "://host", "vmc:/host", "vmc://host:port", "vmc://host:", "vmc://host:65536",
+        "vmc://host:-1", "vmc://ho st", "vmc://host\n", "vmc://user@host:1", "vmc://[::1", "vmc://[::1]x",
+        "vmc://h:1?a", "vmc://h:1?=b", "vmc://h:1?a=b&", "vmc://h:1#x", "vmc://h:1?a=b#x",
+        "vmc://h\xc3\xa9"}) {
+    try {
+      parse_url(text, kExample);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_NE(std::string(error.what()).find(kExample), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_THROW(parse_url("vmc://" + std::string(3000, 'x'), kExample), Error);
+}
+
+TEST(Url, OptionsHaveAFirstAndOtherValues) {
+  const SendUrl url = parse_url("s://h?a=2", kExample);
+  EXPECT_EQ(option(url, "a", {"1", "2"}), "2");
+  EXPECT_EQ(option(url, "b", {"1", "2"}), "1");
+  EXPECT_THROW(option(url, "a", {"1", "3"}), Error);
+  EXPECT_NO_THROW(check_options(url, {"b", "a"}));
+  EXPECT_THROW(check_options(url, {"b"}), Error);
+}
+
+TEST(Url, BracketsAroundIpv6) {
+  EXPECT_EQ(host_and_port("::1", 80), "[::1]:80");
+  EXPECT_EQ(host_and_port("localhost", 80), "localhost:80");
+}
+
+}  // namespace
+}  // namespace telemime

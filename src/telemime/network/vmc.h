@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "telemime/network/sender.h"
+#include "telemime/network/url.h"
+
+namespace telemime {
+
+/// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves]: the VMC protocol by UDP
+/// (vmc_messages.h). UDP has no connection: that nobody listens is known only where the system reports it, on
+/// this computer always. Throws Error(usage).
+std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url);
+
+}  // namespace telemime

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/network/web_answer.h"
+
+#include <algorithm>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "telemime/network/web_path.h"
+
+namespace telemime {
+namespace {
+
+namespace http = boost::beast::http;
+
+constexpr std::size_t longest_target = 4096;
+constexpr std::string_view socket_path = "/ws";
+
+std::string_view view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+/// What a page from here may do. glTF loaders fetch blob: and data: addresses of their own textures; the
+/// WebSocket's address is named because 'self' does not cover ws: in every browser. Styles may be inline:
+/// they cannot act.
+std::string content_policy(std::string_view host) {
+  std::string policy =
+      "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+      "font-src 'self' data:; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; "
+      "connect-src 'self' blob: data:";
+  if (!host.empty()) {
+    policy.append(" ws://").append(host);
+  }
+  return policy + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+template <typename Message>
+void set_guards(Message& message, std::string_view host) {
+  message.set("Content-Security-Policy", content_policy(host));
+  message.set("X-Content-Type-Options", "nosniff");
+  message.set("X-Frame-Options", "DENY");
+  message.set("Referrer-Policy", "no-referrer");
+  message.set("Cross-Origin-Resource-Policy", "same-origin");
+  message.set("Cross-Origin-Opener-Policy", "same-origin");
+}
+
+/// A file name that needs no quoting in a header.
+std::string plain_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) {
+        return (c < 'a' || c > 'z') && (c < 'A' || c > 'Z') && (c < '0' || c > '9') && c != '.' && c != '-' &&
+               c != '_';
+      },
+      '_');
+  return name;
+}
+
+WebAnswer with_content(WebContent content, const WebRequest& request) {
+  WebAnswer answer;
+  answer.bytes = content.bytes ? std::move(content.bytes) : std::make_shared<const std::string>();
+  auto& message = answer.message;
+  message.result(http::status::ok);
+  message.version(request.version());
+  message.keep_alive(request.keep_alive());
+  set_guards(message, view(request[http::field::host]));
+  message.set(http::field::content_type, content.type);
+  message.set(http::field::cache_control,
+              content.immutable ? "public, max-age=31536000, immutable" : "no-store");
+  if (!content.file_name.empty()) {
+    message.set(http::field::content_disposition,
+                "attachment; filename=\"" + plain_name(std::move(content.file_name)) + "\"");
+  }
+  message.content_length(answer.bytes->size());
+  if (request.method() != http::verb::head) {
+    message.body() = {answer.bytes->data(), answer.bytes->size()};
+  }
+  return answer;
+}
+
+WebAnswer ask_handler(const WebRequest& request, const std::string& path, const WebHandlers& handlers) {
+  std::optional<WebContent> content;
+  try {
+    content = handlers.get ? handlers.get(path) : std::nullopt;
+  } catch (const std::exception& error) {
+    return web_refusal(http::status::internal_server_error,
+                       std::string("The program could not answer this: ") + error.what());
+  } catch (...) {
+    return web_refusal(http::status::internal_server_error, "The program could not answer this.");
+  }
+  return content ? with_content(std::move(*content), request)
+                 : web_refusal(http::status::not_found, "There is nothing here: " + path);
+}
+
+/// Why the request may come from another web site, or from a page that goes by a false name; nothing when
+/// not.
+std::optional<WebAnswer> stranger(const WebRequest& request, const WebNames& names, std::string_view local) {
+  if (request.count(http::field::host) != 1) {
+    return web_refusal(http::status::bad_request, "The request must have one Host header.");
+  }
+  if (!names.host(view(request[http::field::host]), local)) {
+    return web_refusal(http::status::forbidden,
+                       "This program does not answer to that name (header Host).\n"
+                       "Ask for it by http://localhost and its port, or start it with that name as a further "
+                       "host.");
+  }
+  const std::size_t origins = request.count(http::field::origin);
+  if (origins > 1 || (origins == 1 && !names.origin(view(request[http::field::origin]), local))) {
+    return web_refusal(http::status::forbidden,
+                       "Pages of other web sites may not use this program (header Origin).");
+  }
+  // Browsers say so, too, where they send no Origin. A link from elsewhere is fine: it navigates.
+  const std::string_view site = view(request["Sec-Fetch-Site"]);
+  if ((site == "cross-site" || site == "same-site") && view(request["Sec-Fetch-Mode"]) != "navigate") {
+    return web_refusal(http::status::forbidden,
+                       "Pages of other web sites may not use this program (header Sec-Fetch-Site).");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+WebAnswer web_refusal(http::status status, const std::string& words) {
+  WebAnswer answer;
+  answer.bytes = std::make_shared<const std::string>(words + "\n");
+  auto& message = answer.message;
+  message.result(status);
+  message.version(11);
+  message.keep_alive(false);
+  set_guards(message, {});
+  message.set(http::field::content_type, "text/plain; charset=utf-8");
+  message.set(http::field::cache_control, "no-store");
+  message.content_length(answer.bytes->size());
+  message.body() = {answer.bytes->data(), answer.bytes->size()};
+  return answer;
+}
+
+WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
+                     const WebHandlers& handlers) {
+  if (std::optional<WebAnswer> refusal = stranger(request, names, local)) {
+    return std::move(*refusal);
+  }
+  const bool head = request.method() == http::verb::head;
+  if (!head && request.method() != http::verb::get) {
+    WebAnswer refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are answered.");
+    refusal.message.set(http::field::allow, "GET, HEAD");
+    return refusal;
+  }
+  if (has_body) {
+    return web_refusal(http::status::payload_too_large, "A request must have no body.");
+  }
+  if (request.target().size() > longest_target) {
+    return web_refusal(http::status::uri_too_long, "The address is too long.");
+  }
+  const std::optional<std::string> path = web_path(view(request.target()));
+  if (!path) {
+    return web_refusal(http::status::bad_request, "The address is malformed.");
+  }
+  WebAnswer answer;
+  answer.upgrade = *path == socket_path && boost::beast::websocket::is_upgrade(request);
+  if (answer.upgrade) {
+    return answer;
+  }
+  if (*path == socket_path) {
+    answer = web_refusal(http::status::upgrade_required, "This address is for WebSockets.");
+    answer.message.set(http::field::upgrade, "websocket");
+  } else {
+    answer = ask_handler(request, *path, handlers);
+  }
+  if (head) {
+    answer.message.body() = {};
+  }
+  return answer;
+}
+
+}  // namespace telemime

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/span_body.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "telemime/network/web_origin.h"
+#include "telemime/network/web_server.h"
+
+namespace telemime {
+
+using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+
+/// What to do about a request.
+struct WebAnswer {
+  bool upgrade = false;  ///< it is a WebSocket; the rest is empty
+  boost::beast::http::response<boost::beast::http::span_body<const char>> message;
+  std::shared_ptr<const std::string> bytes;  ///< what message.body() looks at
+};
+
+/// Decides. `request` is a whole header; `has_body` says whether something follows it, which is always
+/// refused. `local` is the address at which the connection came in.
+WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
+                     const WebHandlers& handlers);
+
+/// Plain words with a status, and the end of the connection.
+WebAnswer web_refusal(boost::beast::http::status status, const std::string& words);
+
+}  // namespace telemime

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/network/web_connection.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <chrono>
+#include <utility>
+
+#include "telemime/network/web_client.h"
+
+namespace telemime {
+namespace {
+
+namespace http = boost::beast::http;
+using boost::system::error_code;
+
+// All programs of localhost share their cookies, so that headers can be long.
+constexpr std::size_t longest_header = 32 * 1024;
+constexpr std::chrono::seconds linger_time{2};
+
+std::string local_address(const boost::asio::ip::tcp::socket& socket) {
+  error_code error;
+  const boost::asio::ip::address address = socket.local_endpoint(error).address();
+  if (error) {
+    return {};
+  }
+  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
+    return make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).to_string();
+  }
+  return address.to_string();
+}
+
+}  // namespace
+
+WebConnection::WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket,
+                             boost::asio::ip::tcp::socket socket)
+    : hub_(std::move(hub)),
+      ticket_(std::move(ticket)),
+      stream_(std::move(socket)),
+      local_(local_address(stream_.socket())),
+      buffer_(2 * longest_header) {
+  error_code ignored;
+  stream_.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+}
+
+void WebConnection::read() {
+  parser_.emplace();
+  parser_->header_limit(longest_header);
+  // For the whole of it: a client that sends a byte now and then does not put this off.
+  stream_.expires_after(hub_->options().request_within);
+  http::async_read_header(
+      stream_, buffer_, *parser_,
+      [self = shared_from_this()](error_code error, std::size_t) { self->answer(error); });
+}
+
+void WebConnection::answer(error_code error) {
+  static const boost::system::error_category& malformed = make_error_code(http::error::bad_method).category();
+  if (error == http::error::header_limit || error == http::error::buffer_overflow) {
+    respond(web_refusal(http::status::request_header_fields_too_large, "The request is too long."));
+  } else if (error == http::error::body_limit) {
+    respond(web_refusal(http::status::payload_too_large, "A request must have no body."));
+  } else if (error && error != http::error::end_of_stream && error.category() == malformed) {
+    respond(web_refusal(http::status::bad_request, "This is no HTTP request."));
+  } else if (!error) {
+    WebAnswer found =
+        web_answer(parser_->get(), !parser_->is_done(), hub_->names(), local_, hub_->handlers());
+    if (found.upgrade) {
+      upgrade();
+    } else {
+      respond(std::move(found));
+    }
+  }
+}
+
+void WebConnection::upgrade() {
+  if (buffer_.size() > 0) {
+    respond(web_refusal(http::status::bad_request, "A WebSocket must wait for the answer to its request."));
+    return;
+  }
+  const auto client = std::make_shared<WebClient>(hub_, std::move(ticket_), std::move(stream_));
+  client->start(parser_->get());
+}
+
+void WebConnection::respond(WebAnswer answer) {
+  answer_ = std::move(answer);
+  serializer_.emplace(answer_.message);
+  write_some();
+}
+
+void WebConnection::write_some() {
+  stream_.expires_after(
+      hub_->options().stalled_after);  // anew for each part: a slow reader is none that stopped
+  http::async_write_some(stream_, *serializer_, [self = shared_from_this()](error_code error, std::size_t) {
+    if (error) {
+      return;
+    }
+    if (!self->serializer_->is_done()) {
+      self->write_some();
+    } else if (self->answer_.message.keep_alive()) {
+      self->read();
+    } else {
+      self->stream_.expires_after(linger_time);
+      error_code ignored;
+      self->stream_.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
+      self->linger();
+    }
+  });
+}
+
+// Closing while the other side still sends would reset the connection, and the answer would be lost.
+void WebConnection::linger() {
+  stream_.async_read_some(boost::asio::buffer(rest_),
+                          [self = shared_from_this()](error_code error, std::size_t) {
+                            if (!error) {
+                              self->linger();
+                            }
+                          });
+}
+
+}  // namespace telemime

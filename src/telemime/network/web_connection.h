@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <memory>
+#include <optional>
+
+#include "telemime/network/web_answer.h"
+#include "telemime/network/web_hub.h"
+
+namespace telemime {
+
+/// One HTTP connection: requests are read and answered one after the other, until one asks for a WebSocket,
+/// something is wrong, or nothing comes for too long. It lives as long as one of its operations is under way.
+/// For the server's thread only.
+class WebConnection : public std::enable_shared_from_this<WebConnection> {
+ public:
+  WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket,
+                boost::asio::ip::tcp::socket socket);
+  void read();
+
+ private:
+  void answer(boost::system::error_code error);
+  void upgrade();
+  void respond(WebAnswer answer);
+  void write_some();
+  void linger();
+
+  std::shared_ptr<WebHub> hub_;
+  std::shared_ptr<void> ticket_;
+  boost::beast::tcp_stream stream_;
+  std::string local_;  ///< the address at which it came in
+  boost::beast::flat_buffer buffer_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+  WebAnswer answer_;
+  std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>>
+      serializer_;
+  std::array<char, 4096> rest_{};
+};
+
+}  // namespace telemime

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/network/web_hub.h"
+
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "telemime/network/web_client.h"
+
+namespace telemime {
+namespace {
+
+// Beyond the WebSockets: requests for the page, and connections that browsers keep open for later.
+constexpr std::size_t more_connections = 96;
+
+/// docs/live-protocol.md.
+std::string error_message(const std::string& words) {
+  const nlohmann::json message = {{"type", "message"}, {"level", "error"}, {"words", words}};
+  return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
+
+WebHub::WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names)
+    : options_(options), handlers_(std::move(handlers)), names_(std::move(names)) {}
+
+std::shared_ptr<void> WebHub::ticket() {
+  if (*connections_ >= options_.most_clients + more_connections) {
+    return nullptr;
+  }
+  ++*connections_;
+  return {connections_.get(), [open = connections_](std::size_t*) { --*open; }};
+}
+
+std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& client) {
+  if (clients_.size() >= options_.most_clients) {
+    return std::nullopt;
+  }
+  clients_[++last_id_] = client;
+  count_ = clients_.size();
+  return last_id_;
+}
+
+void WebHub::leave(std::uint64_t id) {
+  if (clients_.erase(id) == 0) {
+    return;
+  }
+  count_ = clients_.size();
+  try {
+    if (handlers_.closed) {
+      handlers_.closed(id);
+    }
+  } catch (...) {  // NOLINT(bugprone-empty-catch): nobody is left to be told
+  }
+}
+
+void WebHub::leave_all() {
+  while (!clients_.empty()) {
+    leave(clients_.begin()->first);
+  }
+}
+
+std::vector<std::string> WebHub::greeting(std::uint64_t id) const {
+  try {
+    return handlers_.opened ? handlers_.opened(id) : std::vector<std::string>();
+  } catch (const std::exception& error) {
+    return {error_message(error.what())};
+  } catch (...) {
+    return {error_message("The program could not greet this page.")};
+  }
+}
+
+std::optional<std::string> WebHub::answer(std::uint64_t id, std::string_view text) const {
+  try {
+    return handlers_.text ? handlers_.text(id, text) : std::nullopt;
+  } catch (const std::exception& error) {
+    return error_message(error.what());
+  } catch (...) {
+    return error_message("The program could not answer this.");
+  }
+}
+
+bool WebHub::put(WebMessage message) {
+  const std::lock_guard lock(mutex_);
+  inbox_.push(std::move(message));
+  return !std::exchange(drain_is_due_, true);
+}
+
+void WebHub::drain() {
+  WebQueue arrived;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(arrived, inbox_);
+    inbox_ = WebQueue(std::numeric_limits<std::size_t>::max());
+    drain_is_due_ = false;
+  }
+  // A copy: a client that is full leaves while the message is given out.
+  const std::map<std::uint64_t, std::weak_ptr<WebClient>> clients = clients_;
+  while (const std::optional<WebMessage> message = arrived.pop()) {
+    for (const auto& [id, weak] : clients) {
+      if (const std::shared_ptr<WebClient> client = weak.lock()) {
+        client->push(*message);
+      }
+    }
+  }
+}
+
+void WebHub::set_topic(std::uint64_t client, int topic, bool on) {
+  const auto found = clients_.find(client);
+  if (const std::shared_ptr<WebClient> known = found == clients_.end() ? nullptr : found->second.lock()) {
+    known->set_topic(topic, on);
+  }
+}
+
+}  // namespace telemime

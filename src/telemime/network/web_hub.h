@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "telemime/network/web_origin.h"
+#include "telemime/network/web_queue.h"
+#include "telemime/network/web_server.h"
+
+namespace telemime {
+
+class WebClient;
+
+/// What the connections of one server share. Unless said otherwise, for the server's thread only.
+class WebHub {
+ public:
+  /// `names`: under which the server may be called, with the port that it got.
+  WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names);
+
+  const WebServerOptions& options() const { return options_; }
+  const WebHandlers& handlers() const { return handlers_; }
+  const WebNames& names() const { return names_; }
+
+  /// To be kept by a connection as long as it is open; nothing when too many are.
+  std::shared_ptr<void> ticket();
+
+  /// A number for the client, which takes part from now on; nothing when too many do.
+  std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client);
+  /// Tells the handlers, once.
+  void leave(std::uint64_t id);
+  /// leave() for all.
+  void leave_all();
+
+  /// The handlers, with what they throw as a `message` to the client.
+  std::vector<std::string> greeting(std::uint64_t id) const;
+  std::optional<std::string> answer(std::uint64_t id, std::string_view text) const;
+
+  /// From any thread. True: drain() must be called.
+  bool put(WebMessage message);
+  /// Gives what was put to the clients.
+  void drain();
+  void set_topic(std::uint64_t client, int topic, bool on);
+
+  std::size_t clients() const { return count_; }  ///< from any thread
+
+ private:
+  const WebServerOptions options_;
+  const WebHandlers handlers_;
+  const WebNames names_;
+  std::map<std::uint64_t, std::weak_ptr<WebClient>> clients_;
+  std::uint64_t last_id_ = 0;
+  std::atomic<std::size_t> count_ = 0;
+  std::shared_ptr<std::size_t> connections_ = std::make_shared<std::size_t>(0);
+
+  std::mutex mutex_;  ///< of what follows
+  WebQueue inbox_{std::numeric_limits<std::size_t>::max()};
+  bool drain_is_due_ = false;
+};
+
+}  // namespace telemime

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace telemime {
+
+/// What a GET is answered with.
+struct WebContent {
+  std::shared_ptr<const std::string> bytes;
+  std::string type;        ///< MIME type
+  std::string file_name;   ///< not empty: to be saved under this name
+  bool immutable = false;  ///< may be cached for ever (its name has a hash in it)
+};
+
+struct WebServerOptions {
+  std::string address = "127.0.0.1";  ///< where to listen: loopback unless asked
+  std::uint16_t port = 7070;          ///< 0: any free one
+  std::vector<std::string> hosts;     ///< further names under which the page may be called (Host, Origin):
+                                      ///< "studio", or "studio:8080" when a proxy has another port
+  std::size_t most_clients = 32;      ///< open WebSockets; more are refused in words
+  std::size_t most_bytes_in = 64 * 1024;  ///< of one WebSocket message; a longer one closes the connection
+  std::chrono::milliseconds request_within{10'000};  ///< for a whole request to come; idle connections, too
+  std::chrono::milliseconds stalled_after{
+      30'000};  ///< without progress in writing, or a sign of life: closed
+};
+
+/// Called from the server's thread. None may block. All may be empty. What one throws goes to its client in
+/// words (500, or a `message` of level error), and the server goes on.
+struct WebHandlers {
+  /// The decoded, normalised absolute path ("/", "/assets/a.js"): nothing for 404. Never holds "..", NUL or
+  /// a backslash.
+  std::function<std::optional<WebContent>(const std::string& path)> get;
+  /// A client has come; what is returned is sent to it first, in this order.
+  std::function<std::vector<std::string>(std::uint64_t client)> opened;
+  /// A text message, any bytes that are valid UTF-8; the answer, if there is one, goes to that client alone.
+  std::function<std::optional<std::string>(std::uint64_t client, std::string_view text)> text;
+  std::function<void(std::uint64_t client)> closed;
+};
+
+/// Serves the page over HTTP and a WebSocket at /ws, to browsers on this machine unless asked otherwise. In a
+/// thread of its own. For address 127.0.0.1 it listens on ::1, too, where there is one: some browsers ask
+/// for localhost there. Requests with a Host or an Origin that is not this server's are refused, so that no
+/// other web site can reach it. A client that does not read loses messages, never memory: of each `topic`
+/// only the newest waits for it; one that has not read for 30 s is closed.
+class WebServer {
+ public:
+  /// Throws Error(usage) when the address is no address, Error(output) when the port is taken (the words say
+  /// which and what to do).
+  WebServer(WebServerOptions options, WebHandlers handlers);
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+  ~WebServer();  ///< closes all connections; returns within a second
+
+  std::uint16_t port() const;
+  std::size_t clients() const;
+
+  /// To all clients; from any thread, never blocks. `topic` is any small number: a message of a topic
+  /// replaces one of the same topic that still waits. Topic 0 is never replaced (few, important ones; a
+  /// client that lets 1000 of them wait is closed) and overtakes the others, which take turns.
+  void send_text(int topic, std::shared_ptr<const std::string> text);
+  void send_binary(int topic, std::shared_ptr<const std::string> bytes);
+
+  /// Whether that client gets messages of that topic (at first of every one); one that waits is dropped. From
+  /// any thread, handlers included; a client that is gone is no error. Topic 0 cannot be turned off.
+  void set_topic(std::uint64_t client, int topic, bool on);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace telemime

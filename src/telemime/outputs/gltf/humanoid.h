@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "telemime/outputs/gltf/document.h"
+#include "telemime/outputs/humanoid.h"
+
+namespace telemime {
+
+/// Adds the bones as nodes 0 to 18 of an empty document, in the order of HumanBone, and the hips to the
+/// scene.
+void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton);
+
+/// Adds a skin whose joint b is HumanBone b; returns its index.
+std::size_t add_humanoid_skin(GltfDocument& document, const HumanoidSkeleton& skeleton);
+
+/// Adds a mesh as a node of the scene that this skin moves; returns the node's index.
+std::size_t add_skinned_mesh(GltfDocument& document, const char* name, std::size_t mesh, std::size_t skin);
+
+/// The map from names of bones to nodes, as VRMC_vrm and VRMC_vrm_animation have it.
+nlohmann::ordered_json human_bones();
+
+}  // namespace telemime

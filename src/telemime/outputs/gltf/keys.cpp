@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/gltf/keys.h"
+
+#include <utility>
+
+namespace telemime {
+namespace {
+
+void repeat_last(std::vector<float>& column, std::size_t width) {
+  const std::size_t from = column.size() - width;
+  for (std::size_t i = 0; i < width; ++i) {
+    column.push_back(column[from + i]);
+  }
+}
+
+}  // namespace
+
+void MotionKeys::Columns::add(float time, const HumanoidMotion& motion) {
+  times.push_back(time);
+  const Eigen::Vector3f place = motion.hips.cast<float>();
+  hips.insert(hips.end(), place.begin(), place.end());
+  for (std::size_t b = 0; b < kMovingBoneCount; ++b) {
+    const Eigen::Quaternionf q = motion.rotation[b].cast<float>().normalized();
+    rotations[b].insert(rotations[b].end(), {q.x(), q.y(), q.z(), q.w()});
+  }
+}
+
+void MotionKeys::Columns::hold(float time) {
+  times.push_back(time);
+  repeat_last(hips, 3);
+  for (std::vector<float>& rotation : rotations) {
+    repeat_last(rotation, 4);
+  }
+}
+
+MotionKeys::MotionKeys(const Body& body) : body_(body) {}
+
+void MotionKeys::add(const MotionFrame& frame) {
+  if (!start_) {
+    start_ = frame.time;
+  }
+  const auto time = static_cast<float>(frame.time - *start_);
+  if (time <= last_time_) {
+    return;
+  }
+  if (frame.state == TrackState::lost) {
+    lost_ = count() > 0;
+    last_time_ = time;
+    return;
+  }
+  if (lost_) {
+    columns_.hold(last_time_);
+    lost_ = false;
+  }
+  last_time_ = time;
+  if (!origin_) {
+    origin_ = frame.pose.root;
+  }
+  columns_.add(time, humanoid_motion(body_, frame.pose, *origin_));
+}
+
+void MotionKeys::add_animation(GltfDocument& document) const {
+  Columns columns = columns_;
+  if (lost_) {
+    columns.hold(last_time_);
+  }
+  if (columns.times.empty()) {
+    HumanoidMotion rest;
+    rest.hips = humanoid_skeleton(body_).position[0];
+    rest.rotation.fill(Eigen::Quaterniond::Identity());
+    columns.add(0.0F, rest);
+  }
+  const std::size_t input = add_accessor(document, columns.times, "SCALAR", GltfTarget::none, true);
+  auto channels = nlohmann::ordered_json::array();
+  auto samplers = nlohmann::ordered_json::array();
+  const auto track = [&](std::size_t node, const char* path, std::size_t output) {
+    channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
+    samplers.push_back({{"input", input}, {"interpolation", "LINEAR"}, {"output", output}});
+  };
+  track(static_cast<std::size_t>(HumanBone::hips), "translation",
+        add_accessor(document, columns.hips, "VEC3"));
+  for (std::size_t b = 0; b < kMovingBoneCount; ++b) {
+    track(b, "rotation", add_accessor(document, columns.rotations[b], "VEC4"));
+  }
+  add_to(document, "animations",
+         {{"name", "motion"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
+}
+
+}  // namespace telemime

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "telemime/body/motion_frame.h"
+#include "telemime/outputs/gltf/document.h"
+#include "telemime/outputs/humanoid.h"
+
+namespace telemime {
+
+/// The bones of the upper body, which have a track each: all before the legs.
+inline constexpr std::size_t kMovingBoneCount = static_cast<std::size_t>(HumanBone::l_upper_leg);
+
+/// A motion as the keys of a glTF animation.
+class MotionKeys {
+ public:
+  explicit MotionKeys(const Body& body);
+
+  /// A frame with finite numbers. One that is lost makes no key; the pose before it holds until the frame
+  /// before the next key, so that nothing glides through the gap. A frame that is not later than the one
+  /// before is left out.
+  void add(const MotionFrame& frame);
+
+  /// Keys of tracked frames and of poses that hold, so far.
+  std::size_t count() const { return columns_.times.size(); }
+
+  /// Adds one animation with linear tracks: the translation of the hips and the rotation of every moving
+  /// bone, for nodes that are numbered as the bones. There is always at least one key, if only the rest pose.
+  void add_animation(GltfDocument& document) const;
+
+  /// The place of the root (m, camera frame) over which the hips stand as in the T-pose: that of the first
+  /// tracked frame.
+  const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
+
+ private:
+  struct Columns {
+    std::vector<float> times;  ///< s from the first frame
+    std::vector<float> hips;
+    std::array<std::vector<float>, kMovingBoneCount> rotations;  ///< x, y, z, w
+
+    void add(float time, const HumanoidMotion& motion);
+    void hold(float time);
+  };
+
+  Body body_;
+  Columns columns_;
+  std::optional<double> start_;  ///< time of the first frame
+  float last_time_ = -1.0F;
+  bool lost_ = false;  ///< since the last key
+  std::optional<Eigen::Vector3d> origin_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/outputs/gltf/motion_encoder.h"
+
+#include <algorithm>
+#include <string>
+
+#include "telemime/outputs/finite.h"
+#include "telemime/outputs/gltf/humanoid.h"
+#include "telemime/outputs/gltf/keys.h"
+#include "telemime/outputs/gltf/mannequin.h"
+#include "telemime/outputs/numbers.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kFirstSnapshot = 32;
+/// Room in the JSON for numbers that get longer: each of some 60 by at most 9 digits, the place of the
+/// origin.
+constexpr std::size_t kRoomToGrow = 1024;
+
+class GltfMotionEncoder final : public Encoder {
+ public:
+  explicit GltfMotionEncoder(GltfMotion kind) : kind_(kind) {}
+
+  std::string begin(const StreamHeader& header) override {
+    const HumanoidSkeleton skeleton = humanoid_skeleton(header.body);
+    fixed_ = make_gltf();
+    add_humanoid(fixed_, skeleton);
+    if (kind_ == GltfMotion::seen) {
+      const std::size_t mesh = add_mannequin(fixed_, skeleton, header.body.shape.stature);
+      add_skinned_mesh(fixed_, "mannequin", mesh, add_humanoid_skin(fixed_, skeleton));
+    } else {
+      fixed_.json["extensionsUsed"] = {"VRMC_vrm_animation"};
+      fixed_.json["extensions"]["VRMC_vrm_animation"] = {{"specVersion", "1.0"},
+                                                         {"humanoid", {{"humanBones", human_bones()}}}};
+    }
+    keys_.emplace(header.body);
+    written_ = fixed_.buffer.size();
+    const std::string first = snapshot();
+    return head_ + fixed_.buffer + first;
+  }
+
+  std::string frame(const MotionFrame& raw) override {
+    keys_->add(finite_(raw));
+    ++frames_;
+    return keys_->count() >= next_snapshot_ ? snapshot() : std::string();
+  }
+
+  std::string end() override { return frames_ > 0 ? snapshot() : std::string(); }
+
+  std::optional<Patch> patch() const override { return Patch{0, head_}; }
+
+ private:
+  /// All keys so far, to be appended; makes the head that points at them.
+  std::string snapshot() {
+    GltfDocument document;
+    document.json = fixed_.json;
+    keys_->add_animation(document);
+    // The new accessors lie behind everything that was written before.
+    const std::size_t first_view =
+        fixed_.json.contains("bufferViews") ? fixed_.json["bufferViews"].size() : 0;
+    for (std::size_t v = first_view; v < document.json["bufferViews"].size(); ++v) {
+      auto& offset = document.json["bufferViews"][v]["byteOffset"];
+      offset = offset.get<std::size_t>() + written_;
+    }
+    if (const auto& origin = keys_->origin()) {
+      const Eigen::Vector3d place = kMillimetresPerMetre * *origin;
+      document.json["asset"]["extras"]["root_at_start_mm"] = {rounded(place.x(), 2), rounded(place.y(), 2),
+                                                              rounded(place.z(), 2)};
+    }
+    written_ += document.buffer.size();
+    const std::size_t size = head_.empty() ? glb_head(document, written_).size() + kRoomToGrow : json_size_;
+    json_size_ = size;
+    head_ = glb_head(document, written_, size);
+    next_snapshot_ = std::max(kFirstSnapshot, 2 * keys_->count());
+    return std::move(document.buffer);
+  }
+
+  GltfMotion kind_;
+  GltfDocument fixed_;  ///< what does not change: skeleton and mannequin
+  std::optional<MotionKeys> keys_;
+  FiniteFrames finite_;
+  std::string head_;           ///< always of the same size
+  std::size_t json_size_ = 0;  ///< of the JSON chunk
+  std::size_t written_ = 0;    ///< bytes of the binary chunk
+  std::size_t next_snapshot_ = kFirstSnapshot;
+  std::size_t frames_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Encoder> make_gltf_motion_encoder(GltfMotion kind) {
+  return std::make_unique<GltfMotionEncoder>(kind);
+}
+
+}  // namespace telemime

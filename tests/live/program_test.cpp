@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "live/scripted_source.h"
+#include "telemime/core/errors.h"
+#include "telemime/live/live_program.h"
+#include "telemime/network/testing_web_socket.h"
+
+namespace telemime {
+namespace {
+
+using live_testing::camera_of;
+using live_testing::empty_room;
+using live_testing::person;
+using live_testing::quick_request;
+using live_testing::Scene;
+using Json = nlohmann::json;
+
+class Program : public ::testing::Test {
+ protected:
+  LiveOptions options() const {
+    LiveOptions options;
+    options.request = quick_request(folder_);
+    options.web.port = 0;
+    options.recordings = folder_.file("recordings");
+    options.version = "1.2.3";
+    return options;
+  }
+  static std::shared_ptr<Scene> somebody() {
+    auto scene = std::make_shared<Scene>();
+    scene->show(person());
+    return scene;
+  }
+
+  ScratchFolder folder_;
+};
+
+// The next message of a type for which `wanted` holds; fails the test when there is none in a minute.
+template <typename Wanted>
+Json hear(SocketClient& page, const std::string& type, const Wanted& wanted) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (std::chrono::steady_clock::now() < deadline) {
+    const auto message = page.message();
+    if (!message) {
+      break;
+    }
+    if (message->opcode == SocketClient::text) {
+      Json json = Json::parse(message->payload);
+      if (json.at("type") == type && wanted(json)) {
+        return json;
+      }
+    }
+  }
+  ADD_FAILURE() << "no such " << type;
+  return {};
+}
+
+Json hear(SocketClient& page, const std::string& type) {
+  return hear(page, type, [](const Json&) { return true; });
+}
+
+std::string get(std::uint16_t port, const std::string& path, int status) {
+  RawClient client(port);
+  client.send(request_text(port, path));
+  const WebReply reply = client.reply();
+  EXPECT_EQ(reply.status, status) << path;
+  return reply.body;
+}
+
+TEST_F(Program, APageSeesThePersonAndThePicture) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  const Json hello = hear(page, "hello");
+  EXPECT_EQ(hello.at("version"), "1.2.3");
+  EXPECT_EQ(hello.at("camera").at("width"), person().front().image.cols);
+  EXPECT_TRUE(hear(page, "body").at("bones").contains("leftHand"));
+  const Json pose = hear(page, "pose", [](const Json& j) { return j.at("state") == "tracking"; });
+  EXPECT_EQ(pose.at("bones").at("head").size(), 4U);
+  EXPECT_EQ(pose.at("pixels").at("l_wrist").size(), 2U);
+  const Json status = hear(page, "status", [](const Json& j) { return j.at("phase") == "tracking"; });
+  EXPECT_GT(status.at("fps").at("tracked").get<double>(), 0.0);
+
+  std::optional<SocketClient::Frame> picture;
+  while ((picture = page.message()) && picture->opcode != SocketClient::binary) {
+  }
+  ASSERT_TRUE(picture);
+  ASSERT_GT(picture->payload.size(), 100U);
+  EXPECT_EQ(picture->payload.substr(0, 4), std::string("\x01\0\0\0", 4));
+  EXPECT_EQ(picture->payload.substr(16, 2), "\xFF\xD8") << "a JPEG";
+}
+
+TEST_F(Program, WhoComesLaterIsToldWhoTheBodyIs) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient first(program.port());
+  hear(first, "pose");
+  SocketClient later(program.port());
+  EXPECT_EQ(Json::parse(later.heard()).at("type"), "hello");
+  EXPECT_EQ(Json::parse(later.heard()).at("type"), "body");
+  EXPECT_EQ(Json::parse(later.heard()).at("type"), "status");
+}
+
+TEST_F(Program, LatencyIsWhatPagesReport) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  const Json pose = hear(page, "pose");
+  page.say(Json{{"type", "drawn"}, {"frame", pose.at("frame")}, {"stamp", pose.at("stamp")}}.dump());
+  const Json status = hear(page, "status", [](const Json& j) { return !j.at("latency").is_null(); });
+  EXPECT_GT(status.at("latency").at("median").get<double>(), 0.0);
+  EXPECT_TRUE(program.report().latency);
+}
+
+TEST_F(Program, RecordsAndHandsOutTheFiles) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  page.say(R"({"type":"record","on":true})");
+  hear(page, "status",
+       [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 10; });
+  page.say(R"({"type":"record","on":false})");
+  const Json status = hear(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
+  const Json& recording = status.at("recordings").at(0);
+  EXPECT_EQ(recording.at("number"), 1);
+  ASSERT_GE(recording.at("files").size(), 4U);
+  for (const Json& file : recording.at("files")) {
+    const std::string bytes = get(program.port(), "/recordings/1/" + file.at("name").get<std::string>(), 200);
+    EXPECT_EQ(bytes.size(), file.at("bytes").get<std::size_t>()) << file.at("name");
+    EXPECT_GT(bytes.size(), 100U);
+  }
+  get(program.port(), "/recordings/1/nothing.bvh", 404);
+  get(program.port(), "/recordings/2/motion.bvh", 404);
+  get(program.port(), "/recordings/1/../../live.json", 400);
+  page.say(R"({"type":"forget","recording":1})");
+  hear(page, "status", [](const Json& j) { return j.at("recordings").empty(); });
+  get(program.port(), "/recordings/1/motion.bvh", 404);
+}
+
+TEST_F(Program, EveryLookIsAnAvatar) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  const Json hello = hear(page, "hello");
+  ASSERT_FALSE(hello.at("looks").empty());
+  for (const Json& look : hello.at("looks")) {
+    EXPECT_EQ(get(program.port(), "/avatars/" + look.get<std::string>() + ".vrm", 200).substr(0, 4), "glTF");
+  }
+  get(program.port(), "/avatars/nobody.vrm", 404);
+}
+
+TEST_F(Program, OutputsComeAndGo) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
+  hear(page, "status", [](const Json& j) {
+    return j.at("outputs").size() == 1 && j.at("outputs").at(0).at("url") == "vmc://localhost:39539";
+  });
+  page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
+  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; })
+                    .at("words")
+                    .get<std::string>()
+                    .find("already") == std::string::npos,
+            false);
+  page.say(R"({"type":"output","add":"carrier-pigeon://coop"})");
+  hear(page, "message", [](const Json& j) { return j.at("level") == "error"; });
+  page.say(R"({"type":"output","remove":"vmc://localhost:39539"})");
+  hear(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
+}
+
+TEST_F(Program, NonsenseIsAnsweredAndThePageGoesOn) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  page.say("{{{");
+  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; })
+                .at("words")
+                .get<std::string>()
+                .empty(),
+            false);
+  page.say(R"({"type":"ping","id":7})");
+  EXPECT_EQ(hear(page, "pong").at("id"), 7);
+}
+
+TEST_F(Program, AHiddenPageGetsNoPictures) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  page.say(R"({"type":"pictures","on":false})");
+  page.say(R"({"type":"ping","id":1})");
+  hear(page, "pong");
+  for (int i = 0; i < 50; ++i) {
+    const auto message = page.message();
+    ASSERT_TRUE(message);
+    // What was under way when the page asked may still come.
+    if (i > 10) {
+      EXPECT_EQ(message->opcode, SocketClient::text);
+    }
+  }
+}
+
+TEST_F(Program, APortThatIsTakenIsAnError) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  LiveOptions second = options();
+  second.web.port = program.port();
+  try {
+    const LiveProgram refused(second, camera_of(somebody()), {});
+    FAIL() << "two programs at one port";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find(std::to_string(program.port())), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(Program, AnOutputThatCannotBeIsAnErrorAtTheStart) {
+  LiveOptions wrong = options();
+  wrong.send = {"vmc://"};
+  EXPECT_THROW(LiveProgram(wrong, camera_of(somebody()), {}), Error);
+}
+
+}  // namespace
+}  // namespace telemime

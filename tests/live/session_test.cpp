@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "live/scripted_source.h"
+#include "support/list_source.h"
+#include "telemime/live/live_session.h"
+#include "telemime/pipeline/set_up.h"
+#include "telemime/smoothing/smoother.h"
+
+namespace telemime {
+namespace {
+
+using live_testing::camera_of;
+using live_testing::empty_room;
+using live_testing::person;
+using live_testing::quick_request;
+using live_testing::Scene;
+
+// What a session said, to be waited for.
+class Heard {
+ public:
+  LiveHooks hooks() {
+    LiveHooks hooks;
+    hooks.motion = [this](const MotionFrame& frame, double) { note([&] { motion.push_back(frame); }); };
+    hooks.person = [this](const StreamHeader&) { note([&] { ++persons; }); };
+    hooks.picture = [this](const Frame&) { note([&] { ++pictures; }); };
+    hooks.message = [this](const std::string& words) { note([&] { messages += words + "\n"; }); };
+    return hooks;
+  }
+  /// True as soon as `done` is; false after a minute.
+  template <typename Done>
+  bool wait(const Done& done) {
+    std::unique_lock lock(mutex_);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!done()) {
+      if (changed_.wait_until(
+              lock, std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(5))) ==
+              std::cv_status::timeout &&
+          std::chrono::steady_clock::now() > deadline) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<MotionFrame> motion;
+  int persons = 0;
+  int pictures = 0;
+  std::string messages;
+
+ private:
+  template <typename Change>
+  void note(const Change& change) {
+    {
+      const std::lock_guard lock(mutex_);
+      change();
+    }
+    changed_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+};
+
+std::vector<Frame> several_times(int times) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < times; ++i) {
+    frames.insert(frames.end(), person().begin(), person().end());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].index = static_cast<std::int64_t>(i);
+    frames[i].time = static_cast<double>(i) / 25.0;
+  }
+  return frames;
+}
+
+TEST(LiveSession, WithoutDroppedFramesGivesWhatATrackerGives) {
+  const ScratchFolder folder;
+  const TrackRequest request = quick_request(folder);
+  const std::vector<Frame> frames = several_times(3);
+  Heard heard;
+  {
+    LiveSession session(request, true, std::make_unique<support::ListSource>(frames), heard.hooks());
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  }
+  const support::ListSource source(frames);
+  std::vector<std::string> messages;
+  const auto tracker = make_tracker(request, source.info(), messages);
+  tracker->learn_background(empty_room());
+  std::unique_ptr<Smoother> smoother;
+  std::vector<MotionFrame> expected;
+  for (const Frame& frame : frames) {
+    const TrackedFrame result = tracker->step(frame);
+    if (tracker->calibration() && !smoother) {
+      smoother = make_smoother(request.config.smoothing, tracker->model().body, tracker->camera());
+    }
+    if (smoother) {
+      expected.push_back((*smoother)(result.motion));
+    }
+  }
+  ASSERT_GT(expected.size(), 10U);
+  ASSERT_EQ(heard.motion.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(heard.motion[i].frame, expected[i].frame);
+    EXPECT_EQ(heard.motion[i].state, expected[i].state);
+    EXPECT_EQ(heard.motion[i].pose.vector(), expected[i].pose.vector()) << i;
+  }
+  EXPECT_EQ(heard.persons, 1);
+  EXPECT_EQ(heard.pictures, static_cast<int>(frames.size()));
+}
+
+TEST(LiveSession, GuidesFromTheEmptyRoomToTracking) {
+  const ScratchFolder folder;
+  TrackRequest request = quick_request(folder);
+  request.background.clear();
+  const auto scene = std::make_shared<Scene>();
+  scene->show(empty_room());
+  Heard heard;
+  LiveSession session(request, true, camera_of(scene), heard.hooks());
+  ASSERT_TRUE(heard.wait([&] { return heard.pictures > 3; }))
+      << "the picture is seen before anything is learned";
+  EXPECT_EQ(session.state().phase, LivePhase::empty_room);
+  session.guide(GuideStep::empty);
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
+  scene->show(person());
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
+      << session.state().words;
+  EXPECT_EQ(heard.persons, 1);
+  session.recalibrate();
+  ASSERT_TRUE(heard.wait([&] { return heard.persons == 2; }));
+  scene->show(empty_room());
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::lost; }));
+  session.guide(GuideStep::again);
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::empty_room; }));
+}
+
+TEST(LiveSession, WithoutAGuideLearnsFromTheFirstPictures) {
+  const ScratchFolder folder;
+  TrackRequest request = quick_request(folder);
+  request.background.clear();
+  const auto scene = std::make_shared<Scene>();
+  scene->show(empty_room());
+  Heard heard;
+  const LiveSession session(request, false, camera_of(scene), heard.hooks());
+  EXPECT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
+  EXPECT_NE(heard.messages.find("background: "), std::string::npos);
+}
+
+TEST(LiveSession, StopsWhileTheCameraIsSilent) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  {
+    const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+    ASSERT_TRUE(heard.wait([&] { return heard.pictures > 0; }));
+    scene->show({});
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
+    scene->show(person());
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
+        << "it goes on by itself";
+    scene->show({});
+  }
+}
+
+TEST(LiveSession, TheEndOfTheCameraIsTold) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+  ASSERT_TRUE(heard.wait([&] { return !heard.motion.empty(); }));
+  scene->end();
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  EXPECT_EQ(session.state().words, "the cable is out");
+}
+
+}  // namespace
+}  // namespace telemime

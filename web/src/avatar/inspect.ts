@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// A look at a file before it is given to the 3-D library: is it an avatar that can be driven? If not, why, in words.
+
+export const MAX_BYTES = 200 * 1024 * 1024;
+
+/** What VRM 1.0 requires; VRM 0.x files have them all. */
+export const REQUIRED_BONES = [
+  "hips",
+  "spine",
+  "head",
+  "leftUpperArm",
+  "leftLowerArm",
+  "leftHand",
+  "rightUpperArm",
+  "rightLowerArm",
+  "rightHand",
+  "leftUpperLeg",
+  "leftLowerLeg",
+  "leftFoot",
+  "rightUpperLeg",
+  "rightLowerLeg",
+  "rightFoot",
+] as const;
+
+export interface Facts {
+  version: "0" | "1";
+  title: string;
+  author: string;
+}
+
+/** Why a file cannot be an avatar; `message` is for the person to read. */
+export class AvatarError extends Error {}
+
+type Json = Record<string, unknown>;
+const isObject = (v: unknown): v is Json => typeof v === "object" && v !== null && !Array.isArray(v);
+const text = (v: unknown): string => (typeof v === "string" ? v.trim().slice(0, 80) : "");
+
+export function checkSize(bytes: number): void {
+  if (bytes > MAX_BYTES) {
+    const mb = Math.round(bytes / 1024 / 1024);
+    throw new AvatarError(`This file has ${mb} MB. An avatar may have up to 200 MB.`);
+  }
+}
+
+/** The bone as people say it: "left upper arm". */
+export function boneWords(bone: string): string {
+  return bone.replace(/[A-Z]/g, (c) => " " + c.toLowerCase());
+}
+
+function readJson(data: ArrayBuffer): Json {
+  const broken = "The file is broken or was cut off. Try to export or download it again.";
+  if (data.byteLength < 20) throw new AvatarError("This is not a VRM avatar: the file is too short.");
+  const view = new DataView(data);
+  if (view.getUint32(0, true) !== 0x46546c67) {
+    throw new AvatarError("This is not a VRM avatar. Choose a file that ends in .vrm.");
+  }
+  if (view.getUint32(4, true) !== 2)
+    throw new AvatarError("This file is in an old form of glTF that cannot be read.");
+  const length = view.getUint32(12, true);
+  if (view.getUint32(8, true) > data.byteLength || 20 + length > data.byteLength)
+    throw new AvatarError(broken);
+  if (view.getUint32(16, true) !== 0x4e4f534a) throw new AvatarError(broken);
+  try {
+    const json: unknown = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 20, length)));
+    if (isObject(json)) return json;
+  } catch {
+    // said below
+  }
+  throw new AvatarError(broken);
+}
+
+function refuseOutsideFiles(json: Json): void {
+  for (const key of ["buffers", "images"]) {
+    const items = json[key];
+    if (!Array.isArray(items)) continue;
+    for (const item of items) {
+      if (isObject(item) && typeof item.uri === "string" && !item.uri.startsWith("data:")) {
+        throw new AvatarError("This avatar needs other files beside it. Export it as one single .vrm file.");
+      }
+    }
+  }
+}
+
+function bonesOf(json: Json, version: "0" | "1"): Set<string> {
+  const extensions = json.extensions as Json;
+  const part = extensions[version === "1" ? "VRMC_vrm" : "VRM"];
+  const humanoid = isObject(part) && isObject(part.humanoid) ? part.humanoid : {};
+  const count = Array.isArray(json.nodes) ? json.nodes.length : 0;
+  const found = new Set<string>();
+  const add = (bone: unknown, entry: unknown) => {
+    const node = isObject(entry) ? entry.node : undefined;
+    if (
+      typeof bone === "string" &&
+      Number.isInteger(node) &&
+      (node as number) >= 0 &&
+      (node as number) < count
+    ) {
+      found.add(bone);
+    }
+  };
+  const bones = humanoid.humanBones;
+  if (version === "1" && isObject(bones)) for (const [bone, entry] of Object.entries(bones)) add(bone, entry);
+  if (version === "0" && Array.isArray(bones))
+    for (const entry of bones) add(isObject(entry) && entry.bone, entry);
+  return found;
+}
+
+/** What kind of avatar this is; throws AvatarError when it is none that can be driven. */
+export function inspect(data: ArrayBuffer): Facts {
+  checkSize(data.byteLength);
+  const json = readJson(data);
+  const extensions = isObject(json.extensions) ? json.extensions : {};
+  const version = isObject(extensions.VRMC_vrm) ? "1" : isObject(extensions.VRM) ? "0" : null;
+  if (!version)
+    throw new AvatarError("This is a 3-D model, but not a VRM avatar: it does not say which bone is which.");
+  refuseOutsideFiles(json);
+  const bones = bonesOf(json, version);
+  const missing = REQUIRED_BONES.filter((b) => !bones.has(b)).map(boneWords);
+  if (missing.length > 0) {
+    const some =
+      missing.slice(0, 3).join(", ") + (missing.length > 3 ? ` and ${missing.length - 3} more` : "");
+    throw new AvatarError(
+      `This avatar cannot be moved: it lacks ${missing.length > 1 ? "the bones" : "the bone"} ${some}.`,
+    );
+  }
+  const part = extensions[version === "1" ? "VRMC_vrm" : "VRM"] as Json;
+  const meta = isObject(part.meta) ? part.meta : {};
+  const authors = Array.isArray(meta.authors) ? meta.authors.map(text).filter(Boolean).join(", ") : "";
+  return {
+    version,
+    title: text(version === "1" ? meta.name : meta.title),
+    author: version === "1" ? authors : text(meta.author),
+  };
+}

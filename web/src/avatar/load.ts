@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// A VRM file to an avatar that stands in the scene, facing +z.
+
+import { VRMLoaderPlugin, VRMUtils, type VRM, type VRMHumanBoneName } from "@pixiv/three-vrm";
+import {
+  Box3,
+  Mesh,
+  MeshLambertMaterial,
+  MeshStandardMaterial,
+  Quaternion,
+  Vector3,
+  type Material,
+  type Object3D,
+} from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { drawsInSoftware } from "../graphics";
+import type { Quat, Vec3 } from "../quaternion";
+import { foldMissing } from "./fold";
+import { AvatarError, inspect, type Facts } from "./inspect";
+
+export interface BoneReading {
+  /** Rotation parent from bone of the normalised skeleton (T-pose, facing +z), as in a pose message. */
+  local: Quat;
+  /** Turn of the file's own bone since the T-pose, in the world (y up, the avatar faces +z). */
+  world: Quat;
+  /** Of the file's own bone, m, in the world. */
+  position: Vec3;
+}
+
+export class Avatar {
+  readonly scene: Object3D;
+  readonly hipHeight: number; // m
+  readonly headHeight: number; // m: the head bone
+  readonly top: number; // m
+  readonly hasSprings: boolean;
+  private readonly restWorld = new Map<string, Quaternion>();
+  private readonly restHips: Vector3;
+  /** VRM 0.x faces -z in its own frame: x and z change sign. */
+  private readonly flip: 1 | -1;
+
+  constructor(
+    private readonly vrm: VRM,
+    readonly facts: Facts,
+  ) {
+    this.scene = vrm.scene;
+    this.flip = facts.version === "0" ? -1 : 1;
+    vrm.humanoid.resetNormalizedPose();
+    vrm.update(0);
+    vrm.scene.updateMatrixWorld(true);
+    for (const bone of this.boneNames) {
+      const raw = vrm.humanoid.getRawBoneNode(bone);
+      if (raw) this.restWorld.set(bone, raw.getWorldQuaternion(new Quaternion()));
+    }
+    this.restHips = this.node("hips")!.position.clone();
+    this.hipHeight = vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(new Vector3()).y;
+    this.headHeight = vrm.humanoid.getRawBoneNode("head")!.getWorldPosition(new Vector3()).y;
+    this.top = new Box3().setFromObject(vrm.scene, true).max.y;
+    this.hasSprings = (vrm.springBoneManager?.joints.size ?? 0) > 0;
+  }
+
+  private node(bone: string): Object3D | null {
+    return this.vrm.humanoid.getNormalizedBoneNode(bone as VRMHumanBoneName);
+  }
+
+  private get boneNames(): VRMHumanBoneName[] {
+    return Object.keys(this.vrm.humanoid.humanBones) as VRMHumanBoneName[];
+  }
+
+  /** `hips`: the way from the T-pose as a part of the hips' height; `dt` in seconds, for hair and clothes. */
+  show(bones: ReadonlyMap<string, Quat>, hips: Vec3, dt: number): void {
+    const f = this.flip;
+    for (const [bone, q] of foldMissing(bones, (b) => this.node(b) !== null)) {
+      this.node(bone)!.quaternion.set(f * q[0], q[1], f * q[2], q[3]);
+    }
+    const s = this.hipHeight;
+    this.node("hips")!.position.set(
+      this.restHips.x + f * s * hips[0],
+      this.restHips.y + s * hips[1],
+      this.restHips.z + f * s * hips[2],
+    );
+    this.vrm.update(dt);
+  }
+
+  /** Where the hips are now; m, world. */
+  hipsPosition(out: Vector3): Vector3 {
+    return this.vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(out);
+  }
+
+  read(): Record<string, BoneReading> {
+    this.vrm.scene.updateMatrixWorld(true);
+    const out: Record<string, BoneReading> = {};
+    for (const bone of this.boneNames) {
+      const rest = this.restWorld.get(bone);
+      const raw = this.vrm.humanoid.getRawBoneNode(bone);
+      const n = this.node(bone);
+      if (!rest || !raw || !n) continue;
+      const world = raw.getWorldQuaternion(new Quaternion()).multiply(rest.clone().invert());
+      const p = raw.getWorldPosition(new Vector3());
+      out[bone] = {
+        local: [this.flip * n.quaternion.x, n.quaternion.y, this.flip * n.quaternion.z, n.quaternion.w],
+        world: [world.x, world.y, world.z, world.w],
+        position: [p.x, p.y, p.z],
+      };
+    }
+    return out;
+  }
+
+  dispose(): void {
+    VRMUtils.deepDispose(this.vrm.scene);
+  }
+}
+
+/** The same colours without gloss, at a part of the cost. Toon materials stay: they are much of how an avatar looks. */
+function cheap(material: Material | Material[]): Material | Material[] {
+  if (Array.isArray(material)) return material.map((m) => cheap(m) as Material);
+  if (!(material instanceof MeshStandardMaterial)) return material;
+  const {
+    color,
+    map,
+    emissive,
+    emissiveMap,
+    alphaMap,
+    alphaTest,
+    transparent,
+    opacity,
+    side,
+    vertexColors,
+    name,
+  } = material;
+  const out = new MeshLambertMaterial({
+    color,
+    map,
+    emissive,
+    emissiveMap,
+    alphaMap,
+    alphaTest,
+    transparent,
+    opacity,
+    side,
+    vertexColors,
+  });
+  out.name = name;
+  return out;
+}
+
+/** Throws AvatarError, in words, when the file cannot be used. */
+export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
+  const facts = inspect(data);
+  const loader = new GLTFLoader();
+  loader.register((parser) => new VRMLoaderPlugin(parser));
+  let vrm: VRM | undefined;
+  try {
+    const gltf = await loader.parseAsync(data, "");
+    vrm = gltf.userData.vrm as VRM | undefined;
+    if (!vrm) throw new Error("no VRM in the file");
+    VRMUtils.rotateVRM0(vrm);
+    VRMUtils.combineSkeletons(gltf.scene);
+    vrm.scene.traverse((o) => {
+      o.frustumCulled = false; // bounds are those of the T-pose
+      if (drawsInSoftware() && o instanceof Mesh) o.material = cheap(o.material);
+    });
+    return new Avatar(vrm, facts);
+  } catch (e) {
+    if (vrm) VRMUtils.deepDispose(vrm.scene);
+    console.warn("avatar:", e);
+    throw new AvatarError("The file is broken: its 3-D model could not be built.");
+  }
+}

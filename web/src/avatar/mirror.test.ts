@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { about, multiply, rotate, type Quat } from "../quaternion";
+import { mirrorBone, mirrorBones, mirrorPosition, mirrorRotation } from "./mirror";
+
+describe("the mirror", () => {
+  it("swaps left and right, and only those", () => {
+    expect(mirrorBone("leftUpperArm")).toBe("rightUpperArm");
+    expect(mirrorBone("rightHand")).toBe("leftHand");
+    expect(mirrorBone("spine")).toBe("spine");
+  });
+  it("undoes itself", () => {
+    const bones = new Map<string, Quat>([
+      ["leftHand", multiply(about("x", 0.3), about("y", 1))],
+      ["hips", about("z", -0.4)],
+    ]);
+    expect(mirrorBones(mirrorBones(bones))).toEqual(bones);
+  });
+  it("is a reflection: turning the reflected vector gives the reflected turned vector", () => {
+    const q = multiply(about("z", 0.7), multiply(about("y", -1.2), about("x", 0.5)));
+    const v = [0.3, -0.8, 0.5] as const;
+    const a = rotate(mirrorRotation(q), mirrorPosition(v));
+    const b = mirrorPosition(rotate(q, v));
+    a.forEach((x, i) => expect(x).toBeCloseTo(b[i]!, 12));
+  });
+  it("makes a left arm that points forward a right arm that points forward", () => {
+    const left = about("y", -Math.PI / 2); // +x to +z
+    expect(rotate(left, [1, 0, 0])[2]).toBeCloseTo(1, 12);
+    const right = mirrorBones(new Map([["leftUpperArm", left]])).get("rightUpperArm")!;
+    expect(rotate(right, [-1, 0, 0])[2]).toBeCloseTo(1, 12);
+  });
+});

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The place where the avatar stands: light, floor, camera, and the loop's one step.
+
+import {
+  CanvasTexture,
+  CircleGeometry,
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  Mesh,
+  MeshBasicMaterial,
+  PerspectiveCamera,
+  Scene,
+  Spherical,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { drawsInSoftware } from "../graphics";
+import type { Shown } from "./driver";
+import type { Avatar } from "./load";
+import { Resolution } from "./resolution";
+
+const FOV = 26; // degrees, vertical
+const SLOW_BREATH = 0.1; // s between pictures of an avatar at rest, in software
+
+/** A soft round spot, for the floor and the shadow. */
+function spot(inner: string, outer: string, from: number): CanvasTexture {
+  const c = document.createElement("canvas");
+  c.width = c.height = 128;
+  const g = c.getContext("2d")!;
+  const r = g.createRadialGradient(64, 64, from, 64, 64, 64);
+  r.addColorStop(0, inner);
+  r.addColorStop(1, outer);
+  g.fillStyle = r;
+  g.fillRect(0, 0, 128, 128);
+  const t = new CanvasTexture(c);
+  t.colorSpace = SRGBColorSpace;
+  return t;
+}
+
+export class Stage {
+  /** Every picture costs a lot: fewer and coarser ones. */
+  readonly software: boolean;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(FOV, 1, 0.05, 60);
+  private readonly controls: OrbitControls;
+  private readonly resolution: Resolution;
+  private readonly floor: Mesh<CircleGeometry, MeshBasicMaterial>;
+  private readonly shadow: Mesh<CircleGeometry, MeshBasicMaterial>;
+  private readonly scratch = new Vector3();
+  private avatar: Avatar | null = null;
+  private dirty = true;
+  private touched = false;
+  private lastStep: number | null = null;
+  private drewLast = false;
+  private lastDraw = 0;
+  private draws = 0;
+  private contextLost = false;
+
+  /** Throws when the browser has no WebGL. */
+  constructor(
+    canvas: HTMLCanvasElement,
+    private readonly box: HTMLElement,
+  ) {
+    this.software = drawsInSoftware();
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: !this.software,
+      alpha: true,
+      powerPreference: "high-performance",
+    });
+    this.resolution = new Resolution(window.devicePixelRatio || 1, this.software);
+    this.renderer.setClearColor(new Color(0, 0, 0), 0);
+
+    const key = new DirectionalLight(0xffffff, 2.2);
+    key.position.set(0.8, 1.6, 2.2);
+    const rim = new DirectionalLight(0xdfe9ff, 0.7);
+    rim.position.set(-1.5, 1.2, -1.8);
+    this.scene.add(new HemisphereLight(0xffffff, 0x8a8f98, 1.35), key, rim);
+
+    const flat = { transparent: true, depthWrite: false };
+    this.floor = new Mesh(
+      new CircleGeometry(1.3, 48),
+      new MeshBasicMaterial({
+        ...flat,
+        map: spot("rgba(255,255,255,1)", "rgba(255,255,255,0)", 8),
+        opacity: 0.16,
+      }),
+    );
+    this.shadow = new Mesh(
+      new CircleGeometry(0.42, 32),
+      new MeshBasicMaterial({ ...flat, map: spot("rgba(0,0,0,0.55)", "rgba(0,0,0,0)", 2) }),
+    );
+    for (const m of [this.floor, this.shadow]) m.rotation.x = -Math.PI / 2;
+    this.shadow.position.y = 0.002;
+    this.floor.renderOrder = -2;
+    this.shadow.renderOrder = -1;
+    this.scene.add(this.floor, this.shadow);
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.minDistance = 0.4;
+    this.controls.maxDistance = 12;
+    this.controls.addEventListener("change", () => (this.dirty = true));
+    this.controls.addEventListener("start", () => (this.touched = true));
+    canvas.addEventListener("keydown", (e) => this.key(e));
+    canvas.addEventListener("webglcontextlost", (e) => {
+      e.preventDefault();
+      this.contextLost = true;
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.contextLost = false;
+      this.dirty = true;
+    });
+    new ResizeObserver(() => this.resize()).observe(box);
+    this.resize();
+    this.resetView();
+  }
+
+  get current(): Avatar | null {
+    return this.avatar;
+  }
+
+  get pictures(): number {
+    return this.draws;
+  }
+
+  get ratio(): number {
+    return this.renderer.getPixelRatio();
+  }
+
+  setAvatar(avatar: Avatar): void {
+    if (this.avatar) {
+      this.scene.remove(this.avatar.scene);
+      this.avatar.dispose();
+    }
+    this.avatar = avatar;
+    this.scene.add(avatar.scene);
+    this.resetView();
+  }
+
+  /** From the front, the upper body and raised hands in the picture. */
+  resetView(): void {
+    this.touched = false;
+    this.frameAvatar();
+  }
+
+  private frameAvatar(): void {
+    const hips = this.avatar?.hipHeight ?? 0.95;
+    const top = this.avatar?.top ?? 1.7;
+    const arm = 0.5 * top; // half of the span, about
+    const low = hips * 0.78;
+    const high = top + 0.1 * top;
+    const half = Math.max((high - low) / 2, (arm * 1.22) / Math.max(0.5, this.camera.aspect));
+    const distance = half / Math.tan(((FOV / 2) * Math.PI) / 180);
+    const middle = (low + high) / 2;
+    this.controls.target.set(0, middle, 0);
+    this.camera.position.set(0, middle + 0.03 * distance, distance + 0.2);
+    this.controls.update();
+    this.dirty = true;
+  }
+
+  /** Arrow keys turn, plus and minus come closer or go away, Home looks from the front. */
+  private key(e: KeyboardEvent): void {
+    if (e.ctrlKey || e.altKey || e.metaKey) return;
+    const turn: Record<string, [number, number]> = {
+      ArrowLeft: [-0.12, 0],
+      ArrowRight: [0.12, 0],
+      ArrowUp: [0, -0.08],
+      ArrowDown: [0, 0.08],
+    };
+    const zoom: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1.1 };
+    const s = new Spherical().setFromVector3(
+      this.scratch.copy(this.camera.position).sub(this.controls.target),
+    );
+    if (turn[e.key]) {
+      s.theta += turn[e.key]![0];
+      s.phi = Math.min(Math.PI - 0.05, Math.max(0.05, s.phi + turn[e.key]![1]));
+    } else if (zoom[e.key]) {
+      s.radius = Math.min(
+        this.controls.maxDistance,
+        Math.max(this.controls.minDistance, s.radius * zoom[e.key]!),
+      );
+    } else if (e.key === "Home") {
+      this.resetView();
+      e.preventDefault();
+      return;
+    } else {
+      return;
+    }
+    e.preventDefault();
+    this.touched = true;
+    this.camera.position.copy(this.controls.target).add(this.scratch.setFromSpherical(s));
+    this.controls.update();
+    this.dirty = true;
+  }
+
+  private resize(): void {
+    const w = Math.max(1, this.box.clientWidth);
+    const h = Math.max(1, this.box.clientHeight);
+    this.renderer.setPixelRatio(this.resolution.ratio);
+    this.renderer.setSize(w, h, false);
+    this.camera.aspect = w / h;
+    this.camera.updateProjectionMatrix();
+    if (!this.touched) this.frameAvatar();
+    this.dirty = true;
+  }
+
+  /** Shows this; true when a picture was drawn (nothing is drawn when nothing moved). `now` in seconds. */
+  draw(shown: Shown, now: number): boolean {
+    const since = this.lastStep === null ? 0 : now - this.lastStep;
+    this.lastStep = now;
+    const inARow = this.drewLast;
+    this.drewLast = false;
+    if (this.contextLost || !this.avatar) return false;
+    if (!shown.moving && !this.dirty && !this.avatar.hasSprings) return false;
+    if (this.software && shown.rest === 1 && !this.dirty && now - this.lastDraw < SLOW_BREATH) return false;
+    const dt = Math.min(0.1, now - this.lastDraw);
+    this.lastDraw = now;
+    this.avatar.show(shown.bones, shown.hips, dt);
+    const hips = this.avatar.hipsPosition(this.scratch);
+    this.shadow.position.x = hips.x;
+    this.shadow.position.z = hips.z;
+    this.dirty = false;
+    this.renderer.render(this.scene, this.camera);
+    this.draws++;
+    this.drewLast = true;
+    if (inARow && this.resolution.drew(since * 1000)) {
+      this.resize(); // which clears the canvas
+      this.renderer.render(this.scene, this.camera);
+      this.dirty = false;
+    }
+    return true;
+  }
+}

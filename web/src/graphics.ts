@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+
+let software: boolean | null = null;
+
+/**
+ * Whether the browser draws without a graphics card. Every picture then costs a lot of processor time, which the
+ * tracker needs: views draw less often and simpler. Asked once, of a context of its own.
+ */
+export function drawsInSoftware(): boolean {
+  if (software !== null) return software;
+  software = false;
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return software;
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  software = /swiftshader|llvmpipe|softpipe|basic render|software/i.test(name);
+  return software;
+}

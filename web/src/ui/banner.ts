@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// No connection: says so, and when the next try is.
+
+import type { ConnectionState } from "../connection";
+import { button, byId } from "./dom";
+
+export class Banner {
+  private readonly box = byId("banner", HTMLElement);
+  private timer = 0;
+  private state: ConnectionState = { kind: "connecting" };
+  private failed = false;
+
+  constructor(tryNow: () => void) {
+    button("banner-try", tryNow);
+  }
+
+  setState(s: ConnectionState): void {
+    this.state = s;
+    if (s.kind === "open") this.failed = false;
+    if (s.kind === "lost") this.failed = true;
+    this.box.hidden = !this.failed;
+    window.clearInterval(this.timer);
+    if (!this.failed) return;
+    this.show();
+    if (s.kind === "lost") this.timer = window.setInterval(() => this.show(), 500);
+  }
+
+  private show(): void {
+    const seconds =
+      this.state.kind === "lost" ? Math.ceil((this.state.retryAt - performance.now()) / 1000) : 0;
+    const when = seconds > 1 ? `Trying again in ${seconds} s.` : "Trying again.";
+    // The alert is read once; the seconds that run down are not.
+    const words = byId("banner-words", HTMLElement);
+    if (!words.firstChild) {
+      const what = document.createElement("b");
+      what.textContent = "No connection to Telemime. ";
+      const rest = document.createElement("span");
+      rest.setAttribute("aria-hidden", "true");
+      words.append(what, "Is the program still running? ", rest);
+    }
+    words.lastElementChild!.textContent = when;
+  }
+}

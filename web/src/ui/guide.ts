@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guided start: step out, step in, done. The program's phase says where we are; the words are large enough to be
+// read from where the person stands.
+
+import type { Command, Phase, Status } from "../protocol";
+import { button, byId } from "./dom";
+
+const COUNT = 5; // s
+const DONE_SHOWN = 2200; // ms
+
+interface Step {
+  number: 1 | 2 | 3;
+  title: string;
+  text: string;
+  figure: "out" | "room" | "in" | "done" | "camera";
+  busy: boolean;
+}
+
+const STEPS: Partial<Record<Phase | "done", Step>> = {
+  opening: { number: 1, title: "Opening the camera", text: "One moment.", figure: "camera", busy: true },
+  empty_room: {
+    number: 1,
+    title: "Step out of the picture",
+    text: "Telemime looks at the empty room first. Start the countdown and walk out, or just wait outside.",
+    figure: "out",
+    busy: false,
+  },
+  background: {
+    number: 1,
+    title: "Looking at the room",
+    text: "Stay out of the picture for a moment.",
+    figure: "room",
+    busy: true,
+  },
+  person: {
+    number: 2,
+    title: "Step in and face the camera",
+    text: "Hold your arms slightly apart from your body and stand still.",
+    figure: "in",
+    busy: false,
+  },
+  done: { number: 3, title: "Done", text: "The avatar follows you now.", figure: "done", busy: false },
+};
+
+export class Guide {
+  private readonly box = byId("guide", HTMLElement);
+  private readonly count = byId("countdown", HTMLElement);
+  private readonly countButton: HTMLButtonElement;
+  private phase: Phase | null = null;
+  private guided = false;
+  private doneUntil = 0;
+  private left = 0;
+  private timer = 0;
+
+  constructor(
+    private readonly send: (c: Command) => boolean,
+    private readonly announce: (words: string) => void,
+    private readonly layout: (guiding: boolean) => void,
+  ) {
+    this.countButton = button("guide-count", () => this.toggleCount());
+    button("guide-now", () => this.empty());
+    button("guide-skip", () => this.skip());
+    button("guide-back", () => this.again());
+  }
+
+  setStatus(s: Status): void {
+    const before = this.phase;
+    this.phase = s.phase;
+    if (s.phase !== "empty_room") this.stopCount();
+    if (s.phase === "person" || s.phase === "background" || s.phase === "empty_room") this.guided = true;
+    if (s.phase === "tracking" && this.guided && before !== null) {
+      this.guided = false;
+      this.doneUntil = performance.now() + DONE_SHOWN;
+      window.setTimeout(() => this.show(""), DONE_SHOWN + 20);
+    }
+    this.show(s.words);
+  }
+
+  /** Starts or stops the countdown, when the room is to be empty. */
+  toggleCount(): void {
+    if (this.phase !== "empty_room") return;
+    if (this.left > 0) {
+      this.stopCount();
+      this.announce("Countdown stopped.");
+      return;
+    }
+    this.left = COUNT;
+    this.tick();
+    this.timer = window.setInterval(() => {
+      this.left--;
+      if (this.left > 0) this.tick();
+      else this.empty();
+    }, 1000);
+  }
+
+  skip(): void {
+    if (this.phase === "empty_room" || this.phase === "background")
+      this.send({ type: "guide", step: "skip" });
+    this.stopCount();
+  }
+
+  again(): void {
+    this.send({ type: "guide", step: "again" });
+  }
+
+  private empty(): void {
+    this.stopCount();
+    if (this.phase === "empty_room") this.send({ type: "guide", step: "empty" });
+  }
+
+  private tick(): void {
+    this.count.hidden = false;
+    this.count.textContent = String(this.left);
+    this.countButton.textContent = "Stop the countdown";
+    this.announce(String(this.left));
+  }
+
+  private stopCount(): void {
+    window.clearInterval(this.timer);
+    this.left = 0;
+    this.count.hidden = true;
+    this.countButton.textContent = `Count down ${COUNT} seconds`;
+  }
+
+  private show(words: string): void {
+    const done = performance.now() < this.doneUntil && this.phase === "tracking";
+    const step = STEPS[done ? "done" : (this.phase ?? "stopped")];
+    const key = step ? step.title : "";
+    byId("guide-words", HTMLElement).textContent = words && words !== step?.title ? words : "";
+    if (this.box.dataset.step === key) return;
+    this.box.dataset.step = key;
+    this.box.hidden = !step;
+    this.layout(Boolean(step));
+    if (!step) return;
+    byId("guide-title", HTMLElement).textContent = step.title;
+    byId("guide-text", HTMLElement).textContent = step.text;
+    this.box.dataset.figure = step.figure;
+    this.box.classList.toggle("busy", step.busy);
+    document.querySelectorAll<HTMLElement>("#guide-steps li").forEach((li, i) => {
+      const n = i + 1;
+      li.dataset.state = n < step.number || done ? "past" : n === step.number ? "now" : "next";
+      if (n === step.number) li.setAttribute("aria-current", "step");
+      else li.removeAttribute("aria-current");
+    });
+    byId("guide-actions", HTMLElement).dataset.phase = this.phase ?? "";
+    this.announce(`${step.title}. ${step.text}`);
+  }
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the motion is sent: the list with its state in words, and adding by address.
+
+import type { Command, Output, Sender } from "../protocol";
+import { byId, h, icon, renderOnce } from "./dom";
+
+const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
+
+/** Colour of the dot: the state's name is free text of the program. */
+function mood(o: Output): "good" | "bad" | "wait" {
+  if (/send|serv|connected|ready|ok|open/i.test(o.state)) return "good";
+  if (/fail|error|refused|dead|lost/i.test(o.state)) return "bad";
+  return "wait";
+}
+
+function facts(o: Output): string {
+  const parts = [`${o.sent} sent`];
+  if (o.dropped > 0) parts.push(`${o.dropped} dropped`);
+  if (o.receivers !== null) parts.push(o.receivers === 1 ? "1 receiver" : `${o.receivers} receivers`);
+  return parts.join(" · ");
+}
+
+export class OutputList {
+  private readonly list = byId("outputs", HTMLElement);
+  private readonly input = byId("output-url", HTMLInputElement);
+  private readonly error = byId("output-error", HTMLElement);
+
+  constructor(private readonly send: (c: Command) => boolean) {
+    byId("output-form", HTMLFormElement).addEventListener("submit", (e) => {
+      e.preventDefault();
+      this.add();
+    });
+    this.input.addEventListener("input", () => this.complain(""));
+  }
+
+  setSenders(senders: readonly Sender[]): void {
+    byId("output-examples", HTMLElement).replaceChildren(
+      ...senders.map((s) => {
+        const b = h(
+          "button",
+          { type: "button", class: "example" },
+          h("code", {}, s.example),
+          h("span", {}, s.summary),
+        );
+        b.addEventListener("click", () => {
+          this.input.value = s.example;
+          this.complain("");
+          this.input.focus();
+        });
+        return h("li", {}, b);
+      }),
+    );
+  }
+
+  setOutputs(outputs: readonly Output[]): void {
+    byId("outputs-empty", HTMLElement).hidden = outputs.length > 0;
+    byId("count-send", HTMLElement).textContent = outputs.length ? String(outputs.length) : "";
+    renderOnce(this.list, outputs.map((o) => `${o.url} ${o.state} ${o.words}`).join("\n"), () =>
+      outputs.map((o) => {
+        const remove = h(
+          "button",
+          {
+            class: "icon-button",
+            "aria-label": `No longer send to ${o.url}`,
+            title: "Remove",
+            "data-focus": o.url,
+          },
+          icon("trash"),
+        );
+        remove.addEventListener("click", () => this.send({ type: "output", remove: o.url }));
+        return h(
+          "li",
+          { class: "row" },
+          h("span", { class: `dot ${mood(o)}` }),
+          h(
+            "div",
+            { class: "row-text" },
+            h("b", { class: "url" }, o.url),
+            h("span", { class: "state-words" }, [o.state, o.words].filter(Boolean).join(": ")),
+            h("span", { class: "soft", "data-facts": "" }, ""),
+          ),
+          remove,
+        );
+      }),
+    );
+    // Counters change all the time: only their text.
+    this.list.querySelectorAll("[data-facts]").forEach((e, i) => {
+      const o = outputs[i];
+      if (o) e.textContent = facts(o);
+    });
+  }
+
+  private add(): void {
+    const url = this.input.value.trim();
+    if (!LOOKS_LIKE_URL.test(url)) {
+      this.complain("An address looks like vmc://localhost:39539. Choose an example and change it.");
+      return;
+    }
+    if (this.send({ type: "output", add: url })) this.input.value = "";
+    else this.complain("There is no connection to Telemime at the moment.");
+  }
+
+  private complain(words: string): void {
+    this.error.textContent = words;
+    this.input.setAttribute("aria-invalid", String(Boolean(words)));
+  }
+}

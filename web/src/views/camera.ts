@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera's picture with what was found in it. The picture comes unmirrored and bare.
+
+import type { Camera, Picture, Pose } from "../protocol";
+import { ellipseInPicture } from "./geometry";
+import { POSES_STOPPED, Pairing } from "./pairing";
+import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
+
+interface Decoded {
+  frame: number;
+  image: ImageBitmap;
+}
+
+export class CameraView {
+  mirrored = true;
+  overlay = true;
+  private readonly g: CanvasRenderingContext2D;
+  private readonly pairing = new Pairing<Decoded, Pose>((p) => p.image.close());
+  private camera: Camera | null = null;
+  private palette: Palette;
+  private waiting: Picture | null = null;
+  private decoding = false;
+  private dirty = true;
+  private changed = true; // settings
+  private shown: ImageBitmap | null = null;
+  private shownPose: Pose | null = null;
+  private posed = -Infinity;
+  private decoded = 0;
+  private broken = 0;
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.g = canvas.getContext("2d", { alpha: false })!;
+    this.palette = readPalette(canvas);
+  }
+
+  get counters(): { decoded: number; broken: number } {
+    return { decoded: this.decoded, broken: this.broken };
+  }
+
+  setCamera(camera: Camera | null): void {
+    this.camera = camera;
+    this.pairing.clear();
+    this.shown = null;
+    if (camera) {
+      this.canvas.width = camera.width;
+      this.canvas.height = camera.height;
+    }
+    this.dirty = this.changed = true;
+  }
+
+  refresh(): void {
+    this.palette = readPalette(this.canvas);
+    this.dirty = this.changed = true;
+  }
+
+  setPose(pose: Pose): void {
+    this.posed = performance.now();
+    this.pairing.pose(pose, this.posed);
+    this.dirty = true;
+  }
+
+  /** Decodes one picture at a time; while it does, only the newest waits. */
+  async setPicture(picture: Picture): Promise<void> {
+    this.waiting = picture;
+    if (this.decoding) return;
+    this.decoding = true;
+    while (this.waiting) {
+      const next: Picture = this.waiting;
+      this.waiting = null;
+      try {
+        this.pairing.picture({ frame: next.frame, image: await createImageBitmap(next.jpeg) });
+        this.decoded++;
+        this.dirty = true;
+      } catch {
+        this.broken++;
+      }
+    }
+    this.decoding = false;
+  }
+
+  /** In an animation frame; draws only when something is new. */
+  draw(): void {
+    const old = this.shownPose !== null && performance.now() - this.posed > POSES_STOPPED + 50;
+    if (!this.dirty && !old) return;
+    const { picture, pose } = this.pairing.pick(performance.now());
+    this.dirty = false;
+    // Picture and pose come one after the other: nothing is new before both are there.
+    if (!this.changed && picture && picture.image === this.shown && pose === this.shownPose) return;
+    this.changed = false;
+    this.shownPose = pose;
+    if (picture) this.shown = picture.image;
+    const image = this.shown;
+    const g = this.g;
+    if (!image || image.width === 0) {
+      g.fillStyle = "#0b0e12";
+      g.fillRect(0, 0, this.canvas.width, this.canvas.height);
+      return;
+    }
+    if (this.canvas.width !== image.width || this.canvas.height !== image.height) {
+      this.canvas.width = image.width;
+      this.canvas.height = image.height;
+    }
+    const { width, height } = this.canvas;
+    g.setTransform(this.mirrored ? -1 : 1, 0, 0, 1, this.mirrored ? width : 0, 0);
+    g.drawImage(image, 0, 0);
+    if (this.overlay && pose?.state === "tracking") this.drawPose(pose, width, height);
+    g.setTransform(1, 0, 0, 1, 0, 0);
+  }
+
+  private drawPose(pose: Extract<Pose, { state: "tracking" }>, width: number, height: number): void {
+    const g = this.g;
+    const sx = width / (this.camera?.width ?? width);
+    const sy = height / (this.camera?.height ?? height);
+    // Pixel (0, 0) of the program is the centre of the first pixel.
+    const at = (joint: string): [number, number] | null => {
+      const p = pose.pixels.get(joint);
+      return p ? [(p[0] + 0.5) * sx, (p[1] + 0.5) * sy] : null;
+    };
+    const unit = Math.max(1, height / 240);
+
+    if (this.camera) {
+      for (const joint of SPREAD_JOINTS) {
+        const s = pose.spread.get(joint);
+        const p = pose.joints.get(joint);
+        const c = at(joint);
+        const e = s && p && ellipseInPicture(p, s, this.camera);
+        if (!e || !c) continue;
+        g.beginPath();
+        g.ellipse(c[0], c[1], Math.max(1, e.major * sx), Math.max(1, e.minor * sy), e.angle, 0, 2 * Math.PI);
+        g.fillStyle = this.palette[sideOf(joint)];
+        g.globalAlpha = 0.2;
+        g.fill();
+        g.globalAlpha = 0.6;
+        g.lineWidth = 0.75 * unit;
+        g.strokeStyle = this.palette[sideOf(joint)];
+        g.stroke();
+      }
+    }
+    g.globalAlpha = 1;
+    g.lineCap = "round";
+    for (const pass of ["under", "over"] as const) {
+      for (const [from, to, side] of LINES) {
+        const a = at(from);
+        const b = at(to);
+        if (!a || !b) continue;
+        g.beginPath();
+        g.moveTo(...a);
+        g.lineTo(...b);
+        g.lineWidth = pass === "under" ? 4 * unit : 2.2 * unit;
+        g.strokeStyle = pass === "under" ? "rgba(8,12,18,0.5)" : this.palette[side];
+        g.stroke();
+      }
+    }
+    for (const [joint] of pose.pixels) {
+      const c = at(joint);
+      if (!c) continue;
+      g.beginPath();
+      g.arc(c[0], c[1], 2.4 * unit, 0, 2 * Math.PI);
+      g.fillStyle = "#fff";
+      g.fill();
+      g.lineWidth = 1.2 * unit;
+      g.strokeStyle = this.palette[sideOf(joint)];
+      g.stroke();
+    }
+  }
+}

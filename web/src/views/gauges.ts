@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// How well it goes: rate, latency, times of the stages, residuals, work of the computer.
+
+import type { Pose, Status } from "../protocol";
+import { byId, h } from "../ui/dom";
+import { Sparkline } from "./sparkline";
+
+const HISTORY = 120; // poses
+const EVERY = 250; // ms between drawings of the history
+
+export const show = (v: number | null | undefined, digits = 0): string =>
+  v === null || v === undefined ? "–" : v.toFixed(digits);
+
+export class Gauges {
+  private readonly F = new Sparkline(byId("spark-f", HTMLCanvasElement), HISTORY, 0.05);
+  private readonly Dc = new Sparkline(byId("spark-dc", HTMLCanvasElement), HISTORY, 0.5);
+  private readonly rate = new Sparkline(byId("spark-rate", HTMLCanvasElement), 60, 4);
+  private readonly latency = new Sparkline(byId("spark-latency", HTMLCanvasElement), 60, 20);
+  private drawn = -Infinity;
+
+  setPose(pose: Pose): void {
+    const t = pose.state === "tracking" ? pose : null;
+    this.F.push(t?.F ?? null);
+    this.Dc.push(t?.Dc ?? null);
+    const now = performance.now();
+    if (now - this.drawn < EVERY) return;
+    this.drawn = now;
+    this.F.draw();
+    this.Dc.draw();
+    this.put("gauge-f", show(t?.F, 3));
+    this.put("gauge-dc", show(t?.Dc, 2));
+  }
+
+  setStatus(s: Status): void {
+    this.rate.push(s.fps.tracked);
+    this.latency.push(s.latency?.median ?? null);
+    this.rate.draw();
+    this.latency.draw();
+    this.put("gauge-tracked", show(s.fps.tracked, 1));
+    this.put("gauge-input", show(s.fps.input));
+    if (s.phase !== "tracking") for (const id of ["gauge-f", "gauge-dc"]) this.put(id, "–");
+    this.put("gauge-dropped", show(s.dropped));
+    this.put("gauge-median", show(s.latency?.median));
+    this.put("gauge-p95", show(s.latency?.p95));
+    this.put("gauge-cpu", show(s.cpu, 2));
+    const bar = byId("cpu-bar", HTMLElement);
+    bar.style.setProperty("--part", String(Math.min(1, (s.cpu ?? 0) / 2)));
+    this.stages(s.ms);
+  }
+
+  private stages(ms: Map<string, number>): void {
+    const parts = [...ms].filter(([name]) => name !== "total");
+    const total = ms.get("total") ?? parts.reduce((sum, [, v]) => sum + v, 0);
+    this.put("gauge-total", parts.length || ms.has("total") ? show(total) : "–");
+    const whole = Math.max(
+      total,
+      parts.reduce((sum, [, v]) => sum + v, 0),
+      1e-9,
+    );
+    byId("stage-bar", HTMLElement).replaceChildren(
+      ...parts.map(([name, v], i) => {
+        const part = h("span", { class: `stage-part s${i % 4}`, title: `${name} ${show(v, 1)} ms` });
+        part.style.width = `${(100 * v) / whole}%`;
+        return part;
+      }),
+    );
+    byId("stage-legend", HTMLElement).replaceChildren(
+      ...parts.map(([name, v], i) =>
+        h(
+          "span",
+          { class: "stage-key" },
+          h("i", { class: `s${i % 4}` }),
+          `${name} `,
+          h("b", {}, show(v, v < 10 ? 1 : 0)),
+        ),
+      ),
+    );
+  }
+
+  private put(id: string, text: string): void {
+    const e = byId(id, HTMLElement);
+    if (e.textContent !== text) e.textContent = text;
+  }
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+
+export type Side = "left" | "right" | "middle";
+
+/** What is drawn of the tracked skeleton; joints are named as in the pose files. */
+export const LINES: readonly (readonly [string, string, Side])[] = [
+  ["root", "neck", "middle"],
+  ["neck", "head", "middle"],
+  ["head", "head_top", "middle"],
+  ["neck", "l_shoulder", "left"],
+  ["l_shoulder", "l_elbow", "left"],
+  ["l_elbow", "l_wrist", "left"],
+  ["l_wrist", "l_hand", "left"],
+  ["neck", "r_shoulder", "right"],
+  ["r_shoulder", "r_elbow", "right"],
+  ["r_elbow", "r_wrist", "right"],
+  ["r_wrist", "r_hand", "right"],
+];
+
+/** Joints whose spread is drawn: those of the arms. */
+export const SPREAD_JOINTS = ["l_elbow", "l_wrist", "r_elbow", "r_wrist"] as const;
+
+export const sideOf = (joint: string): Side =>
+  joint.startsWith("l_") ? "left" : joint.startsWith("r_") ? "right" : "middle";
+
+export type Palette = Record<Side, string>;
+
+/** The colours of the style sheet, for canvases. Read anew when the colour scheme changes. */
+export function readPalette(element: Element): Palette {
+  const style = getComputedStyle(element);
+  const of = (name: string, otherwise: string) => style.getPropertyValue(name).trim() || otherwise;
+  return {
+    left: of("--left", "#4aa8ff"),
+    right: of("--right", "#ff9a3d"),
+    middle: of("--middle", "#f2f5f8"),
+  };
+}

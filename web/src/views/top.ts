@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// The person from above: what one camera cannot see well, the depth, with how sure the tracker is of it.
+// The camera is at the bottom and looks up; x to the right (to the left when mirrored, as in the picture).
+
+import { drawsInSoftware } from "../graphics";
+import type { Camera, Pose, TrackedPose } from "../protocol";
+import type { Vec3 } from "../quaternion";
+import { fitCanvas } from "./fit";
+import { ellipseFromAbove } from "./geometry";
+import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
+
+interface Colours extends Palette {
+  grid: string;
+  text: string;
+  wedge: string;
+  body: string;
+}
+
+/** What part of the floor is shown, mm: x in ±half, z from near to far. */
+interface Window {
+  near: number;
+  far: number;
+  x: number;
+}
+
+export class TopView {
+  mirrored = true;
+  private closeUp = false;
+  private readonly g: CanvasRenderingContext2D;
+  private camera: Camera | null = null;
+  private pose: Pose | null = null;
+  private dirty = true;
+  private drawn = -Infinity;
+  private readonly pause = drawsInSoftware() ? 95 : 30; // ms between drawings
+  private colours: Colours;
+  private window: Window = { near: -200, far: 3000, x: 0 };
+
+  constructor(private readonly canvas: HTMLCanvasElement) {
+    this.g = canvas.getContext("2d")!;
+    this.colours = this.readColours();
+    new ResizeObserver(() => (this.dirty = true)).observe(canvas);
+  }
+
+  get close(): boolean {
+    return this.closeUp;
+  }
+
+  set close(on: boolean) {
+    this.closeUp = on;
+    this.dirty = true;
+  }
+
+  setCamera(camera: Camera | null): void {
+    this.camera = camera;
+    this.dirty = true;
+  }
+
+  setPose(pose: Pose | null): void {
+    this.pose = pose;
+    this.dirty = true;
+  }
+
+  refresh(): void {
+    this.colours = this.readColours();
+    this.dirty = true;
+  }
+
+  private readColours(): Colours {
+    const style = getComputedStyle(this.canvas);
+    const of = (n: string) => style.getPropertyValue(n).trim();
+    return {
+      ...readPalette(this.canvas),
+      middle: of("--ink") || "#333",
+      grid: of("--line") || "#ccc",
+      text: of("--ink-soft") || "#666",
+      wedge: of("--wedge") || "rgba(128,128,128,0.1)",
+      body: of("--ink-soft") || "#888",
+    };
+  }
+
+  draw(): void {
+    const now = performance.now();
+    if (!this.dirty || now - this.drawn < this.pause) return;
+    this.dirty = false;
+    this.drawn = now;
+    const { width, height, ratio } = fitCanvas(this.canvas);
+    if (width < 10 || height < 10) return;
+    const g = this.g;
+    g.setTransform(ratio, 0, 0, ratio, 0, 0);
+    g.clearRect(0, 0, width, height);
+    const pose = this.pose?.state === "tracking" ? this.pose : null;
+    this.follow(pose, width / height);
+    const w = this.window;
+    const scale = height / (w.far - w.near);
+    const sx = this.mirrored ? -1 : 1;
+    const at = (x: number, z: number): [number, number] => [
+      width / 2 + sx * (x - w.x) * scale,
+      height - (z - w.near) * scale,
+    ];
+    this.drawFloor(at, width, height);
+    if (pose) this.drawPerson(pose, at, scale, sx);
+  }
+
+  /** The window follows the person, in steps, so that it does not swim. */
+  private follow(pose: TrackedPose | null, aspect: number): void {
+    if (!pose) {
+      if (!this.closeUp) this.window = { ...this.window, near: -200, x: 0 };
+      return;
+    }
+    const zs = [...pose.joints.values()].map((p) => p[2]);
+    const neck = pose.joints.get("neck") ?? pose.joints.get("root");
+    if (zs.length === 0 || !neck) return;
+    if (this.closeUp) {
+      const span = Math.max(1500, 1900 / aspect);
+      const middle = Math.round((neck[2] - 150) / 100) * 100;
+      this.window = { near: middle - span / 2, far: middle + span / 2, x: Math.round(neck[0] / 100) * 100 };
+      return;
+    }
+    const need = Math.max(...zs) + 350;
+    const far = Math.max(1500, Math.ceil(need / 500) * 500);
+    const keep =
+      !this.closeUp && this.window.far >= need && this.window.far - far <= 500 && this.window.near === -200;
+    this.window = { near: -200, far: keep ? this.window.far : far, x: 0 };
+  }
+
+  private drawFloor(at: (x: number, z: number) => [number, number], width: number, height: number): void {
+    const g = this.g;
+    const { near, far, x: mid } = this.window;
+    const half = ((width / height) * (far - near)) / 2;
+    g.lineWidth = 1;
+    g.font = "11px system-ui, sans-serif";
+    g.textBaseline = "bottom";
+    const step = 500;
+    if (this.camera) {
+      const c = this.camera;
+      const left = (-c.cx / c.fx) * far;
+      const right = ((c.width - c.cx) / c.fx) * far;
+      g.beginPath();
+      g.moveTo(...at(0, 0));
+      g.lineTo(...at(left, far));
+      g.lineTo(...at(right, far));
+      g.closePath();
+      g.fillStyle = this.colours.wedge;
+      g.fill();
+    }
+    for (let z = Math.ceil(near / step) * step; z <= far; z += step) {
+      const y = Math.round(at(0, z)[1]) + 0.5;
+      g.globalAlpha = z % 1000 === 0 ? 1 : 0.5;
+      g.strokeStyle = this.colours.grid;
+      g.beginPath();
+      g.moveTo(0, y);
+      g.lineTo(width, y);
+      g.stroke();
+      g.globalAlpha = 1;
+      if (z > 0 && (z % 1000 === 0 || this.closeUp) && y > 46) {
+        g.fillStyle = this.colours.text;
+        g.textAlign = "right";
+        g.fillText(`${z / 1000} m`, width - 8, y - 2);
+      }
+    }
+    for (let x = Math.ceil((mid - half) / step) * step; x <= mid + half; x += step) {
+      const px = Math.round(at(x, 0)[0]) + 0.5;
+      g.globalAlpha = x % 1000 === 0 ? 1 : 0.5;
+      g.strokeStyle = this.colours.grid;
+      g.beginPath();
+      g.moveTo(px, 0);
+      g.lineTo(px, height);
+      g.stroke();
+    }
+    g.globalAlpha = 1;
+    // The camera itself.
+    const [cx, cy] = at(0, 0);
+    g.fillStyle = this.colours.text;
+    g.beginPath();
+    g.roundRect(cx - 8, cy - 4, 16, 10, 2.5);
+    g.fill();
+    g.beginPath();
+    g.roundRect(cx - 3.5, cy - 8, 7, 6, 1.5);
+    g.fill();
+  }
+
+  private drawPerson(
+    pose: TrackedPose,
+    at: (x: number, z: number) => [number, number],
+    scale: number,
+    sx: number,
+  ): void {
+    const g = this.g;
+    const point = (joint: string): [number, number] | null => {
+      const p: Vec3 | undefined = pose.joints.get(joint);
+      return p ? at(p[0], p[2]) : null;
+    };
+    for (const joint of SPREAD_JOINTS) {
+      const s = pose.spread.get(joint);
+      const c = point(joint);
+      if (!s || !c) continue;
+      const e = ellipseFromAbove(s);
+      // On the canvas x may be mirrored, and z goes up (y goes down).
+      const angle = Math.atan2(-Math.sin(e.angle), sx * Math.cos(e.angle));
+      g.beginPath();
+      g.ellipse(
+        c[0],
+        c[1],
+        Math.max(1, e.major * scale),
+        Math.max(1, e.minor * scale),
+        angle,
+        0,
+        2 * Math.PI,
+      );
+      g.fillStyle = g.strokeStyle = this.colours[sideOf(joint)];
+      g.globalAlpha = 0.18;
+      g.fill();
+      g.globalAlpha = 0.75;
+      g.lineWidth = 1;
+      g.stroke();
+    }
+    g.globalAlpha = 1;
+    g.lineCap = "round";
+    const l = point("l_shoulder");
+    const r = point("r_shoulder");
+    if (l && r) this.line(l, r, Math.max(5, 130 * scale), this.colours.body, 0.45);
+    for (const [from, to, side] of LINES) {
+      if (side === "middle" || from === "neck") continue;
+      const a = point(from);
+      const b = point(to);
+      if (a && b) this.line(a, b, Math.max(2.5, 45 * scale), this.colours[side], 1);
+    }
+    const head = point("head");
+    if (head) {
+      g.beginPath();
+      g.arc(head[0], head[1], Math.max(5, 95 * scale), 0, 2 * Math.PI);
+      g.fillStyle = this.colours.body;
+      g.fill();
+    }
+    for (const joint of ["l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist"]) {
+      const c = point(joint);
+      if (!c) continue;
+      g.beginPath();
+      g.arc(c[0], c[1], 3, 0, 2 * Math.PI);
+      g.fillStyle = "#fff";
+      g.fill();
+      g.lineWidth = 1.5;
+      g.strokeStyle = this.colours[sideOf(joint)];
+      g.stroke();
+    }
+  }
+
+  private line(a: [number, number], b: [number, number], width: number, colour: string, alpha: number): void {
+    const g = this.g;
+    g.globalAlpha = alpha;
+    g.lineWidth = width;
+    g.strokeStyle = colour;
+    g.beginPath();
+    g.moveTo(...a);
+    g.lineTo(...b);
+    g.stroke();
+    g.globalAlpha = 1;
+  }
+}
