@@ -93,7 +93,8 @@ void add_track_command(CLI::App& app) {
   add_track_options(*command, *options);
   command->add_option("--out", options->request.out, "folder of the results")->default_val("telemime-out");
   command->add_option("--calibration", options->request.calibration, "file of `telemime calibrate`");
-  command->add_option("--formats", options->request.formats, "only these: jsonl csv bvh bap glb vrma trc [all]")
+  command
+      ->add_option("--formats", options->request.formats, "only these: jsonl csv bvh bap glb vrma trc [all]")
       ->delimiter(',');
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
                       "signs and units of motion.bap: iso, greta, vreng-3.1, vreng-3.2 [iso]");
