@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_command.h"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <iomanip>
@@ -8,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "data_folder.h"
 #include "telemime/capture/input_kind.h"
@@ -22,13 +25,17 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_requested = 0;
 
+// The second time it ends at once: a camera that hangs is waited for else.
 void on_interrupt(int) {
+  if (interrupt_requested != 0) {
+    ::_exit(128 + SIGINT);
+  }
   interrupt_requested = 1;
 }
 
 struct LiveCommand {
   TrackOptions track;
-  LiveOptions live;
+  LiveRequest live;
   bool unguided = false;
   bool paced = false;
   bool loop = false;
@@ -41,10 +48,11 @@ bool is_file(const std::string& input) {
 }
 
 std::unique_ptr<Source> open_live(const LiveCommand& command, const std::string& input) {
-  if (!is_file(input)) {
-    return open_source(input);
+  if (command.loop) {
+    return pace(loop([input] { return open_source(input); }));
   }
-  return pace(command.loop ? loop([input] { return open_source(input); }) : open_source(input));
+  auto source = open_source(input);
+  return source->info().live ? std::move(source) : pace(std::move(source));  // a clip on a web server, too
 }
 
 void print_report(const LiveReport& report) {
@@ -65,7 +73,7 @@ void print_report(const LiveReport& report) {
   }
 }
 
-// Until the user stops it, the time is over, or a source without a page has ended.
+// Until the user stops it or the time is over; who looks at the page may still want its recordings.
 void wait_for_end(const LiveCommand& command, const LiveProgram& program) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -110,7 +118,9 @@ void run(LiveCommand command) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   LiveProgram program(command.live, open_live(command, input), say);
-  std::cout << "the page: http://localhost:" << program.port() << "   Ctrl-C ends" << std::endl;
+  const std::string& address = command.live.web.address;
+  std::cout << "the page: http://" << (address == WebServerOptions().address ? "localhost" : address) << ':'
+            << program.port() << "   Ctrl-C ends" << std::endl;
   wait_for_end(command, program);
   print_report(program.report());
 }
@@ -126,7 +136,7 @@ void add_live_command(CLI::App& app) {
       "camera index or device, stream URL, file, or demo: the bundled clip [0]");
   command->remove_option(command->get_option("--frames"));
   options->track.request.input = "0";
-  LiveOptions& live = options->live;
+  LiveRequest& live = options->live;
   command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
   command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");
   command->add_flag("--paced", options->paced, "a file behaves like a camera (files always do here)");

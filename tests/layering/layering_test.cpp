@@ -35,6 +35,10 @@ TEST(ThisProject, SourcesAreShortAndLicensed) {
   EXPECT_EQ(as_text(check_sources(this_project)), "");
 }
 
+TEST(ThisProject, NoTwoTypesHaveOneName) {
+  EXPECT_EQ(as_text(check_names(this_project)), "");
+}
+
 TEST(ThisProject, NothingIsLeftUndone) {
   EXPECT_EQ(as_text(check_no_leftovers(this_project)), "");
 }
@@ -64,7 +68,7 @@ class SmallProject : public ::testing::Test {
   /// All violations in one text.
   std::string violations() const {
     return as_text(check_includes(root_)) + as_text(check_architecture_table(root_)) +
-           as_text(check_sources(root_)) + as_text(check_no_leftovers(root_));
+           as_text(check_sources(root_)) + as_text(check_names(root_)) + as_text(check_no_leftovers(root_));
   }
   void expect_violation(const std::string& words) const {
     EXPECT_NE(violations().find(words), std::string::npos) << violations();
@@ -126,6 +130,17 @@ TEST_F(SmallProject, AMissingLicenceLineIsFound) {
   expect_violation("scripts/bare.sh:2: the line SPDX");
   write("scripts/bare.sh", "");
   expect_violation("scripts/bare.sh:1: the line SPDX");
+}
+
+TEST_F(SmallProject, TwoTypesOfOneNameAreFound) {
+  const std::string type = licence("//") + "namespace telemime {\nstruct Options {\n};\n}\n";
+  write("src/telemime/low/options.h", type);
+  EXPECT_EQ(violations(), "");
+  write("src/telemime/high/options.h", type);
+  expect_violation("src/telemime/low/options.h:3: telemime::Options is also the name of another type");
+  write("src/telemime/high/options.h",
+        licence("//") + "namespace telemime::high {\nclass Options final : public Base {\n};\n}\n");
+  EXPECT_EQ(violations(), "") << "another namespace is another name";
 }
 
 TEST_F(SmallProject, ALeftoverIsFoundInAnyTextFile) {

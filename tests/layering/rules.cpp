@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string_view>
@@ -200,6 +201,33 @@ Violations check_sources(const fs::path& root) {
     if (lines.size() <= top || lines[top].find("SPDX-License-Identifier: Apache-2.0") == std::string::npos) {
       violations.push_back(place(root, file, top + 1) +
                            "the line SPDX-License-Identifier: Apache-2.0 is missing");
+    }
+  }
+  return violations;
+}
+
+Violations check_names(const fs::path& root) {
+  static const std::regex space("^namespace ([\\w:]+) \\{");
+  static const std::regex type("^(?:struct|class|enum class) (\\w+)(?: final)?(?: :[^;]*)? \\{");
+  std::map<std::string, std::string> first;
+  Violations violations;
+  for (const fs::path& file : project_files(root / "src" / "telemime")) {
+    if (file.extension() != ".h") {
+      continue;
+    }
+    std::string where;
+    std::smatch found;
+    const std::vector<std::string> lines = lines_of(content_of(file));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (std::regex_search(lines[i], found, space)) {
+        where = found[1];
+      } else if (std::regex_search(lines[i], found, type)) {
+        const auto [other, is_new] = first.emplace(where + "::" + found[1].str(), place(root, file, i + 1));
+        if (!is_new) {
+          violations.push_back(place(root, file, i + 1) + other->first +
+                               " is also the name of another type: " + other->second);
+        }
+      }
     }
   }
   return violations;

@@ -28,6 +28,10 @@ Violations check_architecture_table(const std::filesystem::path& root);
 /// Every source file: at most 400 lines, and an SPDX line at its top (after #! where there is one).
 Violations check_sources(const std::filesystem::path& root);
 
+/// No two headers of the rooms define a type of one name in one namespace: a program that uses both would be
+/// broken, and the linker is silent.
+Violations check_names(const std::filesystem::path& root);
+
 /// No text file says that something is still to be done or mended; such notes belong to an issue.
 Violations check_no_leftovers(const std::filesystem::path& root);
 

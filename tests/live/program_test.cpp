@@ -21,8 +21,8 @@ using Json = nlohmann::json;
 
 class Program : public ::testing::Test {
  protected:
-  LiveOptions options() const {
-    LiveOptions options;
+  LiveRequest options() const {
+    LiveRequest options;
     options.request = quick_request(folder_);
     options.web.port = 0;
     options.recordings = folder_.file("recordings");
@@ -197,7 +197,7 @@ TEST_F(Program, AHiddenPageGetsNoPictures) {
 
 TEST_F(Program, APortThatIsTakenIsAnError) {
   const LiveProgram program(options(), camera_of(somebody()), {});
-  LiveOptions second = options();
+  LiveRequest second = options();
   second.web.port = program.port();
   try {
     const LiveProgram refused(second, camera_of(somebody()), {});
@@ -208,7 +208,7 @@ TEST_F(Program, APortThatIsTakenIsAnError) {
 }
 
 TEST_F(Program, AnOutputThatCannotBeIsAnErrorAtTheStart) {
-  LiveOptions wrong = options();
+  LiveRequest wrong = options();
   wrong.send = {"vmc://"};
   EXPECT_THROW(LiveProgram(wrong, camera_of(somebody()), {}), Error);
 }

@@ -124,6 +124,7 @@ TEST(LiveSession, GuidesFromTheEmptyRoomToTracking) {
       << "the picture is seen before anything is learned";
   EXPECT_EQ(session.state().phase, LivePhase::empty_room);
   session.guide(GuideStep::empty);
+  ASSERT_TRUE(heard.wait([&] { return heard.messages.find("the empty room, from") != std::string::npos; }));
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
   scene->show(person());
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))

@@ -48,7 +48,7 @@ struct Face {
   /// A sheet of columns x rows quads. Mirrored on the other side, where asked.
   void add(const Style& style, int columns, int rows, const Outline& outline, const Closed& closed,
            bool pair) {
-    Surface sheet;
+    Triangles sheet;
     std::vector<Vector3d> blink;
     for (int row = 0; row <= rows; ++row) {
       for (int column = 0; column <= columns; ++column) {

@@ -69,16 +69,16 @@ std::vector<AvatarPart> make_hair(const Figure& figure, const AvatarLook& look) 
   Tailor tailor{figure, look, {}};
   const Barber barber{figure};
   switch (look.hair_style) {
-    case HairStyle::none:
+    case AvatarHair::none:
       add_robot_head(tailor);
       break;
-    case HairStyle::cropped:
+    case AvatarHair::cropped:
       tailor.add("hair", look.hair, kRoughness, cropped(barber), tailor.head_box(), kCell);
       break;
-    case HairStyle::bob:
+    case AvatarHair::bob:
       tailor.add("hair", look.hair, kRoughness, bob(barber), tailor.head_box(), kCell);
       break;
-    case HairStyle::bun:
+    case AvatarHair::bun:
       tailor.add("hair", look.hair, kRoughness, bun(barber), tailor.head_box(), kCell);
       break;
   }

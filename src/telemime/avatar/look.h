@@ -10,14 +10,14 @@ namespace telemime {
 /// 0xRRGGBB, sRGB.
 using Colour = std::uint32_t;
 
-enum class HairStyle { none, cropped, bob, bun };
+enum class AvatarHair { none, cropped, bob, bun };
 enum class TopStyle { tee, hoodie, jacket, shell };
 
 /// How an avatar looks; its proportions come from the person.
 struct AvatarLook {
   std::string_view name;
   std::string_view summary;
-  HairStyle hair_style = HairStyle::cropped;
+  AvatarHair hair_style = AvatarHair::cropped;
   TopStyle top_style = TopStyle::tee;
   double sleeve = 0.5;  ///< end of the sleeve: 0 shoulder, 1 elbow, 2 wrist
   Colour skin = 0;
@@ -30,15 +30,15 @@ struct AvatarLook {
 };
 
 inline constexpr std::array<AvatarLook, 5> kAvatarLooks = {{
-    {"plain", "T-shirt, short hair", HairStyle::cropped, TopStyle::tee, 0.52, 0xD9A581, 0x3B2A20, 0x4A6B4F,
+    {"plain", "T-shirt, short hair", AvatarHair::cropped, TopStyle::tee, 0.52, 0xD9A581, 0x3B2A20, 0x4A6B4F,
      0x3E7CB1, 0xF2F2F0, 0x39424E, 0xE9E6E0},
-    {"casual", "hooded jumper, bob", HairStyle::bob, TopStyle::hoodie, 1.93, 0xF0C6A5, 0x7A3E22, 0x3C6E91,
+    {"casual", "hooded jumper, bob", AvatarHair::bob, TopStyle::hoodie, 1.93, 0xF0C6A5, 0x7A3E22, 0x3C6E91,
      0xE2A33A, 0xFFF4DC, 0x47637F, 0xF4F1EA},
-    {"office", "jacket and tie, short hair", HairStyle::cropped, TopStyle::jacket, 1.92, 0x8D5A3C, 0x17120F,
+    {"office", "jacket and tie, short hair", AvatarHair::cropped, TopStyle::jacket, 1.92, 0x8D5A3C, 0x17120F,
      0x4B2E1C, 0x2F3B52, 0xF5F5F2, 0x2B3447, 0x33241B},
-    {"summer", "sleeveless top, bun", HairStyle::bun, TopStyle::tee, 0.24, 0xB97A56, 0x251813, 0x5A3A22,
+    {"summer", "sleeveless top, bun", AvatarHair::bun, TopStyle::tee, 0.24, 0xB97A56, 0x251813, 0x5A3A22,
      0xD8574E, 0xFBE3D6, 0xEDE3D0, 0xB0714A},
-    {"robot", "white shells over a dark frame", HairStyle::none, TopStyle::shell, 2.0, 0x2C3138, 0xEDF0F2,
+    {"robot", "white shells over a dark frame", AvatarHair::none, TopStyle::shell, 2.0, 0x2C3138, 0xEDF0F2,
      0x63E6E2, 0xEDF0F2, 0xF08A3C, 0xEDF0F2, 0x3A4149},
 }};
 

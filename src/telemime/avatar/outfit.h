@@ -15,7 +15,7 @@ struct AvatarPart {
   std::string name;  ///< of its material; parts of the same name are of the same material
   Colour colour = 0;
   double roughness = 0.8;  ///< 0 mirror, 1 chalk
-  Surface surface;
+  Triangles surface;
   bool glows = false;
   std::vector<Eigen::Vector3d> blink = {};  ///< where each vertex goes when the eyes close; else empty
 };

@@ -100,7 +100,7 @@ Eigen::Vector3d onto_surface(const Field& field, Eigen::Vector3d point, double c
 }
 
 // Two triangles, cut along the shorter diagonal.
-void add_quad(Surface& surface, std::array<std::uint32_t, 4> q) {
+void add_quad(Triangles& surface, std::array<std::uint32_t, 4> q) {
   const auto length = [&](std::size_t a, std::size_t b) {
     return (surface.vertices[q[a]] - surface.vertices[q[b]]).squaredNorm();
   };
@@ -113,7 +113,7 @@ void add_quad(Surface& surface, std::array<std::uint32_t, 4> q) {
 
 }  // namespace
 
-void append(Surface& surface, const Surface& more) {
+void append(Triangles& surface, const Triangles& more) {
   const auto first = static_cast<std::uint32_t>(surface.vertices.size());
   surface.vertices.insert(surface.vertices.end(), more.vertices.begin(), more.vertices.end());
   surface.normals.insert(surface.normals.end(), more.normals.begin(), more.normals.end());
@@ -122,7 +122,7 @@ void append(Surface& surface, const Surface& more) {
   }
 }
 
-Surface mirrored_x(Surface surface) {
+Triangles mirrored_x(Triangles surface) {
   for (Eigen::Vector3d& v : surface.vertices) {
     v.x() = -v.x();
   }
@@ -135,11 +135,11 @@ Surface mirrored_x(Surface surface) {
   return surface;
 }
 
-Surface surface_of(const Field& field, const Eigen::AlignedBox3d& box, double cell) {
+Triangles surface_of(const Field& field, const Eigen::AlignedBox3d& box, double cell) {
   const Grid grid(field, box, cell);
   const Eigen::Vector3i cells = grid.size().array() - 1;
   std::vector<std::uint32_t> vertex_of(grid.index(grid.size().array() - 1) + 1);
-  Surface surface;
+  Triangles surface;
   Eigen::Vector3i c;
   for (c.z() = 0; c.z() < cells.z(); ++c.z()) {
     for (c.y() = 0; c.y() < cells.y(); ++c.y()) {

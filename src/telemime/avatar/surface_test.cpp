@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-double area_of(const Surface& surface) {
+double area_of(const Triangles& surface) {
   double area = 0.0;
   for (const auto& t : surface.triangles) {
     const Vector3d& a = surface.vertices[t[0]];
@@ -22,7 +22,7 @@ double area_of(const Surface& surface) {
 }
 
 /// By the divergence theorem: positive where triangles look outward.
-double volume_of(const Surface& surface) {
+double volume_of(const Triangles& surface) {
   double volume = 0.0;
   for (const auto& t : surface.triangles) {
     volume += surface.vertices[t[0]].dot(surface.vertices[t[1]].cross(surface.vertices[t[2]])) / 6.0;
@@ -30,7 +30,7 @@ double volume_of(const Surface& surface) {
   return volume;
 }
 
-void expect_closed(const Surface& surface) {
+void expect_closed(const Triangles& surface) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& t : surface.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -44,9 +44,9 @@ void expect_closed(const Surface& surface) {
 
 const Eigen::AlignedBox3d kBox(Vector3d(-0.3, -0.3, -0.3), Vector3d(0.3, 0.3, 0.3));
 
-TEST(Surface, ABallIsRound) {
+TEST(Triangles, ABallIsRound) {
   const Vector3d centre(0.02, -0.01, 0.03);
-  const Surface ball = surface_of(round_cone(centre, centre + Vector3d(1e-9, 0, 0), 0.2, 0.2), kBox, 0.015);
+  const Triangles ball = surface_of(round_cone(centre, centre + Vector3d(1e-9, 0, 0), 0.2, 0.2), kBox, 0.015);
   ASSERT_GT(ball.vertices.size(), 500U);
   for (std::size_t i = 0; i < ball.vertices.size(); ++i) {
     const Vector3d out = ball.vertices[i] - centre;
@@ -58,7 +58,7 @@ TEST(Surface, ABallIsRound) {
   EXPECT_NEAR(volume_of(ball), 4.0 / 3.0 * std::numbers::pi * 0.008, 0.0003);
 }
 
-TEST(Surface, ALoftHasTheRadiiOfItsRings) {
+TEST(Triangles, ALoftHasTheRadiiOfItsRings) {
   const Field solid = loft(Vector3d::Zero(), Vector3d::UnitY(), Vector3d::UnitZ(),
                            {{-0.2, 0.0, 0.10, 0.05}, {0.0, 0.02, 0.08, 0.06}, {0.2, 0.0, 0.05, 0.05}});
   EXPECT_NEAR(solid({0.08, 0.0, 0.02}), 0.0, 1e-9);
@@ -69,7 +69,7 @@ TEST(Surface, ALoftHasTheRadiiOfItsRings) {
   EXPECT_GT(solid({0.0, 0.0, -0.05}), 0.005);
 }
 
-TEST(Surface, FieldsCombineAsSolidsDo) {
+TEST(Triangles, FieldsCombineAsSolidsDo) {
   const Field left = ellipsoid({-0.05, 0, 0}, {0.1, 0.1, 0.1});
   const Field right = ellipsoid({0.05, 0, 0}, {0.1, 0.1, 0.1});
   const Vector3d only_left(-0.12, 0, 0);
@@ -89,9 +89,9 @@ TEST(Surface, FieldsCombineAsSolidsDo) {
   EXPECT_GT(ring({-0.05, 0.0, 0.0}), 0.0);
 }
 
-TEST(Surface, AMirrorImageLooksOutward) {
-  const Surface ball = surface_of(ellipsoid({0.1, 0, 0}, {0.1, 0.05, 0.05}), kBox, 0.02);
-  Surface pair = mirrored_x(ball);
+TEST(Triangles, AMirrorImageLooksOutward) {
+  const Triangles ball = surface_of(ellipsoid({0.1, 0, 0}, {0.1, 0.05, 0.05}), kBox, 0.02);
+  Triangles pair = mirrored_x(ball);
   EXPECT_NEAR(volume_of(pair), volume_of(ball), 1e-12);
   append(pair, ball);
   expect_closed(pair);

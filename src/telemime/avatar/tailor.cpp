@@ -81,7 +81,7 @@ Eigen::AlignedBox3d Tailor::head_box() const {
           Vector3d(0.17 * s, head.y() + 0.27 * s, head.z() + 0.17 * s)};
 }
 
-void Tailor::add(const std::string& name, Colour colour, double roughness, Surface surface) {
+void Tailor::add(const std::string& name, Colour colour, double roughness, Triangles surface) {
   const auto same =
       std::find_if(parts.begin(), parts.end(), [&](const AvatarPart& p) { return p.name == name; });
   if (same != parts.end()) {
@@ -98,8 +98,8 @@ void Tailor::add(const std::string& name, Colour colour, double roughness, const
 
 void Tailor::add_pair(const std::string& name, Colour colour, double roughness, const Field& field,
                       const Eigen::AlignedBox3d& box, double cell) {
-  Surface left = surface_of(field, box, m(cell));
-  Surface right = mirrored_x(left);
+  Triangles left = surface_of(field, box, m(cell));
+  Triangles right = mirrored_x(left);
   append(left, right);
   add(name, colour, roughness, std::move(left));
 }

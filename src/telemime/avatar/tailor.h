@@ -37,7 +37,7 @@ struct Tailor {
   Eigen::AlignedBox3d hand_box() const;  ///< the left one
   Eigen::AlignedBox3d head_box() const;
 
-  void add(const std::string& name, Colour colour, double roughness, Surface surface);
+  void add(const std::string& name, Colour colour, double roughness, Triangles surface);
   void add(const std::string& name, Colour colour, double roughness, const Field& field,
            const Eigen::AlignedBox3d& box, double cell);
   /// The left one and its mirror image.

@@ -63,7 +63,7 @@ std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) 
 }  // namespace
 
 struct LiveProgram::State {
-  State(const LiveOptions& asked, std::unique_ptr<Source> source,
+  State(const LiveRequest& asked, std::unique_ptr<Source> source,
         std::function<void(const std::string&)> message)
       : options(asked),
         console(std::move(message)),
@@ -105,7 +105,11 @@ struct LiveProgram::State {
       ticker.join();
       painter.join();
     }
-    session.reset();  // before what its hooks use
+    // The server's handlers use the session and the recorder until it is gone; their messages use the server.
+    if (session) {
+      session->stop();
+    }
+    recorder.close();
     server.reset();
   }
 
@@ -248,11 +252,13 @@ struct LiveProgram::State {
   void meet(const StreamHeader& header) {
     spoken = std::make_unique<PoseMessages>(header);
     const std::string text = spoken->body();
+    {
+      const std::lock_guard lock(mutex);
+      body = text;  // first: a page that comes now is told by its greeting, or by the message
+    }
     server->send_text(kWords, shared(text));
     senders.person(header);
     recorder.person(header);
-    const std::lock_guard lock(mutex);
-    body = text;
   }
 
   void hand_out(const MotionFrame& frame, double taken) {
@@ -304,7 +310,7 @@ struct LiveProgram::State {
     }
   }
 
-  LiveOptions options;
+  LiveRequest options;
   std::function<void(const std::string&)> console;
   Clock clock = monotonic_clock();
   double began = clock.now();
@@ -331,7 +337,7 @@ struct LiveProgram::State {
   std::thread ticker;
 };
 
-LiveProgram::LiveProgram(const LiveOptions& options, std::unique_ptr<Source> source,
+LiveProgram::LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source,
                          std::function<void(const std::string&)> message)
     : state_(std::make_unique<State>(options, std::move(source), std::move(message))) {}
 

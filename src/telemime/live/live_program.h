@@ -17,7 +17,7 @@
 namespace telemime {
 
 /// What `telemime live` is asked to do.
-struct LiveOptions {
+struct LiveRequest {
   TrackRequest request;
   bool guided = true;             ///< wait for the empty room, as long as a page is open to ask for it
   WebServerOptions web;           ///< where the page is served
@@ -41,7 +41,7 @@ class LiveProgram {
  public:
   /// `message`: words for the console, from any thread. Throws Error for settings, senders' URLs, a port that
   /// is taken.
-  LiveProgram(const LiveOptions& options, std::unique_ptr<Source> source,
+  LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source,
               std::function<void(const std::string&)> message);
   LiveProgram(const LiveProgram&) = delete;
   LiveProgram& operator=(const LiveProgram&) = delete;

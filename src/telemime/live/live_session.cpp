@@ -195,14 +195,12 @@ struct LiveSession::State {
     if (frames.empty()) {
       return false;
     }
-    SceneReport report = tracker->bootstrap(frames);
-    if (empty_promised && report.source == SceneSource::nothing) {
-      tracker->learn_background(frames);  // a flicker kept it from looking still
-      report.sentence = "the empty room, from " + std::to_string(frames.size()) + " pictures";
-    } else if (empty_promised && report.source != SceneSource::empty_stretch) {
-      say("somebody was in the picture: step out of it and start the guide again for a better background");
+    if (empty_promised) {
+      tracker->learn_background(frames);
+      say("background: the empty room, from " + std::to_string(frames.size()) + " pictures");
+    } else {
+      say("background: " + tracker->bootstrap(frames).sentence);
     }
-    say("background: " + report.sentence);
     enter(LivePhase::person, "");
     return true;
   }
@@ -352,9 +350,15 @@ LiveSession::LiveSession(const TrackRequest& request, bool guided, std::unique_p
 }
 
 LiveSession::~LiveSession() {
+  stop();
+}
+
+void LiveSession::stop() {
   state_->stop_all();
-  state_->image_side.join();
-  state_->search_side.join();
+  if (state_->image_side.joinable()) {
+    state_->image_side.join();
+    state_->search_side.join();
+  }
 }
 
 void LiveSession::guide(GuideStep step) {

@@ -55,7 +55,11 @@ class LiveSession {
               Clock clock = monotonic_clock());
   LiveSession(const LiveSession&) = delete;
   LiveSession& operator=(const LiveSession&) = delete;
-  ~LiveSession();  ///< stops at once; no hook is called any more
+  ~LiveSession();  ///< stop()
+
+  /// When it returns no hook is called any more; the rest may still be asked. Waits for the work in hand, and
+  /// for a camera that is being read.
+  void stop();
 
   /// The next three from any thread; they act at the next frame.
   void guide(GuideStep step);

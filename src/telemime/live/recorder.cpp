@@ -203,12 +203,18 @@ Recorder::Recorder(std::filesystem::path folder, OutputOptions options,
 }
 
 Recorder::~Recorder() {
+  close();
+}
+
+void Recorder::close() {
   {
     const std::lock_guard lock(state_->mutex);
     state_->stop = true;
   }
   state_->changed.notify_all();
-  state_->thread.join();
+  if (state_->thread.joinable()) {
+    state_->thread.join();
+  }
 }
 
 void Recorder::person(const StreamHeader& header) {

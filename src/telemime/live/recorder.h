@@ -38,7 +38,11 @@ class Recorder {
            std::function<void(const std::string&)> message);
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
-  ~Recorder();  ///< ends the recording and writes its files to the end
+  ~Recorder();  ///< close()
+
+  /// Ends the recording and writes its files to the end; nothing is recorded and no message comes any more.
+  /// Not from several threads at once.
+  void close();
 
   /// The person whose frames follow. A recording that goes on is ended and another one begun: a file is of
   /// one body.
