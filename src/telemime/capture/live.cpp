@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <opencv2/core.hpp>
 #include <sstream>
 #include <thread>
 #include <utility>
@@ -14,6 +15,7 @@
 namespace telemime {
 namespace {
 
+constexpr int most_damaged = 25;            // pictures in a row until the device is opened again
 constexpr int first_picture_attempts = 20;  // some webcams hand out nothing while they warm up
 
 class LiveSource : public Source {
@@ -53,6 +55,9 @@ class LiveSource : public Source {
            << stopped_at_ << " s; " << outcome_;
       all.add(note.str());
     }
+    if (all_damaged_ > 0) {
+      all.add(std::to_string(all_damaged_) + " damaged pictures were left out");
+    }
     return all.text();
   }
 
@@ -65,10 +70,7 @@ class LiveSource : public Source {
  private:
   void read() {
     while (!stopped()) {
-      cv::Mat picture;  // a new one each time: the last may still be in use
-      if (device_.grab(picture)) {
-        publish(to_bgr8(picture));
-      } else if (!stopped() && !reopen()) {
+      if (!read_one() && !stopped() && !reopen()) {
         break;
       }
     }
@@ -77,6 +79,24 @@ class LiveSource : public Source {
       ended_ = true;
     }
     changed_.notify_all();
+  }
+
+  /// False when the device has stopped, or gives nothing but damage.
+  bool read_one() {
+    cv::Mat picture;  // a new one each time: the last may still be in use
+    try {
+      if (!device_.grab(picture)) {
+        return false;
+      }
+      publish(to_bgr8(picture));
+      damaged_ = 0;
+    } catch (const cv::Exception&) {  // of the decoder; the next picture may be whole
+      damaged_ = (damaged_ + 1) % most_damaged;
+      const std::lock_guard lock(mutex_);
+      ++all_damaged_;
+      return damaged_ != 0;
+    }
+    return true;
   }
 
   void publish(const cv::Mat& picture) {
@@ -135,6 +155,7 @@ class LiveSource : public Source {
   LiveDevice device_;
   std::size_t failed_attempts_ = 0;
   std::int64_t index_ = 0;
+  int damaged_ = 0;  // pictures in a row
 
   // Constant once the reader's thread runs.
   LiveOptions options_;
@@ -145,6 +166,7 @@ class LiveSource : public Source {
   std::condition_variable changed_;
   Notes notes_;
   int interruptions_ = 0;
+  std::int64_t all_damaged_ = 0;
   double stopped_at_ = 0.0;  // seconds, of the last interruption
   std::string outcome_;      // of the last interruption
   std::optional<Frame> newest_;
@@ -157,11 +179,15 @@ class LiveSource : public Source {
 cv::Mat first_picture(const Grab& grab) {
   for (int attempt = 0; attempt < first_picture_attempts; ++attempt) {
     cv::Mat picture;
-    if (grab(picture)) {
-      cv::Mat usable = to_bgr8(picture);
-      if (!usable.empty()) {
-        return usable;
+    try {
+      if (grab(picture)) {
+        cv::Mat usable = to_bgr8(picture);
+        if (!usable.empty()) {
+          return usable;
+        }
       }
+    } catch (const cv::Exception&) {  // of the decoder: the next one may be whole
+      continue;
     }
   }
   return {};

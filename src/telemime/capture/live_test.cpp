@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "telemime/capture/testing.h"
@@ -152,6 +153,35 @@ TEST(Live, ItCanBeDestroyedInTheMiddleOfALongPause) {
 TEST(Live, NothingIsReturnedWithoutADeviceOrAPicture) {
   EXPECT_FALSE(live_source("0", [] { return LiveDevice{}; }));
   EXPECT_FALSE(live_source("0", [] { return LiveDevice{[](cv::Mat&) { return false; }, 30.0}; }));
+}
+
+TEST(Live, DamagedPicturesAreLeftOut) {
+  std::atomic<int> opened = 0;
+  const auto open = [&opened] {
+    ++opened;
+    int count = 0;
+    return LiveDevice{[&opened, count](cv::Mat& picture) mutable {
+                        ++count;
+                        if (opened == 1 && count > 1) {
+                          CV_Error(cv::Error::StsError, "no such JPEG");  // as a decoder complains
+                        }
+                        picture = testing::numbered_picture(count % 7 == 3 ? 1 : 2);
+                        if (opened > 1 && count % 7 == 3) {
+                          CV_Error(cv::Error::StsError, "no such JPEG");
+                        }
+                        return true;
+                      },
+                      25.0};
+  };
+  LiveOptions options;
+  options.pauses = {0.0};
+  const auto source = live_source("camera", open, options);
+  ASSERT_TRUE(source);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(source->next()) << i;
+  }
+  EXPECT_EQ(opened, 2) << "opened again after nothing but damage, and not for one picture";
+  EXPECT_NE(source->complaint().find("damaged"), std::string::npos);
 }
 
 TEST(Live, OddPicturesAreMadeUsable) {
