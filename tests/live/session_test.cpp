@@ -102,7 +102,8 @@ TEST(LiveSession, WithoutDroppedFramesGivesWhatATrackerGives) {
     }
   }
   ASSERT_GT(expected.size(), 10U);
-  ASSERT_EQ(heard.motion.size(), expected.size());
+  ASSERT_EQ(heard.motion.size(), expected.size() + 1);
+  EXPECT_EQ(heard.motion.back().state, TrackState::lost) << "at the end the person is gone";
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ(heard.motion[i].frame, expected[i].frame);
     EXPECT_EQ(heard.motion[i].state, expected[i].state);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <future>
 #include <memory>
 #include <string>
@@ -13,7 +14,8 @@
 
 namespace telemime {
 
-/// The project's own avatars, made one after the other in a thread of its own (each takes most of a second).
+/// The project's own avatars, made one after the other in a thread of its own (each takes most of a second),
+/// the one that was asked for next.
 class AvatarShelf {
  public:
   AvatarShelf();
@@ -28,6 +30,7 @@ class AvatarShelf {
   using Bytes = std::shared_ptr<const std::string>;
   std::array<std::promise<Bytes>, kAvatarLooks.size()> promises_;
   std::array<std::shared_future<Bytes>, kAvatarLooks.size()> avatars_;
+  mutable std::atomic<std::size_t> wanted_ = 0;  ///< the one that is made next
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

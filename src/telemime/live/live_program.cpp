@@ -90,7 +90,9 @@ struct LiveProgram::State {
       hello = hello_message(options.version, info, session->camera());
     }
     ready = true;
-    server->send_text(kWords, shared(hello));  // to pages that came before there was anything to say
+    for (const std::string& text : greeting()) {  // to pages that came before there was anything to say
+      server->send_text(kWords, shared(text));
+    }
     painter = std::thread([this] { paint(); });
     ticker = std::thread([this] { tick(); });
   }
@@ -147,7 +149,8 @@ struct LiveProgram::State {
       return std::nullopt;
     }
     std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    return WebContent{shared(std::move(bytes)), "application/octet-stream", name, false};
+    return WebContent{shared(std::move(bytes)), "application/octet-stream",
+                      "telemime-" + std::to_string(number) + "-" + name, false};
   }
 
   std::vector<std::string> greeting() {
@@ -274,9 +277,11 @@ struct LiveProgram::State {
     now.outputs = senders.status();
     now.recording = recorder.current();
     now.recordings = recorder.ended();
-    const std::lock_guard lock(mutex);
-    now.latency = latency.summary();
-    now.cpu = cpu;
+    {
+      const std::lock_guard lock(mutex);
+      now.latency = latency.summary();
+      now.cpu = cpu;
+    }
     return status_message(now);
   }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_session.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <thread>
 #include <utility>
 
 #include "telemime/pipeline/scene.h"
 #include "telemime/pipeline/set_up.h"
+#include "telemime/pipeline/told.h"
 #include "telemime/smoothing/smoother.h"
 
 namespace telemime {
@@ -33,12 +34,6 @@ struct Wishes {
 
 }  // namespace
 
-std::string_view to_string(LivePhase phase) {
-  constexpr std::array<std::string_view, 7> kNames = {"empty_room", "background", "person", "tracking",
-                                                      "lost",       "stopped",    "ended"};
-  return kNames[static_cast<std::size_t>(phase)];
-}
-
 struct LiveSession::State {
   State(const TrackRequest& asked, bool guide, std::unique_ptr<Source> input, LiveHooks calls, Clock time)
       : request(asked), source(std::move(input)), hooks(std::move(calls)), clock(std::move(time)) {
@@ -53,7 +48,6 @@ struct LiveSession::State {
     }
     phase = scene_known ? LivePhase::person : guide ? LivePhase::empty_room : LivePhase::background;
     settled = tracker->settled();
-    last_picture = clock.now();
     for (const std::string& words : messages) {
       say(words);
     }
@@ -65,15 +59,6 @@ struct LiveSession::State {
     }
   }
 
-  // Each warning once for a person, whatever its numbers.
-  void warn(const std::string& words) {
-    std::string kind = words;
-    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
-    if (told.insert(kind).second) {
-      say(words);
-    }
-  }
-
   void enter(LivePhase next, const std::string& why) {
     const std::lock_guard lock(mutex);
     phase = next;
@@ -82,15 +67,17 @@ struct LiveSession::State {
 
   // The next picture; nothing at the end.
   std::optional<Frame> take() {
+    {
+      const std::lock_guard lock(mutex);
+      waiting_since = clock.now();
+    }
     std::optional<Frame> frame = source->next();
-    if (frame) {
-      {
-        const std::lock_guard lock(mutex);
-        last_picture = clock.now();
-      }
-      if (hooks.picture) {
-        hooks.picture(*frame);
-      }
+    {
+      const std::lock_guard lock(mutex);
+      waiting_since.reset();
+    }
+    if (frame && hooks.picture) {
+      hooks.picture(*frame);
     }
     return frame;
   }
@@ -133,6 +120,7 @@ struct LiveSession::State {
     });
     wait_for_search();
     if (!stopping()) {
+      leave_person();
       const std::string complaint = source->complaint();
       enter(LivePhase::ended, failure.empty() ? complaint : failure);
     }
@@ -165,10 +153,11 @@ struct LiveSession::State {
     }
     if ((asked.recalibrate || asked.guide == GuideStep::again) && wait_for_search()) {
       tracker->recalibrate();
+      leave_person();
       {
         const std::lock_guard lock(mutex);
         settled = false;
-        told.clear();
+        told.forget();
       }
       if (asked.guide == GuideStep::again) {
         enter(LivePhase::empty_room, "");
@@ -178,10 +167,19 @@ struct LiveSession::State {
     }
   }
 
+  // Receivers are told that the person is gone; while the search has nothing to do.
+  void leave_person() {
+    if (last_motion && hooks.motion) {
+      last_motion->state = TrackState::lost;
+      hooks.motion(*last_motion, last_taken);
+    }
+    last_motion.reset();
+  }
+
   // Of about a second of pictures; false at the end of the input.
   bool learn_background() {
     std::vector<Frame> frames;
-    const auto count = static_cast<std::size_t>(std::max(8.0, source->info().fps));
+    const auto count = static_cast<std::size_t>(std::clamp(source->info().fps, 8.0, 60.0));
     while (frames.size() < count) {
       auto frame = take();
       if (!frame) {
@@ -201,7 +199,10 @@ struct LiveSession::State {
     } else {
       say("background: " + tracker->bootstrap(frames).sentence);
     }
-    enter(LivePhase::person, "");
+    const std::lock_guard lock(mutex);
+    phase = LivePhase::person;
+    reason.clear();
+    statistics.clear();  // what was not looked at in the meantime was not dropped
     return true;
   }
 
@@ -285,10 +286,14 @@ struct LiveSession::State {
       }
     }
     for (const std::string& words : result.warnings) {
-      warn(words);
+      if (told.is_new(words)) {
+        say(words);
+      }
     }
     if (tracker->settled() && hooks.motion) {
-      hooks.motion((*smoother)(result.motion), slot.seen.frame.taken);
+      last_motion = (*smoother)(result.motion);
+      last_taken = slot.seen.frame.taken;
+      hooks.motion(*last_motion, last_taken);
     }
     slot.times.decided = clock.now();
     const std::lock_guard lock(mutex);
@@ -318,9 +323,11 @@ struct LiveSession::State {
   Clock clock;
   std::unique_ptr<Tracker> tracker;  // look() of one thread beside decide() of the other
   bool scene_known = false;
-  bool empty_promised = false;         // of the image side: the user says that the room is empty
-  std::array<Slot, 2> slots;           // one being looked at, one being searched
-  std::unique_ptr<Smoother> smoother;  // of the search side
+  bool empty_promised = false;             // of the image side: the user says that the room is empty
+  std::array<Slot, 2> slots;               // one being looked at, one being searched
+  std::optional<MotionFrame> last_motion;  // of the search side, handed out
+  double last_taken = 0.0;                 // of the same frame
+  std::unique_ptr<Smoother> smoother;      // of the search side
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable changed;
@@ -333,9 +340,9 @@ struct LiveSession::State {
   LivePhase phase = LivePhase::person;
   std::string reason;  // in words, why nobody is tracked
   std::string failure;
-  double last_picture = 0.0;
+  std::optional<double> waiting_since;  // for a picture, s of the clock
   LiveStatistics statistics;
-  std::set<std::string> told;
+  Told told;
 
   std::thread image_side;
   std::thread search_side;
@@ -375,7 +382,7 @@ LiveState LiveSession::state() const {
   const double now = state_->clock.now();
   const std::lock_guard lock(state_->mutex);
   LiveState state{state_->phase, state_->reason, state_->statistics.rates(now)};
-  if (state.phase != LivePhase::ended && now - state_->last_picture > kStopped) {
+  if (state.phase != LivePhase::ended && state_->waiting_since && now - *state_->waiting_since > kStopped) {
     state.phase = LivePhase::stopped;
     state.words = "the camera gives no pictures now";
   }

@@ -7,24 +7,12 @@
 
 #include "telemime/capture/clock.h"
 #include "telemime/capture/source.h"
+#include "telemime/live/live_phase.h"
 #include "telemime/live/live_statistics.h"
 #include "telemime/outputs/encoder.h"
 #include "telemime/pipeline/run.h"
 
 namespace telemime {
-
-/// Where a live run stands.
-enum class LivePhase {
-  empty_room,  ///< waits for the user to step out of the picture
-  background,  ///< learns the scene
-  person,      ///< waits for a person who can be calibrated
-  tracking,
-  lost,
-  stopped,  ///< the camera gives no pictures now
-  ended,    ///< there will be no more frames
-};
-
-std::string_view to_string(LivePhase phase);
 
 /// What a user may answer in the guided start.
 enum class GuideStep { empty, skip, again };

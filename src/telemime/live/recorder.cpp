@@ -255,19 +255,21 @@ std::optional<std::filesystem::path> Recorder::file(int number, const std::strin
 }
 
 bool Recorder::forget(int number) {
-  const std::lock_guard lock(state_->mutex);
+  std::unique_lock lock(state_->mutex);
   const auto found = std::find_if(state_->ended.begin(), state_->ended.end(),
                                   [number](const Recording& r) { return r.number == number; });
   if (found == state_->ended.end()) {
     return false;
   }
-  for (const RecordedFile& file : found->files) {
+  const Recording recording = *found;
+  state_->ended.erase(found);
+  lock.unlock();  // a slow disk is not to hold up who records
+  for (const RecordedFile& file : recording.files) {
     std::error_code ignored;
-    std::filesystem::remove(found->folder / file.name, ignored);
+    std::filesystem::remove(recording.folder / file.name, ignored);
   }
   std::error_code ignored;
-  std::filesystem::remove(found->folder, ignored);  // when nothing else was put there
-  state_->ended.erase(found);
+  std::filesystem::remove(recording.folder, ignored);  // when nothing else was put there
   return true;
 }
 

@@ -13,7 +13,6 @@ constexpr std::size_t kMost = 16;
 }  // namespace
 
 void SenderList::add(const std::string& url) {
-  const std::shared_ptr<Sender> sender = make_sender(url);
   const std::lock_guard lock(mutex_);
   if (std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.url == url; })) {
     throw Error(ErrorKind::usage, url + " is sent to already");
@@ -22,6 +21,7 @@ void SenderList::add(const std::string& url) {
     throw Error(ErrorKind::usage, "there are " + std::to_string(kMost) + " outputs already",
                 "Remove one first.");
   }
+  const std::shared_ptr<Sender> sender = make_sender(url);
   if (header_) {
     sender->begin(*header_);
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <set>
 
 #include "telemime/core/errors.h"
 #include "telemime/pipeline/look_ahead.h"
@@ -15,6 +14,7 @@
 #include "telemime/pipeline/run_statistics.h"
 #include "telemime/pipeline/scene.h"
 #include "telemime/pipeline/set_up.h"
+#include "telemime/pipeline/told.h"
 #include "telemime/smoothing/two_way_smoother.h"
 
 namespace telemime {
@@ -162,9 +162,7 @@ class Run {
 
   // Each reason once, whatever its numbers, with the frame at which it came up first.
   void tell(const std::string& note) {
-    std::string kind = note;
-    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
-    if (note.empty() || !told_.insert(kind).second) {
+    if (note.empty() || !told_.is_new(note)) {
       return;
     }
     notes_.push_back({{"frame", frames_}, {"note", note}});
@@ -186,7 +184,7 @@ class Run {
   std::vector<MotionFrame> before_;  // all lost: until the person's shape is known
   std::deque<Waiting> waiting_;
   cv::Mat overlay_;  // the last one drawn
-  std::set<std::string> told_;
+  Told told_;
   nlohmann::json notes_ = nlohmann::json::array();
 };
 
