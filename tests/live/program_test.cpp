@@ -182,6 +182,10 @@ TEST_F(Program, NonsenseIsAnsweredAndThePageGoesOn) {
 TEST_F(Program, AHiddenPageGetsNoPictures) {
   const LiveProgram program(options(), camera_of(somebody()), {});
   SocketClient page(program.port());
+  std::optional<SocketClient::Frame> seen;
+  while ((seen = page.message()) && seen->opcode != SocketClient::binary) {
+  }
+  ASSERT_TRUE(seen) << "at first it gets them";
   page.say(R"({"type":"pictures","on":false})");
   page.say(R"({"type":"ping","id":1})");
   hear(page, "pong");

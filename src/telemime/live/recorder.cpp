@@ -2,6 +2,7 @@
 #include "telemime/live/recorder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -64,6 +65,7 @@ struct Recorder::State {
       } catch (const std::exception& e) {
         // A full disk: what was written so far is kept.
         say(std::string("the recording was ended: ") + e.what());
+        asked = false;
         wanted = false;
         close();
       }
@@ -182,6 +184,8 @@ struct Recorder::State {
   int next_number = 1;
   int next_folder = 1;
 
+  std::atomic<bool> asked = false;  // frames are of use
+
   mutable std::mutex mutex;  // of what follows
   std::condition_variable changed;
   std::deque<Task> tasks;
@@ -222,14 +226,18 @@ void Recorder::person(const StreamHeader& header) {
 }
 
 void Recorder::write(const MotionFrame& frame) {
-  state_->push({Task::Kind::frame, {}, frame});
+  if (state_->asked) {
+    state_->push({Task::Kind::frame, {}, frame});
+  }
 }
 
 void Recorder::start() {
   state_->push({Task::Kind::start, {}, {}});
+  state_->asked = true;
 }
 
 void Recorder::stop() {
+  state_->asked = false;
   state_->push({Task::Kind::stop, {}, {}});
 }
 
