@@ -28,7 +28,9 @@ class Heard {
     hooks.motion = [this](const MotionFrame& frame, double) { note([&] { motion.push_back(frame); }); };
     hooks.person = [this](const StreamHeader&) { note([&] { ++persons; }); };
     hooks.picture = [this](const Frame&) { note([&] { ++pictures; }); };
-    hooks.message = [this](const std::string& words) { note([&] { messages += words + "\n"; }); };
+    hooks.message = [this](MessageLevel, const std::string& words) {
+      note([&] { messages += words + "\n"; });
+    };
     return hooks;
   }
   /// True as soon as `done` is; false after a minute.

@@ -123,8 +123,11 @@ std::string status_message(const LiveStatus& status) {
   return dump(message);
 }
 
-std::string words_message(const std::string& level, const std::string& words) {
-  return dump({{"type", "message"}, {"level", level}, {"words", words}});
+std::string words_message(MessageLevel level, const std::string& words) {
+  const char* const name = level == MessageLevel::info      ? "info"
+                           : level == MessageLevel::warning ? "warning"
+                                                            : "error";
+  return dump({{"type", "message"}, {"level", name}, {"words", words}});
 }
 
 std::string pong_message(std::int64_t id, double stamp) {

@@ -8,6 +8,7 @@
 
 #include "telemime/core/camera.h"
 #include "telemime/live/live_session.h"
+#include "telemime/live/message_level.h"
 #include "telemime/live/recorder.h"
 #include "telemime/network/sender.h"
 
@@ -27,8 +28,7 @@ struct LiveStatus {
 };
 std::string status_message(const LiveStatus& status);
 
-/// `level` is info, warning or error.
-std::string words_message(const std::string& level, const std::string& words);
+std::string words_message(MessageLevel level, const std::string& words);
 
 std::string pong_message(std::int64_t id, double stamp);
 

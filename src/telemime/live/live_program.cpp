@@ -68,7 +68,7 @@ struct LiveProgram::State {
       : options(asked),
         console(std::move(message)),
         recorder(asked.recordings, asked.request.output_options,
-                 [this](const std::string& words) { tell("info", words); }) {
+                 [this](const std::string& words) { tell(MessageLevel::info, words); }) {
     for (const std::string& url : options.send) {
       senders.add(url);
     }
@@ -82,7 +82,7 @@ struct LiveProgram::State {
     hooks.picture = [this](const Frame& frame) { show(frame); };
     hooks.person = [this](const StreamHeader& header) { meet(header); };
     hooks.motion = [this](const MotionFrame& frame, double taken) { hand_out(frame, taken); };
-    hooks.message = [this](const std::string& words) { tell("info", words); };
+    hooks.message = [this](MessageLevel level, const std::string& words) { tell(level, words); };
     info = source->info();
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
@@ -115,7 +115,7 @@ struct LiveProgram::State {
     server.reset();
   }
 
-  void tell(const std::string& level, const std::string& words) {
+  void tell(MessageLevel level, const std::string& words) {
     if (console) {
       console(words);
     }
@@ -172,12 +172,12 @@ struct LiveProgram::State {
 
   std::optional<std::string> answer(std::uint64_t client, std::string_view text) {
     if (!ready) {
-      return words_message("error", "the program is still starting; try again");
+      return words_message(MessageLevel::error, "the program is still starting; try again");
     }
     try {
       return std::visit([&](const auto& command) { return carry_out(client, command); }, parse_command(text));
     } catch (const Error& e) {
-      return words_message("error", e.what());
+      return words_message(MessageLevel::error, e.what());
     }
   }
 
@@ -197,7 +197,7 @@ struct LiveProgram::State {
   }
   Answer carry_out(std::uint64_t, const RemoveOutput& c) {
     if (!senders.remove(c.url)) {
-      return words_message("error", c.url + " is not among the outputs");
+      return words_message(MessageLevel::error, c.url + " is not among the outputs");
     }
     tell_status();
     return std::nullopt;
@@ -208,7 +208,7 @@ struct LiveProgram::State {
   }
   Answer carry_out(std::uint64_t, const Forget& c) {
     if (!recorder.forget(c.number)) {
-      return words_message("error", "there is no recording " + std::to_string(c.number));
+      return words_message(MessageLevel::error, "there is no recording " + std::to_string(c.number));
     }
     tell_status();
     return std::nullopt;
@@ -308,7 +308,8 @@ struct LiveProgram::State {
       const bool waits = session->state().phase == LivePhase::empty_room;
       alone = waits && server->clients() == 0 ? alone + 1 : 0;
       if (alone == kPatience) {
-        tell("info", "no page is open to guide the start: going on without a picture of the empty room");
+        tell(MessageLevel::info,
+             "no page is open to guide the start: going on without a picture of the empty room");
         session->guide(GuideStep::skip);
       }
       tell_status();

@@ -53,9 +53,9 @@ struct LiveSession::State {
     }
   }
 
-  void say(const std::string& words) const {
+  void say(const std::string& words, MessageLevel level = MessageLevel::info) const {
     if (hooks.message) {
-      hooks.message(words);
+      hooks.message(level, words);
     }
   }
 
@@ -287,7 +287,7 @@ struct LiveSession::State {
     }
     for (const std::string& words : result.warnings) {
       if (told.is_new(words)) {
-        say(words);
+        say(words, MessageLevel::warning);
       }
     }
     if (tracker->settled() && hooks.motion) {
@@ -311,7 +311,7 @@ struct LiveSession::State {
     try {
       work();
     } catch (const std::exception& e) {
-      say(e.what());
+      say(e.what(), MessageLevel::error);
       const std::lock_guard lock(mutex);
       failure = e.what();
     }

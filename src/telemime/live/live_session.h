@@ -9,6 +9,7 @@
 #include "telemime/capture/source.h"
 #include "telemime/live/live_phase.h"
 #include "telemime/live/live_statistics.h"
+#include "telemime/live/message_level.h"
 #include "telemime/outputs/encoder.h"
 #include "telemime/pipeline/run.h"
 
@@ -21,8 +22,8 @@ enum class GuideStep { empty, skip, again };
 struct LiveHooks {
   std::function<void(const Frame&)> picture;        ///< each frame that is looked at, first of all
   std::function<void(const StreamHeader&)> person;  ///< a person was calibrated: their frames follow
-  std::function<void(const MotionFrame&, double taken)> motion;  ///< smoothed; `taken` in s of the clock
-  std::function<void(const std::string&)> message;               ///< what the user should know, in words
+  std::function<void(const MotionFrame&, double taken)> motion;   ///< smoothed; `taken` in s of the clock
+  std::function<void(MessageLevel, const std::string&)> message;  ///< what the user should know, in words
 };
 
 struct LiveState {
