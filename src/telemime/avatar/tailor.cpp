@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/avatar/simplify.h"
+
 namespace telemime {
 
 using Eigen::Vector3d;
@@ -91,14 +93,22 @@ void Tailor::add(const std::string& name, Colour colour, double roughness, Trian
   }
 }
 
+// The grid resolves the smallest parts of a surface; most of it is flatter.
+Triangles Tailor::cut_out(const Field& field, const Eigen::AlignedBox3d& where, double cell) const {
+  constexpr double kError = 0.07;  // of a cell: with more, what lies in thin layers shows through
+  Triangles surface = surface_of(field, where, m(cell));
+  simplify(figure, kError * m(cell), surface);
+  return surface;
+}
+
 void Tailor::add(const std::string& name, Colour colour, double roughness, const Field& field,
                  const Eigen::AlignedBox3d& box, double cell) {
-  add(name, colour, roughness, surface_of(field, box, m(cell)));
+  add(name, colour, roughness, cut_out(field, box, cell));
 }
 
 void Tailor::add_pair(const std::string& name, Colour colour, double roughness, const Field& field,
                       const Eigen::AlignedBox3d& box, double cell) {
-  Triangles left = surface_of(field, box, m(cell));
+  Triangles left = cut_out(field, box, cell);
   Triangles right = mirrored_x(left);
   append(left, right);
   add(name, colour, roughness, std::move(left));

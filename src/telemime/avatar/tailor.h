@@ -37,6 +37,7 @@ struct Tailor {
   Eigen::AlignedBox3d hand_box() const;  ///< the left one
   Eigen::AlignedBox3d head_box() const;
 
+  Triangles cut_out(const Field& field, const Eigen::AlignedBox3d& where, double cell) const;
   void add(const std::string& name, Colour colour, double roughness, Triangles surface);
   void add(const std::string& name, Colour colour, double roughness, const Field& field,
            const Eigen::AlignedBox3d& box, double cell);
