@@ -7,13 +7,16 @@ PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 TARGETS := help deps configure build demo test bench experiments lint asan tsan fuzz install clean
-.PHONY: $(TARGETS)
+.PHONY: $(TARGETS) deps-test
 
 help: ## this list
 	@sed -n 's/^\([a-z]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
 
 deps: ## install the Debian packages that are missing (scripts/packages.txt)
 	@scripts/deps.sh build
+
+deps-test:
+	@scripts/deps.sh build test
 
 configure:
 	@cmake --preset release $(CCACHE) > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
@@ -25,7 +28,7 @@ build: configure ## the program: build/release/telemime
 demo: deps build ## track the clip in data/demo and score the result: out/demo
 	@scripts/demo.sh
 
-test: deps configure ## build and run all tests
+test: deps-test configure ## build and run all tests
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(JOBS)
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages of scripts/packages.txt that are missing. Usage: scripts/deps.sh [build] [check]
+# Installs the Debian packages of scripts/packages.txt that are missing. Usage: scripts/deps.sh [build] [test] [check]
 set -euo pipefail
 list="$(dirname "$0")/packages.txt"
 uses="${*:-build}"

@@ -8,7 +8,10 @@ import { hasAvatar, inPhase, openPage, startBrowser, startProgram } from "./prog
 const seconds = Number(process.argv[2] ?? 30);
 const program = await startProgram(["demo"]);
 const browser = await startBrowser();
-const { page, close } = await openPage(browser, program);
+const { page, close } = await openPage(browser, program, {
+  viewport: { width: 1280, height: 800 },
+  deviceScaleFactor: 1,
+});
 let status = null;
 await hasAvatar(page, "Plain");
 await inPhase(page, "tracking");

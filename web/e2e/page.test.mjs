@@ -1,139 +1,124 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person does with the page, with the real program and a real Chromium:
-//   TELEMIME_PROGRAM=build/release/telemime npm run e2e
+// What a person does with the page while it tracks, with the real program and a real Chromium.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
-import { after, before, test } from "node:test";
-import { hasAvatar, inPhase, openPage, startBrowser, startProgram } from "./program.mjs";
+import { readFileSync } from "node:fs";
+import { after, afterEach, before, test } from "node:test";
+import { boneErrors } from "./bones.mjs";
+import { Listener } from "./listener.mjs";
+import {
+  LIGHT,
+  PATIENCE,
+  hasAvatar,
+  inPhase,
+  openPage,
+  startBrowser,
+  startProgram,
+  tabTo,
+} from "./program.mjs";
 
-let browser;
-let program;
+const LONG = { timeout: 2 * PATIENCE };
+
+let browser, program, listener, page, close, complaints;
 before(async () => {
   browser = await startBrowser();
-  program = await startProgram(["demo"]);
+  program = await startProgram(["demo", ...LIGHT]);
+  listener = await Listener.open(program);
+  ({ page, close, complaints } = await openPage(browser, program));
+  await hasAvatar(page, "Plain");
+  await inPhase(page, "tracking");
 });
 after(async () => {
+  await close?.();
   await browser?.close();
+  listener?.close();
   assert.equal(await program?.stop(), 0, "the program ends well");
 });
+afterEach(() => assert.deepEqual(complaints.splice(0), []));
 
-const degrees = (a, b) => {
-  const dot = Math.abs(a.reduce((sum, x, i) => sum + x * b[i], 0));
-  return (2 * Math.acos(Math.min(1, dot)) * 180) / Math.PI;
-};
+const pressed = (id) => page.locator(id).getAttribute("aria-pressed");
 
-const PARENT = { spine: "hips", chest: "spine", neck: "chest", head: "neck" };
-for (const side of ["left", "right"]) {
-  PARENT[`${side}Shoulder`] = "chest";
-  PARENT[`${side}UpperArm`] = `${side}Shoulder`;
-  PARENT[`${side}LowerArm`] = `${side}UpperArm`;
-  PARENT[`${side}Hand`] = `${side}LowerArm`;
-}
+test("the avatar as in a mirror, and back", LONG, async () => {
+  assert.equal(await pressed("#mirror-avatar"), "false");
+  await page.keyboard.press("m");
+  assert.equal(await pressed("#mirror-avatar"), "true");
+  const mirrored = await boneErrors(page, listener.poses, 15, { mirror: true });
+  await page.keyboard.press("m");
+  const same = await boneErrors(page, listener.poses, 15);
+  console.log(
+    `bones: ${mirrored.mean.toFixed(4)} degrees off in the mirror, ${same.mean.toFixed(4)} without`,
+  );
+  assert.ok(mirrored.mean < 2 && same.mean < 2);
+});
 
-const product = ([ax, ay, az, aw], [bx, by, bz, bw]) => [
-  aw * bx + ax * bw + ay * bz - az * by,
-  aw * by - ax * bz + ay * bw + az * bx,
-  aw * bz + ax * by - ay * bx + az * bw,
-  aw * bw - ax * bx - ay * by - az * bz,
-];
+test("recalibrates by keyboard", LONG, async () => {
+  const measured = listener.heard((m) => m.type === "body");
+  await page.keyboard.press("c");
+  await measured;
+  await listener.heard((m) => m.type === "pose" && m.state === "tracking");
+  await inPhase(page, "tracking");
+});
 
-/** The turn of a bone in the world, by what was sent of it and of the bones that it hangs on. */
-const turned = (bones, name) =>
-  PARENT[name] ? product(turned(bones, PARENT[name]), bones[name]) : bones[name];
-
-/**
- * Mean difference of the turns of the file's own bones in the world from those that were sent, over `count` frames;
- * degrees.
- */
-async function boneErrors(page, poses, count) {
-  const errors = [];
-  const seen = new Set();
-  while (seen.size < count) {
-    const { frame, bones } = await page.evaluate(() => ({
-      frame: window.telemime.counters.shown,
-      bones: Object.fromEntries(
-        Object.entries(window.telemime.boneRotations()).map(([name, b]) => [name, b.world]),
-      ),
+test("what was chosen is kept when the page is loaded again", LONG, async () => {
+  for (const key of ["m", "M", "o", "z"]) await page.keyboard.press(key);
+  await page.keyboard.press("1");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "tab-avatar");
+  await tabTo(page, "#avatars input:checked");
+  await page.keyboard.press("ArrowDown");
+  await hasAvatar(page, "Casual");
+  await page.keyboard.press("3");
+  const looks = () =>
+    page.evaluate(() => ({
+      avatar: window.telemime.avatar.name,
+      tab: document.querySelector('[role="tab"][aria-selected="true"]').id,
+      pressed: [...document.querySelectorAll("[aria-pressed]")].map((b) => [
+        b.id,
+        b.getAttribute("aria-pressed"),
+      ]),
     }));
-    const pose = poses.get(frame);
-    if (pose?.state === "tracking" && !seen.has(frame)) {
-      seen.add(frame);
-      for (const name of Object.keys(pose.bones)) {
-        errors.push(degrees(turned(pose.bones, name), bones[name]));
-      }
-    }
-  }
-  return errors.reduce((a, b) => a + b, 0) / errors.length;
-}
-
-async function loadFile(page, file) {
-  await page.setInputFiles("#avatar-file", file);
-}
-
-test("the avatar's bones are those that were tracked: the default, VRM 1.0", async () => {
-  const { page, poses, complaints, close } = await openPage(browser, program);
-  await hasAvatar(page, "Plain");
-  await inPhase(page, "tracking");
-  const error = await boneErrors(page, poses, 40);
-  console.log(`bones: ${error.toFixed(4)} degrees`);
-  assert.ok(error < 2, `${error} degrees`);
-  assert.deepEqual(complaints, []);
-  await close();
-});
-
-test("the same of a VRM 0.x file that is dropped", async () => {
-  const { page, poses, complaints, close } = await openPage(browser, program);
-  await hasAvatar(page, "Plain");
-  const one = join(program.folder, "one.vrm");
-  const zero = join(program.folder, "zero.vrm");
-  writeFileSync(one, Buffer.from(await (await fetch(`${program.url}avatars/plain.vrm`)).arrayBuffer()));
-  execFileSync("node", [new URL("../mock/to-vrm0.mjs", import.meta.url).pathname, one, zero]);
-  const bytes = readFileSync(zero).toString("base64");
-  const transfer = await page.evaluateHandle((data) => {
-    const files = new DataTransfer();
-    const array = Uint8Array.from(atob(data), (c) => c.charCodeAt(0));
-    files.items.add(new File([array], "zero.vrm"));
-    return files;
-  }, bytes);
-  await page.dispatchEvent("body", "dragenter", { dataTransfer: transfer });
-  await page.dispatchEvent("body", "dragover", { dataTransfer: transfer });
-  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
-  await page.waitForFunction(() => window.telemime.avatar?.version === "0", null, { timeout: 60000 });
-  await inPhase(page, "tracking");
-  const error = await boneErrors(page, poses, 40);
-  console.log(`bones: ${error.toFixed(4)} degrees`);
-  assert.ok(error < 2, `${error} degrees`);
+  const before = await looks();
+  assert.equal(before.tab, "tab-recordings");
+  assert.deepEqual(Object.fromEntries(before.pressed), {
+    "mirror-avatar": "true",
+    "mirror-picture": "false",
+    overlay: "false",
+    "close-up": "true",
+  });
   await page.reload();
-  await page.waitForFunction(() => window.telemime?.avatar?.version === "0", null, { timeout: 60000 });
-  assert.deepEqual(complaints, []);
-  await close();
-});
-
-test("a file that is no avatar is told in words, and the old one stays", async () => {
-  const { page, close } = await openPage(browser, program);
-  await hasAvatar(page, "Plain");
-  const junk = join(program.folder, "junk.vrm");
-  writeFileSync(junk, "this is no avatar");
-  await loadFile(page, junk);
-  await page
-    .locator(".toast, [role=alert], [role=status]")
-    .filter({ hasText: /VRM|avatar|file/i })
-    .first()
-    .waitFor();
-  assert.equal(await page.evaluate(() => window.telemime.avatar.name), "Plain");
-  await close();
-});
-
-test("records by keyboard; every file can be saved", async () => {
-  const { page, complaints, close } = await openPage(browser, program);
+  await hasAvatar(page, "Casual");
+  assert.deepEqual(await looks(), before);
   await inPhase(page, "tracking");
+  assert.ok((await boneErrors(page, listener.poses, 5, { mirror: true })).mean < 2);
+});
+
+test("help by keyboard; single keys can be turned off", LONG, async () => {
+  const help = page.locator("#help-dialog");
+  const overlay = await pressed("#overlay");
+  await page.keyboard.press("?");
+  await help.waitFor();
+  await page.keyboard.press("o"); // the dialog has the keys
+  assert.equal(await pressed("#overlay"), overlay);
+  await page.locator("#help-keys").focus();
+  await page.keyboard.press("Space");
+  await page.keyboard.press("Escape");
+  await help.waitFor({ state: "hidden" });
+  await page.keyboard.press("o");
+  assert.equal(await pressed("#overlay"), overlay);
+  await page.locator("#help").focus();
+  await page.keyboard.press("Enter");
+  await page.locator("#help-keys").focus();
+  await page.keyboard.press("Space");
+  await page.keyboard.press("Escape");
+  await help.waitFor({ state: "hidden" });
+  await page.keyboard.press("o");
+  assert.notEqual(await pressed("#overlay"), overlay);
+});
+
+test("records by keyboard; every file can be saved; a recording can be deleted", LONG, async () => {
   await page.keyboard.press("r");
-  await page.waitForTimeout(2000); // of motion to be recorded
+  await listener.heard((m) => m.type === "status" && m.recording?.frames >= 40);
   await page.keyboard.press("r");
-  await page.getByRole("tab", { name: "Recordings" }).click();
+  await page.keyboard.press("3");
   const links = page.locator('a[href*="/recordings/"]');
   await links.first().waitFor();
   const names = [];
@@ -149,33 +134,21 @@ test("records by keyboard; every file can be saved", async () => {
       `${ending} among ${names}`,
     );
   }
-  assert.deepEqual(complaints, []);
-  await close();
+  await page.getByRole("button", { name: "Delete recording 1" }).press("Enter");
+  await page.getByRole("button", { name: "Press again to delete" }).press("Enter");
+  await links.first().waitFor({ state: "detached" });
 });
 
-test("outputs come and go, wrong ones are refused in words", async () => {
-  const { page, close } = await openPage(browser, program);
-  await page.getByRole("tab", { name: "Send" }).click();
+test("outputs come and go, wrong ones are refused in words", LONG, async () => {
+  await page.keyboard.press("2");
   const box = page.locator("#output-url");
   await box.fill("vmc://localhost:39539");
   await box.press("Enter");
-  await page.getByText("vmc://localhost:39539", { exact: true }).first().waitFor();
+  await page.locator("#outputs").getByText("vmc://localhost:39539", { exact: true }).waitFor();
   await box.fill("pigeon://coop");
   await box.press("Enter");
   await page
     .getByText(/pigeon/)
     .first()
     .waitFor();
-  await close();
-});
-
-test("ten pages at once", async () => {
-  const pages = await Promise.all(
-    Array.from({ length: 10 }, () => openPage(browser, program, { viewport: { width: 400, height: 300 } })),
-  );
-  for (const { page, poses } of pages) {
-    await inPhase(page, "tracking");
-    assert.ok(poses.size > 0);
-  }
-  await Promise.all(pages.map((p) => p.close()));
 });

@@ -6,12 +6,56 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { glb } from "./avatar.mjs";
 
+const UNITY = { left: "L_", right: "R_" };
+
 const THUMB = {
   ThumbMetacarpal: "ThumbProximal",
   ThumbProximal: "ThumbIntermediate",
   ThumbDistal: "ThumbDistal",
 };
 const oldName = (bone) => bone.replace(/Thumb\w+$/, (t) => THUMB[t] ?? t);
+
+/**
+ * As VRoid Studio and UniVRM leave a file: a root above the hips, an upper chest that carries neck and arms, names of
+ * their own, a strand of hair that swings.
+ */
+function asOthersDo(json, humanBones) {
+  const add = (node) => json.nodes.push(node) - 1;
+  const nodeOf = (bone) => json.nodes[humanBones.find((b) => b.bone === bone).node];
+  const chest = nodeOf("chest");
+  const up = 0.04; // m
+  for (const child of chest.children) json.nodes[child].translation[1] -= up;
+  const upper = add({ translation: [0, up, 0], children: chest.children });
+  chest.children = [upper];
+  humanBones.push({ bone: "upperChest", node: upper, useDefaultValues: true });
+  for (const { bone, node } of humanBones) {
+    const [, side, part] = /^(left|right)?(.*)$/.exec(bone);
+    json.nodes[node].name = `J_Bip_${UNITY[side] ?? "C_"}${part[0].toUpperCase()}${part.slice(1)}`;
+  }
+  const head = nodeOf("head");
+  const tip = add({ name: "J_Sec_Hair2", translation: [0, -0.1, 0] });
+  const hair = add({ name: "J_Sec_Hair1", translation: [0, 0.1, 0.1], children: [tip] });
+  head.children = [...(head.children ?? []), hair];
+  const scene = json.scenes[json.scene ?? 0];
+  scene.nodes = [add({ name: "Root", children: scene.nodes })];
+  const zero = { x: 0, y: 0, z: 0 };
+  return {
+    boneGroups: [
+      {
+        comment: "Hair",
+        stiffiness: 1,
+        gravityPower: 0.2,
+        gravityDir: { ...zero, y: -1 },
+        dragForce: 0.4,
+        center: -1,
+        hitRadius: 0.02,
+        bones: [hair],
+        colliderGroups: [0],
+      },
+    ],
+    colliderGroups: [{ node: json.nodes.indexOf(head), colliders: [{ offset: zero, radius: 0.09 }] }],
+  };
+}
 
 /** diag(-1, 1, -1) on numbers of an accessor: vectors, or matrices from both sides. */
 function turnAccessor(json, bin, index) {
@@ -36,7 +80,8 @@ function turnAccessor(json, bin, index) {
   }
 }
 
-export function toVrm0(file) {
+/** `others`: laid out as other programs lay out theirs, with toon materials and hair that swings. */
+export function toVrm0(file, { others = false } = {}) {
   const length = file.readUInt32LE(12);
   const json = JSON.parse(file.subarray(20, 20 + length).toString());
   const bin = Buffer.from(file.subarray(20 + length + 8, 20 + length + 8 + file.readUInt32LE(20 + length)));
@@ -60,6 +105,11 @@ export function toVrm0(file) {
     if (skin.inverseBindMatrices !== undefined) turned.add(skin.inverseBindMatrices);
   for (const a of turned) turnAccessor(json, bin, a);
   for (const m of json.materials ?? []) delete m.extensions;
+  const humanBones = Object.entries(vrm1.humanoid.humanBones).map(([bone, { node }]) => ({
+    bone: oldName(bone),
+    node,
+    useDefaultValues: true,
+  }));
   const old = {
     exporterVersion: "telemime mock",
     specVersion: "0.0",
@@ -74,11 +124,7 @@ export function toVrm0(file) {
       licenseName: "Other",
     },
     humanoid: {
-      humanBones: Object.entries(vrm1.humanoid.humanBones).map(([bone, { node }]) => ({
-        bone: oldName(bone),
-        node,
-        useDefaultValues: true,
-      })),
+      humanBones,
     },
     firstPerson: {
       firstPersonBone: vrm1.humanoid.humanBones.head?.node ?? -1,
@@ -86,17 +132,32 @@ export function toVrm0(file) {
       lookAtTypeName: "Bone",
     },
     blendShapeMaster: { blendShapeGroups: [] },
-    secondaryAnimation: { boneGroups: [], colliderGroups: [] },
-    materialProperties: (json.materials ?? []).map((m, i) => ({
-      name: m.name ?? `material ${i}`,
-      shader: "VRM_USE_GLTFSHADER",
-      renderQueue: 2000,
-      floatProperties: {},
-      vectorProperties: {},
-      textureProperties: {},
-      keywordMap: {},
-      tagMap: {},
-    })),
+    secondaryAnimation: others ? asOthersDo(json, humanBones) : { boneGroups: [], colliderGroups: [] },
+    materialProperties: (json.materials ?? []).map((m, i) => {
+      const { baseColorFactor = [1, 1, 1, 1], baseColorTexture } = m.pbrMetallicRoughness ?? {};
+      const toon = {
+        shader: "VRM/MToon",
+        floatProperties: { _Cutoff: 0.5, _ShadeToony: 0.9, _CullMode: 2 },
+        vectorProperties: {
+          _Color: baseColorFactor,
+          _ShadeColor: [...baseColorFactor.slice(0, 3).map((c) => 0.7 * c), 1],
+        },
+        textureProperties: baseColorTexture ? { _MainTex: baseColorTexture.index } : {},
+      };
+      const plain = {
+        shader: "VRM_USE_GLTFSHADER",
+        floatProperties: {},
+        vectorProperties: {},
+        textureProperties: {},
+      };
+      return {
+        name: m.name ?? `material ${i}`,
+        renderQueue: 2000,
+        keywordMap: {},
+        tagMap: {},
+        ...(others ? toon : plain),
+      };
+    }),
   };
   json.extensions = { VRM: old };
   json.extensionsUsed = [...(json.extensionsUsed ?? []).filter((e) => !e.startsWith("VRMC_")), "VRM"];

@@ -123,7 +123,7 @@ function onMessage(m: Incoming): void {
       onStatus(m);
       break;
     case "message":
-      toasts.say(m.level, m.words);
+      if (m.level !== "error" || !outputs.refused(m.words)) toasts.say(m.level, m.words);
       break;
     case "pong":
       break;

@@ -138,7 +138,8 @@ export class Guide {
     this.box.classList.toggle("busy", step.busy);
     document.querySelectorAll<HTMLElement>("#guide-steps li").forEach((li, i) => {
       const n = i + 1;
-      li.dataset.state = n < step.number || done ? "past" : n === step.number ? "now" : "next";
+      li.dataset.state =
+        n < step.number || (done && n === step.number) ? "past" : n === step.number ? "now" : "next";
       if (n === step.number) li.setAttribute("aria-current", "step");
       else li.removeAttribute("aria-current");
     });

@@ -4,6 +4,7 @@
 import type { Command, Output, Sender } from "../protocol";
 import { byId, h, icon, renderOnce } from "./dom";
 
+const ANSWER = 3000; // ms in which the program says what is wrong with an address
 const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
 
 /** Colour of the dot: the state's name is free text of the program. */
@@ -24,6 +25,8 @@ export class OutputList {
   private readonly list = byId("outputs", HTMLElement);
   private readonly input = byId("output-url", HTMLInputElement);
   private readonly error = byId("output-error", HTMLElement);
+
+  private asked: { url: string; at: number } | null = null;
 
   constructor(private readonly send: (c: Command) => boolean) {
     byId("output-form", HTMLFormElement).addEventListener("submit", (e) => {
@@ -53,6 +56,7 @@ export class OutputList {
   }
 
   setOutputs(outputs: readonly Output[]): void {
+    if (outputs.some((o) => o.url === this.asked?.url)) this.asked = null;
     byId("outputs-empty", HTMLElement).hidden = outputs.length > 0;
     byId("count-send", HTMLElement).textContent = outputs.length ? String(outputs.length) : "";
     renderOnce(this.list, outputs.map((o) => `${o.url} ${o.state} ${o.words}`).join("\n"), () =>
@@ -96,8 +100,22 @@ export class OutputList {
       this.complain("An address looks like vmc://localhost:39539. Choose an example and change it.");
       return;
     }
-    if (this.send({ type: "output", add: url })) this.input.value = "";
-    else this.complain("There is no connection to Telemime at the moment.");
+    if (this.send({ type: "output", add: url })) {
+      this.asked = { url, at: performance.now() };
+      this.input.value = "";
+    } else {
+      this.complain("There is no connection to Telemime at the moment.");
+    }
+  }
+
+  /** An error of the program: true when it is the answer to an address, and stands beside it now. */
+  refused(words: string): boolean {
+    const asked = this.asked;
+    this.asked = null;
+    if (!asked || performance.now() - asked.at > ANSWER) return false;
+    this.input.value ||= asked.url;
+    this.complain(words);
+    return true;
   }
 
   private complain(words: string): void {

@@ -35,6 +35,7 @@ export class StateLine {
 
   disconnected(): void {
     this.said = "";
+    byId("camera-words", HTMLElement).hidden = true;
     this.show("disconnected", "Not connected", "");
   }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well it goes: rate, latency, times of the stages, residuals, work of the computer.
 
-import type { Pose, Status } from "../protocol";
+import type { Phase, Pose, Status } from "../protocol";
 import { byId, h } from "../ui/dom";
 import { Sparkline } from "./sparkline";
 
 const HISTORY = 120; // poses
 const EVERY = 250; // ms between drawings of the history
+
+/** Before a person is looked for, nothing is measured. */
+const TRACKS: readonly Phase[] = ["person", "tracking", "lost", "ended"];
 
 export const show = (v: number | null | undefined, digits = 0): string =>
   v === null || v === undefined ? "–" : v.toFixed(digits);
@@ -36,8 +39,9 @@ export class Gauges {
     this.latency.push(s.latency?.median ?? null);
     this.rate.draw();
     this.latency.draw();
-    this.put("gauge-tracked", show(s.fps.tracked, 1));
-    this.put("gauge-input", show(s.fps.input));
+    const tracks = TRACKS.includes(s.phase);
+    this.put("gauge-tracked", tracks ? show(s.fps.tracked, 1) : "–");
+    this.put("gauge-input", tracks ? show(s.fps.input) : "–");
     if (s.phase !== "tracking") for (const id of ["gauge-f", "gauge-dc"]) this.put(id, "–");
     this.put("gauge-dropped", show(s.dropped));
     this.put("gauge-median", show(s.latency?.median));
@@ -45,7 +49,7 @@ export class Gauges {
     this.put("gauge-cpu", show(s.cpu, 2));
     const bar = byId("cpu-bar", HTMLElement);
     bar.style.setProperty("--part", String(Math.min(1, (s.cpu ?? 0) / 2)));
-    this.stages(s.ms);
+    this.stages(tracks ? s.ms : new Map());
   }
 
   private stages(ms: Map<string, number>): void {

@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Opens the recording in Blender, where there is one: blender.sh FOLDER. Status 77: skipped, with the reason.
+set -euo pipefail
+blender="${TELEMIME_BLENDER:-blender}"
+if ! command -v "$blender" > /dev/null; then
+  echo "skipped: Blender is not installed here. Install the package blender, or say with TELEMIME_BLENDER where it is."
+  exit 77
+fi
+exec "$blender" --background --factory-startup --python-exit-code 1 \
+  --python "$(dirname "$0")/blender_import.py" -- "$1"

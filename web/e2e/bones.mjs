@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far an avatar's bones are from those that were tracked.
+
+import { conj, mul } from "../mock/quat.mjs";
+import { PARENT } from "../mock/motion.mjs";
+
+const degrees = (q) => (2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3])) * 180) / Math.PI;
+
+/** The turn of a bone in the world, by what was sent of it and of the bones that it hangs on. */
+const turned = (bones, name) => (PARENT[name] ? mul(turned(bones, PARENT[name]), bones[name]) : bones[name]);
+
+const otherSide = (bone) => bone.replace(/^(left|right)/, (side) => ({ left: "right", right: "left" })[side]);
+
+/** Seen in a mirror that stands at the person's side: M R M with M = diag(-1, 1, 1). */
+const mirrored = ([x, y, z, w]) => [x, -y, -z, w];
+
+/** The next pose that is drawn: its frame number and how the file's own bones are turned in the world. */
+const nextDrawn = (page, last) =>
+  page.evaluate(
+    (before) =>
+      new Promise((resolve) => {
+        const look = () => {
+          const { shown, rest } = window.telemime.counters;
+          if (shown === before || rest > 0) return requestAnimationFrame(look);
+          const bones = Object.entries(window.telemime.boneRotations()).map(([name, b]) => [name, b.world]);
+          resolve({ frame: shown, bones: Object.fromEntries(bones) });
+        };
+        look();
+      }),
+    last,
+  );
+
+/**
+ * Differences between the turns of the avatar's own bones in the world and those that were sent, of `count` drawn
+ * frames, as `{ mean, worst }` in degrees. `poses`: the messages by frame.
+ */
+export async function boneErrors(page, poses, count, { mirror = false } = {}) {
+  const errors = [];
+  // What was drawn before the avatar or a setting was changed says nothing.
+  let drawn = await nextDrawn(page, (await nextDrawn(page, null)).frame);
+  for (let n = 0; n < count;) {
+    drawn = await nextDrawn(page, drawn.frame);
+    const pose = poses.get(drawn.frame);
+    if (pose?.state !== "tracking") continue;
+    n++;
+    for (const name of Object.keys(pose.bones)) {
+      const sent = turned(pose.bones, mirror ? otherSide(name) : name);
+      errors.push(degrees(mul(conj(mirror ? mirrored(sent) : sent), drawn.bones[name])));
+    }
+  }
+  return { mean: errors.reduce((a, b) => a + b, 0) / errors.length, worst: Math.max(...errors) };
+}

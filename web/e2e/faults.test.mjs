@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong around the page: tabs that close or stall; clients that never read; a program that dies.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { connect } from "node:net";
+import { after, before, test } from "node:test";
+import { Listener } from "./listener.mjs";
+import {
+  FLAT,
+  LIGHT,
+  PATIENCE,
+  follows,
+  hasAvatar,
+  openPage,
+  startBrowser,
+  startProgram,
+} from "./program.mjs";
+
+const LONG = { timeout: 2 * PATIENCE };
+
+let program, browser, flat, listener;
+before(async () => {
+  browser = await startBrowser();
+  flat = await startBrowser(FLAT); // costs less
+  program = await startProgram(["demo", ...LIGHT]);
+  listener = await Listener.open(program);
+  await listener.inPhase("tracking");
+});
+after(async () => {
+  await browser?.close();
+  await flat?.close();
+  listener?.close();
+  assert.equal(await program?.stop(), 0, "the program ends well");
+});
+
+const memory = () =>
+  Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${program.pid}/status`, "utf8"))[1]) / 1024; // MB
+
+test("a page that is closed and opened again", LONG, async () => {
+  const first = await openPage(browser, program);
+  await follows(first.page);
+  await first.close();
+  await listener.tracked(5);
+  const second = await openPage(browser, program);
+  await follows(second.page);
+  assert.deepEqual(second.complaints, []);
+  await second.close();
+});
+
+test("a tab that stalls holds nobody up, and goes on when it is let", LONG, async () => {
+  const session = await browser.newBrowserCDPSession();
+  const renderers = async () =>
+    (await session.send("SystemInfo.getProcessInfo")).processInfo
+      .filter((p) => p.type === "renderer")
+      .map((p) => p.id);
+  const others = await renderers();
+  const { page, complaints, close } = await openPage(browser, program);
+  await follows(page);
+  const mine = (await renderers()).filter((id) => !others.includes(id));
+  assert.ok(mine.length > 0, "the page has a process of its own");
+  const before = await page.evaluate(() => window.telemime.counters.poses);
+  for (const id of mine) process.kill(id, "SIGSTOP");
+  try {
+    await listener.tracked(75);
+  } finally {
+    for (const id of mine) process.kill(id, "SIGCONT");
+  }
+  await follows(page);
+  const newest = Math.max(...listener.poses.keys());
+  await page.waitForFunction((n) => window.telemime.counters.shown >= n, newest);
+  assert.ok((await page.evaluate(() => window.telemime.counters.poses)) > before);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test("clients that never read cost no memory and hold nobody up", LONG, async () => {
+  await listener.tracked(25);
+  const before = memory();
+  const idle = await Promise.all(
+    Array.from({ length: 8 }, async () => {
+      const socket = connect(program.port, "127.0.0.1");
+      socket.write(
+        `GET /ws HTTP/1.1\r\nHost: localhost:${program.port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n` +
+          "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n",
+      );
+      const answer = await new Promise((resolve, reject) => {
+        socket.once("data", resolve);
+        socket.once("error", reject);
+      });
+      assert.match(answer.toString("latin1"), /^HTTP\/1.1 101 /);
+      socket.pause();
+      return socket;
+    }),
+  );
+  const { page, close } = await openPage(flat, program);
+  await follows(page);
+  await listener.tracked(100);
+  await follows(page);
+  const grown = memory() - before;
+  console.log(`with 8 clients that never read: ${grown.toFixed(1)} MB more`);
+  assert.ok(grown < 40, "the queues of clients are bounded");
+  for (const socket of idle) socket.destroy();
+  await close();
+});
+
+test("the program dies and starts again at its port: the page comes back by itself", LONG, async () => {
+  const { page, close } = await openPage(browser, program);
+  await follows(page);
+  await hasAvatar(page, "Plain");
+  listener.close();
+  await program.kill();
+  await page.locator("#banner").filter({ hasText: "No connection to Telemime" }).waitFor();
+  assert.equal(await page.evaluate(() => window.telemime.phase), "disconnected");
+  await page.waitForFunction(() => window.telemime.counters.rest === 1); // the avatar goes to rest
+  program = await startProgram(["demo", ...LIGHT], { port: program.port });
+  listener = await Listener.open(program);
+  await follows(page);
+  await page.waitForFunction(() => window.telemime.counters.rest === 0);
+  assert.equal(await page.locator("#banner").isVisible(), false);
+  await close();
+});

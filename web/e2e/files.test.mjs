@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are dropped on the page: avatars, and what is none.
+
+import assert from "node:assert/strict";
+import { basename } from "node:path";
+import { after, before, test } from "node:test";
+import { badAvatars, boxes, strangersVrm0 } from "./avatars.mjs";
+import { boneErrors } from "./bones.mjs";
+import { Listener } from "./listener.mjs";
+import { LIGHT, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
+
+let program, listener, browser, page, close, complaints;
+before(async () => {
+  browser = await startBrowser();
+  program = await startProgram(["demo", ...LIGHT]);
+  listener = await Listener.open(program);
+  ({ page, close, complaints } = await openPage(browser, program));
+  await hasAvatar(page, "Plain");
+});
+after(async () => {
+  await close?.();
+  await browser?.close();
+  listener?.close();
+  assert.equal(await program?.stop(), 0, "the program ends well");
+});
+
+test(
+  "what cannot be an avatar is told in words, and the old one stays",
+  { timeout: 2 * PATIENCE },
+  async () => {
+    for (const [file, words] of badAvatars(program.folder)) {
+      await drop(page, file);
+      const toast = page.locator(".toast.error").last();
+      await toast.filter({ hasText: words }).filter({ hasText: "The avatar stays as it was." }).waitFor();
+      console.log(`${basename(file)}: ${await toast.innerText()}`);
+      await toast.getByRole("button", { name: "Close this message" }).click();
+      await page.locator(".toast").waitFor({ state: "detached" });
+      assert.equal(await page.evaluate(() => window.telemime.avatar.name), "Plain");
+    }
+    const before = await page.evaluate(() => window.telemime.counters.renders);
+    await page.waitForFunction((n) => window.telemime.counters.renders > n + 5, before);
+    assert.deepEqual(complaints, []);
+  },
+);
+
+for (const [name, version, make] of [
+  ["boxes", "1", (folder) => boxes(folder)],
+  ["stranger", "0", (folder) => strangersVrm0(program, folder)],
+]) {
+  test(`VRM ${version} with rests of its own, dropped: ${name}`, { timeout: 2 * PATIENCE }, async () => {
+    await drop(page, await make(program.folder));
+    await hasAvatar(page, name);
+    assert.equal(await page.evaluate(() => window.telemime.avatar.version), version);
+    const error = await boneErrors(page, listener.poses, 20);
+    console.log(`${name}: bones ${error.mean.toFixed(3)} degrees off, at most ${error.worst.toFixed(3)}`);
+    assert.ok(error.mean < 2);
+    const side = (bone) => page.evaluate((b) => window.telemime.boneRotations()[b].position[0], bone);
+    assert.ok((await side("leftUpperArm")) > (await side("rightUpperArm")) + 0.1, "it faces the camera");
+    await page.reload();
+    await hasAvatar(page, name); // the browser has kept it
+    assert.deepEqual(complaints, []);
+  });
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Some of the tests beside this file, for ctest: node e2e/run.mjs guide. Without Chromium or ffmpeg they are skipped,
+// with a word and status 77; where CI is set that is a failure.
+
+import { spawnSync } from "node:child_process";
+import { existsSync } from "node:fs";
+
+const chromium = process.env.TELEMIME_CHROMIUM ?? "/usr/bin/chromium";
+const missing = [];
+if (!existsSync(chromium)) missing.push(`Chromium (TELEMIME_CHROMIUM says where it is; now ${chromium})`);
+if (spawnSync("ffmpeg", ["-version"]).error) missing.push("ffmpeg");
+if (missing.length > 0) {
+  console.log(
+    `skipped: not installed here: ${missing.join(", ")}. scripts/deps.sh test installs what is missing.`,
+  );
+  process.exit(process.env.CI ? 1 : 77);
+}
+const tests = process.argv.slice(2).map((name) => new URL(`${name}.test.mjs`, import.meta.url).pathname);
+const { status } = spawnSync(process.execPath, ["--test", ...tests], { stdio: "inherit" });
+process.exit(status ?? 1);
