@@ -130,6 +130,48 @@ TEST(Tracker, OurFilterSpendsItsParticlesAndWhatItTurnsAndFlips) {
   }
 }
 
+TEST(Tracker, TheEffortIsAShareOfTheSearch) {
+  for (const char* method : {"heuristics", "two-step"}) {
+    const auto evaluations = [&](double effort) {
+      Config config = quick_config();
+      config.tracking.method = method;
+      Tracker tracker = make_tracker(config);
+      tracker.learn_background(clip().background);
+      tracker.set_effort(effort);
+      tracker.step(clip().person[0]);
+      return tracker.step(clip().person[1]).motion.evaluations;
+    };
+    const int whole = evaluations(1.0);
+    EXPECT_LT(evaluations(0.25), 0.4 * whole) << method;
+    EXPECT_GT(evaluations(0.5), 0.3 * whole) << method;
+  }
+}
+
+TEST(Tracker, AtFiveFramesASecondThePersonIsFollowedToo) {
+  std::vector<Frame> frames = clip().person;
+  for (Frame& frame : frames) {
+    frame.time *= 5.0;
+  }
+  const auto slow = track(quick_config(), frames);
+  const auto usual = track(quick_config(), clip().person);
+  for (std::size_t i = 0; i < slow.size(); ++i) {
+    EXPECT_EQ(slow[i].state, TrackState::tracking) << i;
+    EXPECT_LT(slow[i].region_score, 0.5) << i;
+    EXPECT_EQ(slow[i].pose.vector() == usual[i].pose.vector(), i == 0) << i;
+  }
+}
+
+TEST(TimeStep, IsOneWhereItIsUsualOrNotKnown) {
+  EXPECT_EQ(steps_between(0.0, 0.04), 1.0);
+  EXPECT_EQ(steps_between(1.0, 1.0415), 1.0);  // a camera's clock
+  EXPECT_EQ(steps_between(7.0, 7.0), 1.0);
+  EXPECT_EQ(steps_between(7.0, 3.0), 1.0);
+  EXPECT_NEAR(steps_between(1.0, 1.2), 5.0, 1e-9);
+  EXPECT_NEAR(steps_between(1.0, 1.0 + 1.0 / 30.0), 25.0 / 30.0, 1e-9);
+  EXPECT_EQ(steps_between(0.0, 100.0), 8.0);
+  EXPECT_EQ(steps_between(0.0, 0.001), 0.2);
+}
+
 TEST(Tracker, SameSeedSameMotion) {
   const std::vector<Frame> frames(clip().person.begin(), clip().person.begin() + 4);
   const auto a = track(quick_config(), frames);

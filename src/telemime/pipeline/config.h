@@ -24,8 +24,8 @@ struct TrackingConfig {
   std::string method = "heuristics";
   double lost_region = 0.62;   ///< F above this for `patience` frames: lost
   double found_region = 0.55;  ///< F at or below this after a search: found
-  int patience = 8;            ///< frames
-  int retry_every = 3;         ///< frames between searches for a person while lost
+  int patience = 8;            ///< frames of 1/25 s
+  int retry_every = 3;         ///< frames of 1/25 s between searches for a person while lost
   /// Frames to wait for a first frame in which the shape can be fitted (thesis 3.3); then the average body
   /// starts; in a file, the frames that the look-ahead picks may still fit it.
   int calibration_patience = 10;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "telemime/likelihood/all.h"
@@ -32,7 +33,15 @@ std::string scale_words(const CalibrationConfig& config) {
   return config.stature ? "the height given" : "an average adult's head (no height was given)";
 }
 
+constexpr double kRate = 25.0;  // frames a second that the motion model is made for
+
 }  // namespace
+
+double steps_between(double before, double now) {
+  const double steps = kRate * (now - before);
+  // The clocks of cameras are not that exact.
+  return std::abs(steps - 1.0) < 0.05 || !(steps > 0.0) ? 1.0 : std::clamp(steps, 0.2, 8.0);
+}
 
 void complete(MotionFrame& frame, const Body& body, const Camera& camera) {
   frame.joints = forward_kinematics(body, frame.pose).joints;
@@ -80,7 +89,14 @@ void Tracker::set_calibration(const TrackerCalibration& calibration, const Image
   model_ = make_model(calibration.shape);
   features_.set_calibration(image);
   phase_ = Phase::lost;
-  frames_until_search_ = 0;
+  frames_until_search_ = 0.0;
+}
+
+void Tracker::set_effort(double share) {
+  effort_ = share;
+  if (filter_) {
+    filter_->set_effort(share);
+  }
 }
 
 void Tracker::recalibrate() {
@@ -89,11 +105,11 @@ void Tracker::recalibrate() {
   if (filter_) {
     filter_->stop();
   }
-  bad_frames_ = 0;
+  bad_frames_ = 0.0;
   facing_ = 0.0;
   phase_ = Phase::waiting;
   waited_ = 0;
-  frames_until_search_ = 0;
+  frames_until_search_ = 0.0;
 }
 
 void Tracker::person_colours(SeenFrame& seen) {
@@ -147,12 +163,15 @@ TrackedFrame Tracker::decide(SeenFrame& seen) {
   motion.stage_ms.emplace_back("features", seen.ms);
   result.note = seen.note;
   result.warnings = seen.warnings;
+  steps_ = steps_between(decided_, seen.frame.time);
+  decided_ = seen.frame.time;
   if (seen.coloured) {
     if (phase_ == Phase::tracking && filter_) {
       follow_with_filter(seen, result);
     } else if (phase_ == Phase::tracking) {
       follow(seen, result);
-    } else if (++waited_; --frames_until_search_ <= 0 || (known_ && motion.frame == known_->frame)) {
+    } else if (++waited_;
+               (frames_until_search_ -= steps_) <= 0.0 || (known_ && motion.frame == known_->frame)) {
       search(seen, result);
     }
   }
@@ -192,7 +211,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
     // Somebody in profile has a head, too, but no shape that could be fitted.
     if (!observation.head->detected && !seen.face_just_seen) {
       lose("waiting for a face that looks at the camera", result);
-      frames_until_search_ = 1;
+      frames_until_search_ = 1.0;
       return;
     }
   }
@@ -233,12 +252,13 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
 
 void Tracker::follow(const SeenFrame& seen, TrackedFrame& result) {
   Objective objective(*backend_, seen.prepared, model_, limits_);
+  RegistrationConfig search = for_time_step(config_.registration, steps_);
+  search.iterations = std::max(1, static_cast<int>(std::lround(effort_ * search.iterations)));
   const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity, limits_);
-  const bool goes_on =
-      objective(expected, config_.registration.region) < objective(pose_, config_.registration.region);
+  const bool goes_on = objective(expected, search.region) < objective(pose_, search.region);
   const Pose start = goes_on ? expected : pose_;
   objective.expect(start);
-  const RegistrationResult found = register_pose(objective, start, config_.registration, random_);
+  const RegistrationResult found = register_pose(objective, start, search, random_);
   result.motion.evaluations += objective.evaluations();
   result.motion.stage_ms.emplace_back("regions", found.region_ms);
   result.motion.stage_ms.emplace_back("edges", found.edge_ms);
@@ -251,6 +271,7 @@ void Tracker::follow_with_filter(const SeenFrame& seen, TrackedFrame& result) {
   if (!filter_->started()) {
     filter_->start(pose_);
   }
+  filter_->set_time_step(steps_);
   const FilterResult found = filter_->step(seen.prepared, model_, config_.tracking.velocity);
   result.motion.evaluations += found.evaluations;
   const SpreadModel& spread = filter_->numbers().spread;
@@ -269,7 +290,7 @@ void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& res
     return;
   }
   const bool bad = score.region > config_.tracking.lost_region || !seen.observation.head;
-  bad_frames_ = bad ? bad_frames_ + 1 : 0;
+  bad_frames_ = bad ? bad_frames_ + steps_ : 0.0;
   if (bad_frames_ >= config_.tracking.patience) {
     lose("the body no longer fits the picture", result);
   }
@@ -284,7 +305,7 @@ void Tracker::adopt(const Pose& pose, const Score& score, TrackedFrame& result) 
 
 void Tracker::lose(const std::string& why, TrackedFrame& result) {
   phase_ = calibration_ ? Phase::lost : Phase::waiting;
-  bad_frames_ = 0;
+  bad_frames_ = 0.0;
   if (filter_) {
     filter_->stop();
   }

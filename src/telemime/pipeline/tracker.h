@@ -89,6 +89,10 @@ class Tracker {
   /// A person was calibrated: the image side needs nothing of the search side.
   bool settled() const { return calibration_.has_value(); }
 
+  /// From the next decide() on, the search takes a share (above 0, at most 1) of the evaluations that the
+  /// configuration asks for. Not beside decide().
+  void set_effort(double share);
+
   /// Starts over with the person (not the scene) at the next frame. Not beside look().
   void recalibrate();
 
@@ -129,12 +133,19 @@ class Tracker {
   Phase phase_ = Phase::waiting;
   Pose pose_;
   Pose previous_;
-  double facing_ = 0.0;  ///< of the filter's last step
-  int bad_frames_ = 0;
-  int frames_until_search_ = 0;
-  std::int64_t since_ = 0;  ///< of the image side
-  int waited_ = 0;          ///< frames since a head came into the picture
+  double effort_ = 1.0;
+  double decided_ = 0.0;              ///< time of the last frame, s
+  double steps_ = 1.0;                ///< since then, in 1/25 s
+  double facing_ = 0.0;               ///< of the filter's last step
+  double bad_frames_ = 0.0;           ///< 1/25 s
+  double frames_until_search_ = 0.0;  ///< 1/25 s
+  std::int64_t since_ = 0;            ///< of the image side
+  int waited_ = 0;                    ///< frames since a head came into the picture
 };
+
+/// Time between two frames in 1/25 s, for which the motion model is made: exactly 1 where it is about that or
+/// not known, at least 0.2 and at most 8. Times in s.
+double steps_between(double before, double now);
 
 /// Fills joints and pixels of a frame from its pose.
 void complete(MotionFrame& frame, const Body& body, const Camera& camera);

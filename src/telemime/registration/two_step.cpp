@@ -136,6 +136,15 @@ void RegistrationConfig::validate() const {
   }
 }
 
+RegistrationConfig for_time_step(RegistrationConfig config, double frames) {
+  config.simplex_factor = std::min(20.0, config.simplex_factor * std::sqrt(frames));
+  for (ObjectiveWeights* w : {&config.region, &config.edge}) {
+    w->temporal /= frames;
+    w->trunk /= frames;
+  }
+  return config;
+}
+
 RegistrationConfig reference_registration() {
   RegistrationConfig config;
   config.blocks = false;

@@ -41,6 +41,10 @@ struct RegistrationConfig {
   void validate() const;
 };
 
+/// The same for frames that are `frames` times 1/25 s apart: people have moved further, and less is known of
+/// where they are expected. 1 changes nothing.
+RegistrationConfig for_time_step(RegistrationConfig config, double frames);
+
 /// The search as the thesis has it: one simplex, F alone, then D_C alone, no prior.
 RegistrationConfig reference_registration();
 

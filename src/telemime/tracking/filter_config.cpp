@@ -33,6 +33,19 @@ void FilterConfig::validate() const {
   require(alternatives >= 0 && alternatives <= 1000, "alternatives must be between 0 and 1000");
 }
 
+FilterConfig with_effort(FilterConfig config, double share) {
+  for (int* number : {&config.particles, &config.mode_least, &config.mode_most, &config.turn_evaluations}) {
+    *number = std::max(1, static_cast<int>(std::lround(share * *number)));
+  }
+  return config;
+}
+
+FilterConfig for_time_step(FilterConfig config, double frames) {
+  config.diffusion *= std::sqrt(frames);
+  config.temporal /= frames;
+  return config;
+}
+
 FilterConfig reference_filter(const std::string& heuristics) {
   FilterConfig config;
   config.heuristics = heuristics;

@@ -46,6 +46,13 @@ struct FilterConfig {
   void validate() const;
 };
 
+/// The same with a share (above 0, at most 1) of the evaluations.
+FilterConfig with_effort(FilterConfig config, double share);
+
+/// The same for frames that are `frames` times 1/25 s apart: people have moved further, and less is known of
+/// where they are expected. 1 changes nothing.
+FilterConfig for_time_step(FilterConfig config, double frames);
+
 /// The thesis's filter: `heuristics` as given, no prior knowledge but what is invalid, no memory but the
 /// Markov chain's.
 FilterConfig reference_filter(const std::string& heuristics);

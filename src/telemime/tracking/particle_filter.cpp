@@ -63,11 +63,11 @@ void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
   particles.resize(count);
 }
 
-constexpr double kVelocityRate = 0.2;  // of the smoothed velocity, a frame
+constexpr double kVelocityRate = 0.2;  // of the smoothed velocity, in 1/25 s
 
-// The torsion of the root of somebody who walks so (m a frame); 0 for somebody who stays.
+// The torsion of the root of somebody who walks so (m in 1/25 s); 0 for somebody who stays.
 double facing_of(const Eigen::Vector3d& velocity) {
-  constexpr double kStands = 0.008;  // 0.2 m/s at 25 frames a second
+  constexpr double kStands = 0.008;  // 0.2 m/s
   constexpr double kWalks = 0.016;
   const double speed = std::hypot(velocity.x(), velocity.z());
   const double share = std::clamp((speed - kStands) / (kWalks - kStands), 0.0, 1.0);
@@ -97,6 +97,21 @@ void ParticleFilter::start(const Pose& pose) {
   estimate_ = before_ = particle.pose;
   labels_before_.release();
   velocity_.setZero();
+  frames_ = frames_before_ = 1.0;
+}
+
+void ParticleFilter::set_effort(double share) {
+  if (!(share > 0.0 && share <= 1.0)) {
+    throw Error(ErrorKind::usage, "the effort of the particle filter must be above 0 and at most 1");
+  }
+  effort_ = share;
+}
+
+void ParticleFilter::set_time_step(double frames) {
+  if (!(frames > 0.0 && std::isfinite(frames))) {
+    throw Error(ErrorKind::usage, "the time step of the particle filter must be above 0");
+  }
+  frames_ = frames;
 }
 
 void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& generation) const {
@@ -112,11 +127,13 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
   if (particles_.empty()) {
     throw Error(ErrorKind::usage, "the particle filter was not started");
   }
-  const Pose expected = expected_pose(estimate_, before_, velocity, limits_);
+  const FilterConfig config = for_time_step(with_effort(config_, effort_), frames_);
+  const RegistrationConfig search = for_time_step(search_, frames_);
+  const Pose expected = expected_pose(estimate_, before_, velocity * frames_ / frames_before_, limits_);
   const FilterContext context{frame,       labels_before_.empty() ? nullptr : &labels_before_,
                               model,       limits_,
-                              config_,     numbers_,
-                              search_,     estimate_,
+                              config,      numbers_,
+                              search,      estimate_,
                               expected,    facing.value_or(facing_of(velocity_)),
                               evaluators_, seeds_.bits()};
   Generation generation;
@@ -149,7 +166,9 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
     evaluators_.evaluate(frame, model, {&estimate_, 1}, {&result.score, 1});
     ++result.evaluations;
   }
-  velocity_ += kVelocityRate * (estimate_.root - before_.root - velocity_);
+  const double rate = frames_ == 1.0 ? kVelocityRate : 1.0 - std::pow(1.0 - kVelocityRate, frames_);
+  velocity_ += rate * ((estimate_.root - before_.root) / frames_ - velocity_);
+  frames_before_ = frames_;
   frame.labels.copyTo(labels_before_);
   result.pose = estimate_;
   result.effective_particles = effective_sample_size(particles_);

@@ -35,6 +35,11 @@ class ParticleFilter {
   void stop() { particles_.clear(); }
   bool started() const { return !particles_.empty(); }
 
+  /// From the next frame on: a share (above 0, at most 1) of the configuration's evaluations.
+  void set_effort(double share);
+  /// The next frame comes so many times 1/25 s after the one before; 1 until it is set, and after start().
+  void set_time_step(double frames);
+
   /// One frame. Must have been started. `velocity`: share of the last motion that is expected again.
   /// `facing`: FilterContext::facing, where it is known better than from the root's way.
   FilterResult step(const PreparedFrame& frame, const Model& model, double velocity,
@@ -58,7 +63,10 @@ class ParticleFilter {
   std::vector<Particle> particles_;
   Pose estimate_;
   Pose before_;
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m a frame, smoothed
+  double effort_ = 1.0;
+  double frames_ = 1.0;                                 ///< time step of the next frame
+  double frames_before_ = 1.0;                          ///< from before_ to estimate_
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed
   cv::Mat labels_before_;
 };
 

@@ -105,6 +105,42 @@ TEST(ParticleFilter, WhoWalksAcrossFacesWhereTheyGo) {
   }
 }
 
+TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
+  Scene scene;
+  const auto spread = [&](double frames) {
+    ParticleFilter filter = make_filter(scene, thesis("", 400));
+    filter.start(both_arms_seen());
+    filter.set_time_step(frames);
+    filter.step(scene.frame, scene.model, 0.0);
+    double sum = 0.0;
+    for (const Particle& p : filter.particles()) {
+      const double way = p.pose.root.x() - both_arms_seen().root.x();
+      sum += way * way;
+    }
+    return std::sqrt(sum / 400.0);
+  };
+  EXPECT_NEAR(spread(4.0) / spread(1.0), 2.0, 0.05);
+}
+
+TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
+  Scene scene;
+  const auto evaluations = [&](double effort, const FilterConfig& config) {
+    ParticleFilter filter = make_filter(scene, config);
+    filter.start(both_arms_seen());
+    filter.set_effort(effort);
+    return filter.step(scene.frame, scene.model, 0.5).evaluations;
+  };
+  EXPECT_EQ(evaluations(0.5, thesis("", 400)), 200);
+  const int whole = evaluations(1.0, FilterConfig());
+  EXPECT_LT(evaluations(0.25, FilterConfig()), 0.4 * whole);
+  Scene other;
+  ParticleFilter filter = make_filter(other, FilterConfig());
+  for (const double bad : {0.0, -1.0, 1.5, std::nan("")}) {
+    EXPECT_THROW(filter.set_effort(bad), Error) << bad;
+    EXPECT_THROW(filter.set_time_step(bad == 1.5 ? 0.0 : bad), Error) << bad;
+  }
+}
+
 TEST(ParticleFilter, TheMeanIsScoredItself) {
   Scene scene;
   FilterConfig config = thesis("", 60);
