@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
+/**
+ * A canvas to draw on in two dimensions. Without a graphics card a plain one in memory is several times cheaper
+ * than one that the browser's imitation of a graphics card draws.
+ */
+export function flatContext(canvas: HTMLCanvasElement, alpha: boolean): CanvasRenderingContext2D {
+  return canvas.getContext("2d", { alpha, willReadFrequently: drawsInSoftware() })!;
+}
+
 let software: boolean | null = null;
 
 /**

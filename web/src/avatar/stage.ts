@@ -59,6 +59,7 @@ export class Stage {
   private lastDraw = 0;
   private draws = 0;
   private contextLost = false;
+  private fence: WebGLSync | null = null;
 
   /** Throws when the browser has no WebGL. */
   constructor(
@@ -209,6 +210,16 @@ export class Stage {
     this.dirty = true;
   }
 
+  /** The last picture is still being drawn: another one would only queue up behind it. */
+  get busy(): boolean {
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (this.fence && (this.contextLost || gl.getSyncParameter(this.fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
+      gl.deleteSync(this.fence);
+      this.fence = null;
+    }
+    return this.fence !== null;
+  }
+
   /** Shows this; true when a picture was drawn (nothing is drawn when nothing moved). `now` in seconds. */
   draw(shown: Shown, now: number): boolean {
     const since = this.lastStep === null ? 0 : now - this.lastStep;
@@ -233,6 +244,9 @@ export class Stage {
       this.renderer.render(this.scene, this.camera);
       this.dirty = false;
     }
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
     return true;
   }
 }

@@ -9,13 +9,15 @@ import { byId } from "../ui/dom";
 import type { CameraView } from "../views/camera";
 import type { TopView } from "../views/top";
 
+const ASK_AGAIN = 2; // ms
+
 export class Loop {
   private stage: Stage | null = null;
   private rest = 1;
   private lastShown = -1;
   private ticks = 0;
   private drawnSent = 0;
-  private readonly after = new MessageChannel();
+  private readonly told: () => void;
   private drawn: { frame: number; stamp: number } | null = null;
 
   constructor(
@@ -25,8 +27,12 @@ export class Loop {
     send: (c: Command) => boolean,
     private readonly complain: (words: string) => void,
   ) {
-    // A task of its own, after the picture has been handed over.
-    this.after.port1.onmessage = () => {
+    // Told when the graphics card, or what stands in for it, has drawn the picture.
+    this.told = () => {
+      if (this.stage?.busy) {
+        window.setTimeout(this.told, ASK_AGAIN);
+        return;
+      }
       const d = this.drawn;
       this.drawn = null;
       if (d && send({ type: "drawn", ...d })) this.drawnSent++;
@@ -77,18 +83,21 @@ export class Loop {
     const tick = (): void => {
       requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
       this.ticks++;
-      const now = performance.now() / 1000;
-      const shown = this.driver.step(now);
-      this.rest = shown.rest;
-      const rendered = this.stage?.draw(shown, now) ?? false;
+      if (!this.stage?.busy) this.showAvatar();
       this.camera.draw();
       this.top.draw();
-      if (rendered && shown.fresh) {
-        this.lastShown = shown.fresh.frame;
-        this.drawn = { frame: shown.fresh.frame, stamp: shown.fresh.stamp };
-        this.after.port2.postMessage(null);
-      }
     };
     requestAnimationFrame(tick);
+  }
+
+  private showAvatar(): void {
+    const now = performance.now() / 1000;
+    const shown = this.driver.step(now);
+    this.rest = shown.rest;
+    const rendered = this.stage?.draw(shown, now) ?? false;
+    if (!rendered || !shown.fresh) return;
+    this.lastShown = shown.fresh.frame;
+    if (!this.drawn) window.setTimeout(this.told, 0);
+    this.drawn = { frame: shown.fresh.frame, stamp: shown.fresh.stamp };
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's picture with what was found in it. The picture comes unmirrored and bare.
 
+import { flatContext } from "../graphics";
 import type { Camera, Picture, Pose } from "../protocol";
 import { ellipseInPicture } from "./geometry";
 import { POSES_STOPPED, Pairing } from "./pairing";
@@ -29,7 +30,7 @@ export class CameraView {
   private broken = 0;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.g = canvas.getContext("2d", { alpha: false })!;
+    this.g = flatContext(canvas, false);
     this.palette = readPalette(canvas);
   }
 

@@ -2,7 +2,7 @@
 // The person from above: what one camera cannot see well, the depth, with how sure the tracker is of it.
 // The camera is at the bottom and looks up; x to the right (to the left when mirrored, as in the picture).
 
-import { drawsInSoftware } from "../graphics";
+import { drawsInSoftware, flatContext } from "../graphics";
 import type { Camera, Pose, TrackedPose } from "../protocol";
 import type { Vec3 } from "../quaternion";
 import { fitCanvas } from "./fit";
@@ -36,7 +36,7 @@ export class TopView {
   private window: Window = { near: -200, far: 3000, x: 0 };
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.g = canvas.getContext("2d")!;
+    this.g = flatContext(canvas, true);
     this.colours = this.readColours();
     new ResizeObserver(() => (this.dirty = true)).observe(canvas);
   }
