@@ -5,14 +5,19 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include "data_folder.h"
+#include "open_page.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/loop.h"
 #include "telemime/capture/paced.h"
@@ -22,6 +27,9 @@
 
 namespace telemime {
 namespace {
+
+// Without a page for so long, none is being loaded anew.
+constexpr std::chrono::seconds kReload{3};
 
 volatile std::sig_atomic_t interrupt_requested = 0;
 
@@ -37,6 +45,8 @@ struct LiveCommand {
   TrackOptions track;
   LiveRequest live;
   bool unguided = false;
+  bool open = false;
+  bool no_settings = false;
   bool paced = false;
   bool loop = false;
   double seconds = 0.0;
@@ -73,22 +83,54 @@ void print_report(const LiveReport& report) {
   }
 }
 
-// Until the user stops it or the time is over; who looks at the page may still want its recordings.
-void wait_for_end(const LiveCommand& command, const LiveProgram& program) {
+// Until the user stops it or the time is over, or nothing can be tracked any more. Who looks at the page may
+// still want its recordings: as long as one is open, the program stays.
+void wait_for_end(const LiveCommand& command, const LiveProgram& program, const LiveProgram::Message& say) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
+  auto last_page = start;
   bool told = false;
   while (interrupt_requested == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    if (command.seconds > 0.0 && seconds >= command.seconds) {
+    const auto now = Clock::now();
+    if (command.seconds > 0.0 && std::chrono::duration<double>(now - start).count() >= command.seconds) {
       return;
     }
-    if (!told && program.report().state.phase == LivePhase::ended) {
+    const LiveReport report = program.report();
+    if (report.pages > 0) {
+      last_page = now;
+    }
+    if (report.failure && now - last_page > kReload) {
+      return;
+    }
+    if (report.state.phase == LivePhase::ended && !told) {
       told = true;
-      std::cerr << "the input has ended; the page stays until Ctrl-C\n";
+      say(MessageLevel::info, report.failure ? "the page stays as long as it is open"
+                                             : "the input has ended; the page stays until Ctrl-C");
     }
   }
+}
+
+// The XDG Base Directory Specification: a relative path there does not count.
+std::filesystem::path settings_file() {
+  const auto folder = [](const char* variable) {
+    const char* const value = std::getenv(variable);
+    const std::filesystem::path path(value == nullptr ? "" : value);
+    return path.is_absolute() ? path : std::filesystem::path();
+  };
+  if (const auto config = folder("XDG_CONFIG_HOME"); !config.empty()) {
+    return config / "telemime" / "live.json";
+  }
+  const auto home = folder("HOME");
+  return home.empty() ? home : home / ".config" / "telemime" / "live.json";
+}
+
+// Of a run that ended by itself.
+void fail(const LiveFailure& failure) {
+  if (failure.input) {
+    throw Error(ErrorKind::input, "the run ended: " + failure.words);
+  }
+  throw std::runtime_error(failure.words);
 }
 
 void run(LiveCommand command) {
@@ -101,6 +143,8 @@ void run(LiveCommand command) {
     command.loop = true;
   }
   command.live.request = make_request(command.track);
+  const TrackOptions& track = command.track;
+  command.live.request.keep_pace = !track.particles && !track.iterations && !track.budget_ms;
   const std::string& input = command.live.request.input;
   if ((command.loop || command.paced) && !is_file(input)) {
     throw Error(ErrorKind::usage, input + " is no file: it cannot be paced or looped",
@@ -108,9 +152,10 @@ void run(LiveCommand command) {
   }
   command.live.guided = !command.unguided && !is_file(input);
   command.live.version = TELEMIME_VERSION;
+  command.live.settings = command.no_settings ? std::filesystem::path() : settings_file();
   std::mutex mutex;
-  const auto say = [&mutex, quiet = command.track.quiet](const std::string& words) {
-    if (!quiet) {
+  const auto say = [&mutex, quiet = command.track.quiet](MessageLevel level, const std::string& words) {
+    if (!quiet || level != MessageLevel::info) {
       const std::lock_guard lock(mutex);
       std::cerr << words << '\n';
     }
@@ -118,11 +163,21 @@ void run(LiveCommand command) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   LiveProgram program(command.live, open_live(command, input), say);
-  const std::string& address = command.live.web.address;
-  std::cout << "the page: http://" << (address == WebServerOptions().address ? "localhost" : address) << ':'
-            << program.port() << "   Ctrl-C ends" << std::endl;
-  wait_for_end(command, program);
-  print_report(program.report());
+  const std::string url = page_url(command.live.web, program.port());
+  std::cout << "the page: " << url << "   Ctrl-C ends" << std::endl;
+  if (command.open) {
+    try {
+      open_page(url);
+    } catch (const Error& e) {
+      say(MessageLevel::warning, e.what());
+    }
+  }
+  wait_for_end(command, program, say);
+  const LiveReport report = program.report();
+  print_report(report);
+  if (report.failure) {
+    fail(*report.failure);
+  }
 }
 
 }  // namespace
@@ -135,14 +190,19 @@ void add_live_command(CLI::App& app) {
   command->get_option("INPUT")->required(false)->default_str("0")->description(
       "camera index or device, stream URL, file, or demo: the bundled clip [0]");
   command->remove_option(command->get_option("--frames"));
+  command->get_option("--quiet")->description("print only warnings and errors");
   options->track.request.input = "0";
   LiveRequest& live = options->live;
   command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
   command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");
+  command->add_flag("--open", options->open, "open the page in the desktop's browser");
   command->add_flag("--paced", options->paced, "a file behaves like a camera (files always do here)");
   command->add_flag("--loop", options->loop, "a file begins again when it has ended");
   command->add_option("--send", live.send,
                       "also send the motion there, any number of URLs: vmc://localhost:39539, ...");
+  command->add_flag("--resume-outputs", live.resume_outputs,
+                    "send again to the outputs that were added on the page in earlier runs");
+  command->add_flag("--no-settings", options->no_settings, "know nothing of earlier runs, and keep nothing");
   command->add_option("--port", live.web.port, "of the page [7070]");
   command->add_option("--address", live.web.address,
                       "where the page is served [127.0.0.1: only this machine]");

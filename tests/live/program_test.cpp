@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "live/page.h"
 #include "live/scripted_source.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
@@ -14,6 +14,7 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::empty_room;
+using live_testing::hear;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::Scene;
@@ -37,30 +38,6 @@ class Program : public ::testing::Test {
 
   ScratchFolder folder_;
 };
-
-// The next message of a type for which `wanted` holds; fails the test when there is none in a minute.
-template <typename Wanted>
-Json hear(SocketClient& page, const std::string& type, const Wanted& wanted) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (std::chrono::steady_clock::now() < deadline) {
-    const auto message = page.message();
-    if (!message) {
-      break;
-    }
-    if (message->opcode == SocketClient::text) {
-      Json json = Json::parse(message->payload);
-      if (json.at("type") == type && wanted(json)) {
-        return json;
-      }
-    }
-  }
-  ADD_FAILURE() << "no such " << type;
-  return {};
-}
-
-Json hear(SocketClient& page, const std::string& type) {
-  return hear(page, type, [](const Json&) { return true; });
-}
 
 std::string get(std::uint16_t port, const std::string& path, int status) {
   RawClient client(port);

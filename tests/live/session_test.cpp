@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <condition_variable>
-#include <mutex>
-
+#include "live/heard.h"
 #include "live/scripted_source.h"
 #include "support/list_source.h"
 #include "telemime/live/live_session.h"
@@ -16,56 +13,10 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::empty_room;
+using live_testing::Heard;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::Scene;
-
-// What a session said, to be waited for.
-class Heard {
- public:
-  LiveHooks hooks() {
-    LiveHooks hooks;
-    hooks.motion = [this](const MotionFrame& frame, double) { note([&] { motion.push_back(frame); }); };
-    hooks.person = [this](const StreamHeader&) { note([&] { ++persons; }); };
-    hooks.picture = [this](const Frame&) { note([&] { ++pictures; }); };
-    hooks.message = [this](MessageLevel, const std::string& words) {
-      note([&] { messages += words + "\n"; });
-    };
-    return hooks;
-  }
-  /// True as soon as `done` is; false after a minute.
-  template <typename Done>
-  bool wait(const Done& done) {
-    std::unique_lock lock(mutex_);
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!done()) {
-      if (changed_.wait_until(
-              lock, std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(5))) ==
-              std::cv_status::timeout &&
-          std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  std::vector<MotionFrame> motion;
-  int persons = 0;
-  int pictures = 0;
-  std::string messages;
-
- private:
-  template <typename Change>
-  void note(const Change& change) {
-    {
-      const std::lock_guard lock(mutex_);
-      change();
-    }
-    changed_.notify_all();
-  }
-  std::mutex mutex_;
-  std::condition_variable changed_;
-};
 
 std::vector<Frame> several_times(int times) {
   std::vector<Frame> frames;
@@ -151,35 +102,6 @@ TEST(LiveSession, WithoutAGuideLearnsFromTheFirstPictures) {
   const LiveSession session(request, false, camera_of(scene), heard.hooks());
   EXPECT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
   EXPECT_NE(heard.messages.find("background: "), std::string::npos);
-}
-
-TEST(LiveSession, StopsWhileTheCameraIsSilent) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
-  scene->show(person());
-  Heard heard;
-  {
-    const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
-    ASSERT_TRUE(heard.wait([&] { return heard.pictures > 0; }));
-    scene->show({});
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
-    scene->show(person());
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
-        << "it goes on by itself";
-    scene->show({});
-  }
-}
-
-TEST(LiveSession, TheEndOfTheCameraIsTold) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
-  scene->show(person());
-  Heard heard;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
-  ASSERT_TRUE(heard.wait([&] { return !heard.motion.empty(); }));
-  scene->end();
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
-  EXPECT_EQ(session.state().words, "the cable is out");
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ export async function startProgram(args, { port = 0 } = {}) {
 /** Of a browser that cannot draw in 3-D. */
 export const FLAT = ["--disable-gpu", "--disable-3d-apis"];
 
-export function startBrowser(args = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]) {
+// As on a computer without a graphics card: WebGL in software, the page itself drawn without it.
+export function startBrowser(args = ["--enable-unsafe-swiftshader"]) {
   return chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", ...args] });
 }
 

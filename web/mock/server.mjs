@@ -257,7 +257,6 @@ const hello = {
     { scheme: "bap+serve", example: "bap+serve://:4150", summary: "MPEG-4 players that ask for it" },
     { scheme: "ws", example: "ws://localhost:9000", summary: "Your own program: what this page gets" },
   ],
-  settings: {},
 };
 
 const server = createServer((request, response) => {
@@ -281,7 +280,7 @@ const server = createServer((request, response) => {
     return send(200, "application/json", JSON.stringify({ phase: state.phase, received: state.received }));
   }
   if (avatar) {
-    const data = avatars.get(avatar[1]);
+    const data = avatars.get(avatar[1]) ?? avatars.get(avatar[1].replace(/-light$/, ""));
     return data ? send(200, "model/gltf-binary", data) : send(404, "text/plain", "no such avatar");
   }
   if (/^\/recordings\/\d+\/[\w.-]+$/.test(url.pathname))

@@ -131,6 +131,8 @@ export type Command =
   | { type: "recalibrate" }
   | { type: "output"; add: string }
   | { type: "output"; remove: string }
+  | { type: "output"; off: string }
+  | { type: "poses"; on: boolean }
   | { type: "record"; on: boolean }
   | { type: "forget"; recording: number }
   | { type: "pictures"; on: boolean }

@@ -151,6 +151,24 @@ TEST(SlowAvatar, EveryLookIsOfOtherProportionsToo) {
   }
 }
 
+TEST(Avatar, ALightOneIsThePersonToo) {
+  const auto triangles = [](const Glb& glb) {
+    std::size_t count = 0;
+    for (const auto& mesh : glb.json["meshes"]) {
+      for (const auto& primitive : mesh["primitives"]) {
+        count +=
+            glb.json["accessors"][primitive["indices"].get<std::size_t>()]["count"].get<std::size_t>() / 3;
+      }
+    }
+    return count;
+  };
+  const Glb whole = testing_glb::parse(make_avatar(Shape{}, avatar_look("plain")));
+  const Glb lighter = testing_glb::parse(make_avatar(Shape{}, light(avatar_look("plain"))));
+  expect_good(lighter, Shape().stature);
+  EXPECT_LT(2 * triangles(lighter), triangles(whole));
+  EXPECT_LT(triangles(whole), 40000U);
+}
+
 TEST(Avatar, TheSameArgumentsGiveTheSameBytes) {
   Shape child;
   child.stature = 1.1;

@@ -27,7 +27,16 @@ struct AvatarLook {
   Colour trim = 0;  ///< what the top is set off with
   Colour trousers = 0;
   Colour shoes = 0;
+  /// How far surfaces may be simplified, as a part of the grid's cell: with more than the default, what lies
+  /// in thin layers begins to show through.
+  double coarse = 0.07;
 };
+
+/// The same with less than half of the triangles: where each costs much, as without a graphics card.
+inline AvatarLook light(AvatarLook look) {
+  look.coarse = 0.25;
+  return look;
+}
 
 inline constexpr std::array<AvatarLook, 5> kAvatarLooks = {{
     {"plain", "T-shirt, short hair", AvatarHair::cropped, TopStyle::tee, 0.52, 0xD9A581, 0x3B2A20, 0x4A6B4F,

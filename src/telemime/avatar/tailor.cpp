@@ -95,9 +95,8 @@ void Tailor::add(const std::string& name, Colour colour, double roughness, Trian
 
 // The grid resolves the smallest parts of a surface; most of it is flatter.
 Triangles Tailor::cut_out(const Field& field, const Eigen::AlignedBox3d& where, double cell) const {
-  constexpr double kError = 0.07;  // of a cell: with more, what lies in thin layers shows through
   Triangles surface = surface_of(field, where, m(cell));
-  simplify(figure, kError * m(cell), surface);
+  simplify(figure, look.coarse * m(cell), surface);
   return surface;
 }
 

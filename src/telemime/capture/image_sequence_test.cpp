@@ -95,8 +95,8 @@ TEST_F(ImageSequenceTest, AllKindsOfImagesBecomeColourAndTheSizeOfTheFirst) {
   write_image("3.png", cv::Mat(size, CV_8UC4, cv::Scalar(70, 70, 70, 128)));
   write_image("4.png", cv::Mat(size, CV_16UC1, cv::Scalar(90 * 257)));
   write_image("5.png", cv::Mat(size, CV_16UC3, cv::Scalar::all(110 * 257)));
-  write_image("6.tiff", cv::Mat(cv::Size(33, 77), CV_8UC3, cv::Scalar::all(130)));
-  write_image("7.jpg", cv::Mat(cv::Size(201, 7), CV_8UC3, cv::Scalar::all(150)));
+  write_image("6.tiff", cv::Mat(cv::Size(40, 30), CV_8UC3, cv::Scalar::all(130)));
+  write_image("7.jpg", cv::Mat(cv::Size(201, 151), CV_8UC3, cv::Scalar::all(150)));
   const std::unique_ptr<Source> source = open_source(scratch_.file(""));
   EXPECT_EQ(numbers(*source), (std::vector<int>{1, 2, 3, 4, 5, 6, 7}));
   EXPECT_NE(source->complaint().find("resized"), std::string::npos) << source->complaint();

@@ -1,40 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/capture/live.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <opencv2/core.hpp>
-#include <sstream>
+#include <optional>
 #include <thread>
 #include <utility>
 
+#include "telemime/capture/camera_watch.h"
 #include "telemime/capture/picture.h"
 
 namespace telemime {
 namespace {
 
-constexpr int most_damaged = 25;            // pictures in a row until the device is opened again
-constexpr int first_picture_attempts = 20;  // some webcams hand out nothing while they warm up
+constexpr int kMostDamaged = 25;           // pictures in a row until the device is opened again
+constexpr int kFirstPictureAttempts = 20;  // some webcams hand out nothing while they warm up
+constexpr double kOldestStamp = 1.0;       // s; an older one of the driver is of another clock
 
-class LiveSource : public Source {
+using Tell = std::function<void(const SourceNews&)>;
+
+std::chrono::duration<double> in_seconds(double s) {
+  return std::chrono::duration<double>(s);
+}
+
+/// What the reader's thread and the source share; the thread may outlive the source.
+class Reader {
  public:
-  LiveSource(const std::string& name, OpenDevice open, LiveDevice device, const cv::Mat& first,
-             LiveOptions options)
-      : open_(std::move(open)), device_(std::move(device)), options_(std::move(options)) {
-    info_ = {name, first.cols, first.rows, usable_fps(device_.fps, notes_), 0, /*live=*/true};
-    start_ = options_.clock.now();
+  Reader(OpenDevice open, LiveDevice device, const cv::Mat& first, LiveOptions options)
+      : open_(std::move(open)),
+        device_(std::move(device)),
+        options_(std::move(options)),
+        size_(first.size()),
+        start_(options_.clock.now()),
+        taken_(start_),
+        opened_(start_),
+        watch_(size_, start_) {
+    fps_ = usable_fps(device_.fps, notes_);
     newest_ = Frame{first, 0, 0.0, start_};
-    reader_ = std::thread([this] { read(); });
   }
 
-  ~LiveSource() override {
-    stop();
-    reader_.join();
-  }
+  double fps() const { return fps_; }
 
-  void stop() override {
+  void stop() {
     {
       const std::lock_guard lock(mutex_);
       stop_ = true;
@@ -42,38 +54,62 @@ class LiveSource : public Source {
     changed_.notify_all();
   }
 
-  const SourceInfo& info() const override { return info_; }
+  /// False when the thread is still at work after so long.
+  bool wait_for_end(double seconds) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, in_seconds(seconds), [this] { return ended_; });
+  }
 
-  std::string complaint() const override {
+  void attend(Tell tell) {
+    {
+      const std::lock_guard lock(mutex_);
+      tell_ = std::move(tell);
+    }
+    changed_.notify_all();
+  }
+
+  std::string complaint() const {
     const std::lock_guard lock(mutex_);
     Notes all = notes_;
-    if (interruptions_ > 0) {
-      std::ostringstream note;
-      note.precision(1);
-      note << std::fixed << "it stopped "
-           << (interruptions_ == 1 ? "once" : std::to_string(interruptions_) + " times") << ", last after "
-           << stopped_at_ << " s; " << outcome_;
-      all.add(note.str());
-    }
-    if (all_damaged_ > 0) {
-      all.add(std::to_string(all_damaged_) + " damaged pictures were left out");
+    if (const std::string summary = watch_.summary(); !summary.empty()) {
+      all.add(summary);
     }
     return all.text();
   }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> next() {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return newest_ || ended_ || stop_; });
-    return stop_ ? std::nullopt : std::exchange(newest_, std::nullopt);
+    while (true) {
+      const auto something = [this] { return newest_ || ended_ || stop_ || !news_.empty(); };
+      if (!tell_) {
+        changed_.wait(lock, something);
+      } else if (!changed_.wait_for(lock, in_seconds(options_.silence), something)) {
+        note(watch_.silent());
+      }
+      if (stop_) {
+        return std::nullopt;
+      }
+      if (!news_.empty()) {
+        const auto news = std::exchange(news_, {});
+        lock.unlock();
+        for (const SourceNews& one : news) {
+          tell_(one);  // set once, before the first call of next()
+        }
+        lock.lock();
+      } else if (newest_ || ended_) {
+        return std::exchange(newest_, std::nullopt);
+      }
+    }
   }
 
- private:
+  /// The reader's thread.
   void read() {
     while (!stopped()) {
       if (!read_one() && !stopped() && !reopen()) {
         break;
       }
     }
+    device_ = {};
     {
       const std::lock_guard lock(mutex_);
       ended_ = true;
@@ -81,68 +117,106 @@ class LiveSource : public Source {
     changed_.notify_all();
   }
 
+ private:
   /// False when the device has stopped, or gives nothing but damage.
   bool read_one() {
+    if (!device_.grab()) {
+      return false;
+    }
+    stamp();
     cv::Mat picture;  // a new one each time: the last may still be in use
     try {
-      if (!device_.grab(picture)) {
-        return false;
+      cv::Mat read;
+      if (device_.retrieve(read)) {
+        picture = to_bgr8(read);
       }
-      publish(to_bgr8(picture));
-      damaged_ = 0;
     } catch (const cv::Exception&) {  // of the decoder; the next picture may be whole
-      damaged_ = (damaged_ + 1) % most_damaged;
-      const std::lock_guard lock(mutex_);
-      ++all_damaged_;
+      picture.release();
+    }
+    if (picture.empty()) {
+      damaged_ = (damaged_ + 1) % kMostDamaged;
+      {
+        const std::lock_guard lock(mutex_);
+        note(watch_.damaged(options_.clock.now()));
+      }
+      changed_.notify_all();
       return damaged_ != 0;
     }
+    damaged_ = 0;
+    publish(picture);
     return true;
   }
 
+  void stamp() {
+    const double now = options_.clock.now();
+    const double driver = device_.stamp ? device_.stamp() : now;
+    const bool usable = driver > taken_ && driver <= now && now - driver < kOldestStamp;
+    taken_ = std::max(taken_, usable ? driver : now);
+  }
+
   void publish(const cv::Mat& picture) {
-    if (picture.empty()) {
-      return;
-    }
-    failed_attempts_ = 0;
-    const double taken = options_.clock.now();
     {
       const std::lock_guard lock(mutex_);
-      newest_ = Frame{fit_to(picture, {info_.width, info_.height}, notes_), ++index_, taken - start_, taken};
+      if (!tell_ || taken_ - opened_ >= options_.steady) {
+        attempts_ = 0;
+      }
+      note(watch_.back(taken_));
+      note(watch_.size(picture.size()));
+      note(watch_.rate(taken_));
+      note(watch_.whole(taken_));
+      newest_ = Frame{fit_to(picture, size_, notes_), ++index_, taken_ - start_, taken_};
     }
     changed_.notify_all();
+  }
+
+  /// Under the lock.
+  void note(std::optional<SourceNews> news) {
+    if (tell_ && news) {
+      news_.push_back(std::move(*news));
+    }
   }
 
   /// Tries to open the device again, with growing pauses. False: given up, or asked to stop.
   bool reopen() {
     device_ = {};  // closes it; most drivers refuse a second opening
-    const double stopped_at = options_.clock.now() - start_;
-    while (failed_attempts_ < options_.pauses.size()) {
-      if (!pause(options_.pauses[failed_attempts_])) {
+    {
+      const std::lock_guard lock(mutex_);
+      note(watch_.stopped(options_.clock.now()));
+    }
+    changed_.notify_all();
+    while (const std::optional<double> wait = next_pause()) {
+      if (!pause(*wait)) {
         return false;
       }
-      ++failed_attempts_;
+      ++attempts_;
       device_ = open_();
       if (device_.grab) {
-        note_interruption(stopped_at, "it was opened again");
+        opened_ = options_.clock.now();
         return true;
       }
     }
-    note_interruption(stopped_at,
-                      "it did not come back in " + std::to_string(options_.pauses.size()) + " attempts");
+    const std::lock_guard lock(mutex_);
+    watch_.given_up(options_.pauses.size());
     return false;
   }
 
-  void note_interruption(double when, const std::string& outcome) {
+  /// Nothing when there is no further attempt.
+  std::optional<double> next_pause() const {
+    const std::vector<double>& pauses = options_.pauses;
     const std::lock_guard lock(mutex_);
-    ++interruptions_;
-    stopped_at_ = when;
-    outcome_ = outcome;
+    if (!tell_) {
+      return attempts_ < pauses.size() ? std::optional(pauses[attempts_]) : std::nullopt;
+    }
+    const double longest = options_.longest_pause;
+    return pauses.empty() ? longest : std::min(longest, pauses[std::min(attempts_, pauses.size() - 1)]);
   }
 
-  /// False when the source is being destroyed.
+  /// Ends early when the source begins to be attended: its pauses are shorter. False when it is stopped.
   bool pause(double seconds) {
     std::unique_lock lock(mutex_);
-    return !changed_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_; });
+    const bool attended = tell_ != nullptr;
+    changed_.wait_for(lock, in_seconds(seconds), [this, attended] { return stop_ || (tell_ && !attended); });
+    return !stop_;
   }
 
   bool stopped() const {
@@ -153,34 +227,67 @@ class LiveSource : public Source {
   // Only the reader's thread touches these once it runs.
   OpenDevice open_;
   LiveDevice device_;
-  std::size_t failed_attempts_ = 0;
+  std::size_t attempts_ = 0;
   std::int64_t index_ = 0;
   int damaged_ = 0;  // pictures in a row
 
   // Constant once the reader's thread runs.
   LiveOptions options_;
-  SourceInfo info_;
-  double start_ = 0.0;
+  cv::Size size_;
+  double fps_ = 0.0;
+  double start_;  // s of the clock, of the first picture
 
-  mutable std::mutex mutex_;
+  double taken_;   // of the reader's thread: of the last picture
+  double opened_;  // of the reader's thread: the device, last
+
+  mutable std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
+  CameraWatch watch_;
   Notes notes_;
-  int interruptions_ = 0;
-  std::int64_t all_damaged_ = 0;
-  double stopped_at_ = 0.0;  // seconds, of the last interruption
-  std::string outcome_;      // of the last interruption
+  Tell tell_;
+  std::vector<SourceNews> news_;
   std::optional<Frame> newest_;
   bool ended_ = false;
   bool stop_ = false;
-
-  std::thread reader_;
 };
 
-cv::Mat first_picture(const Grab& grab) {
-  for (int attempt = 0; attempt < first_picture_attempts; ++attempt) {
-    cv::Mat picture;
+class LiveSource final : public Source {
+ public:
+  LiveSource(const std::string& name, OpenDevice open, LiveDevice device, const cv::Mat& first,
+             const LiveOptions& options)
+      : farewell_(options.farewell),
+        reader_(std::make_shared<Reader>(std::move(open), std::move(device), first, options)),
+        info_{name, first.cols, first.rows, reader_->fps(), 0, /*live=*/true},
+        thread_([reader = reader_] { reader->read(); }) {}
+
+  ~LiveSource() override {
+    reader_->stop();
+    if (reader_->wait_for_end(farewell_)) {
+      thread_.join();
+    } else {
+      thread_
+          .detach();  // a driver or a network that hangs; it ends by itself, and shares nothing with others
+    }
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  std::optional<Frame> next() override { return reader_->next(); }
+  void stop() override { reader_->stop(); }
+  void attend(Tell tell) override { reader_->attend(std::move(tell)); }
+  std::string complaint() const override { return reader_->complaint(); }
+
+ private:
+  double farewell_;
+  std::shared_ptr<Reader> reader_;
+  SourceInfo info_;
+  std::thread thread_;
+};
+
+cv::Mat first_picture(const LiveDevice& device) {
+  for (int attempt = 0; attempt < kFirstPictureAttempts; ++attempt) {
     try {
-      if (grab(picture)) {
+      cv::Mat picture;
+      if (device.grab() && device.retrieve(picture)) {
         cv::Mat usable = to_bgr8(picture);
         if (!usable.empty()) {
           return usable;
@@ -200,12 +307,12 @@ std::unique_ptr<Source> live_source(const std::string& name, OpenDevice open, Li
   if (!device.grab) {
     return nullptr;
   }
-  const cv::Mat first = first_picture(device.grab);
+  const cv::Mat first = first_picture(device);
   if (first.empty()) {
     return nullptr;
   }
   require_usable_size(first.size(), name);
-  return std::make_unique<LiveSource>(name, std::move(open), std::move(device), first, std::move(options));
+  return std::make_unique<LiveSource>(name, std::move(open), std::move(device), first, options);
 }
 
 }  // namespace telemime

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/mat.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,29 +12,47 @@
 
 namespace telemime {
 
-/// A camera or stream that is open. Reads the next picture (any kind that to_bgr8 knows) into the argument
-/// and returns true; false when the device has stopped. May block.
-using Grab = std::function<bool(cv::Mat&)>;
-
+/// A camera or stream that is open. All is called from one thread at a time.
 struct LiveDevice {
-  Grab grab;         ///< empty when the device could not be opened
+  /// Waits for the next picture; false when the device has stopped. Empty when it could not be opened.
+  std::function<bool()> grab;
+  /// Decodes the picture that was grabbed, of any kind that to_bgr8 knows, into a Mat of its own; false, an
+  /// empty picture or a cv::Exception when it is damaged.
+  std::function<bool(cv::Mat&)> retrieve;
+  /// When the driver got the picture that was grabbed, s of the computer's monotonic clock; may be empty.
+  std::function<double()> stamp = {};
   double fps = 0.0;  ///< stated by the device, or 0
 };
 
 /// Opens the device (again).
 using OpenDevice = std::function<LiveDevice()>;
 
+/// Times in seconds.
 struct LiveOptions {
-  /// Seconds to wait before each attempt to open a device that has stopped. After the last failed attempt the
-  /// source ends; a picture that arrives starts the list anew.
+  /// Waits before each attempt to open a device that has stopped. After the last failed attempt the source
+  /// ends, and a picture that arrives starts the list anew. A source that is attended never ends: it goes on
+  /// with the last wait, and starts anew when pictures have come for `steady`.
   std::vector<double> pauses = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0};
-  Clock clock = monotonic_clock();  ///< for time stamps only; pauses end early when the source is destroyed
+  double longest_pause = 5.0;       ///< of a source that is attended
+  double steady = 2.0;              ///< see pauses
+  double silence = 2.0;             ///< without a picture, until an attended source says that it is gone
+  double patience = 8.0;            ///< to connect to a stream, and then to wait for each of its pictures
+  double farewell = 1.0;            ///< that the destructor waits for a device that is being read
+  Clock clock = monotonic_clock();  ///< for time stamps only; waits end early when the source is stopped
 };
 
 /// A live source around `open`, which is called at once and, from the reader's thread, after each
 /// interruption. That thread keeps only the newest frame; next() waits for one that was not handed out yet.
-/// Time stamps are seconds of the clock since the first picture; the index counts every picture, so gaps show
-/// dropped ones. Returns nothing when the device cannot be opened or gives no picture.
+/// The index counts every picture that could be decoded, so gaps show dropped ones. Frame::taken is the
+/// driver's stamp where that is of the monotonic clock and not older than a second, else the time when grab()
+/// returned, before the picture is decoded (FFmpeg decodes all but Motion JPEG within grab()). It never goes
+/// back. Exposure and the way into the driver (of a stream: the sender's side and the network) came before
+/// and are not seen by any clock here. Frame::time is since the first picture. A device that hangs is left to
+/// a thread of its own at the end, with all that `open` holds.
+/// Returns nothing when the device cannot be opened or gives no picture.
 std::unique_ptr<Source> live_source(const std::string& name, OpenDevice open, LiveOptions options = {});
+
+/// open_source with options for cameras and streams.
+std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions& options);
 
 }  // namespace telemime

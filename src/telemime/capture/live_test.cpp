@@ -21,6 +21,7 @@ class FakeCamera {
   /// Hands `count` pictures out, and returns when the reader has taken all and asks for one more.
   void push(int count) {
     std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return failures_ == 0; });  // what was to fail fails first
     pending_ += count;
     changed_.notify_all();
     changed_.wait(lock, [this] { return pending_ == 0 && waiting_; });
@@ -31,7 +32,18 @@ class FakeCamera {
     failures_ += count;
     changed_.notify_all();
   }
-  bool grab(cv::Mat& picture) {
+  LiveDevice device(double fps) {
+    return {[this] { return grab(); },
+            [this](cv::Mat& picture) {
+              picture = testing::numbered_picture(made_++);
+              return true;
+            },
+            {},
+            fps};
+  }
+
+ private:
+  bool grab() {
     std::unique_lock lock(mutex_);
     waiting_ = pending_ == 0;
     changed_.notify_all();
@@ -39,17 +51,12 @@ class FakeCamera {
     waiting_ = false;
     if (pending_ == 0) {
       --failures_;
+      changed_.notify_all();
       return false;
     }
     --pending_;
-    picture = testing::numbered_picture(made_++);
     return true;
   }
-  Grab handle() {
-    return [this](cv::Mat& picture) { return grab(picture); };
-  }
-
- private:
   std::mutex mutex_;
   std::condition_variable changed_;
   int pending_ = 1;  // the one that tells the size
@@ -57,6 +64,12 @@ class FakeCamera {
   int made_ = 0;
   bool waiting_ = false;
 };
+
+LiveOptions with_pauses(std::vector<double> pauses) {
+  LiveOptions options;
+  options.pauses = std::move(pauses);
+  return options;
+}
 
 /// Counts up by one second at every look.
 Clock counting_clock(std::atomic<int>& looks) {
@@ -66,11 +79,10 @@ Clock counting_clock(std::atomic<int>& looks) {
 TEST(Live, KeepsOnlyTheNewestFrameWithTimesThatGrow) {
   FakeCamera camera;
   std::atomic<int> looks = 0;
-  const std::unique_ptr<Source> source = live_source("0",
-                                                     [&] {
-                                                       return LiveDevice{camera.handle(), 30.0};
-                                                     },
-                                                     {{}, counting_clock(looks)});
+  LiveOptions options = with_pauses({});
+  options.clock = counting_clock(looks);
+  const std::unique_ptr<Source> source = live_source(
+      "0", [&] { return camera.device(30.0); }, options);
   ASSERT_TRUE(source);
   EXPECT_TRUE(source->info().live);
   EXPECT_EQ(source->info().width, 64);
@@ -93,11 +105,8 @@ TEST(Live, KeepsOnlyTheNewestFrameWithTimesThatGrow) {
 
 TEST(Live, TheLastFrameIsHandedOutBeforeTheEnd) {
   FakeCamera camera;
-  const std::unique_ptr<Source> source = live_source("0",
-                                                     [&] {
-                                                       return LiveDevice{camera.handle(), 30.0};
-                                                     },
-                                                     {{}});
+  const std::unique_ptr<Source> source = live_source(
+      "0", [&] { return camera.device(30.0); }, with_pauses({}));
   camera.push(1);
   camera.fail(1);
   EXPECT_EQ(source->next()->index, 1);
@@ -113,9 +122,9 @@ TEST(Live, ADeviceThatStopsIsOpenedAgain) {
   const auto open = [&] {
     const int opening = openings++;
     // The second and third attempts find nothing, as while a cable is out.
-    return opening == 1 || opening == 2 ? LiveDevice{} : LiveDevice{camera.handle(), 0.0};
+    return opening == 1 || opening == 2 ? LiveDevice{} : camera.device(0.0);
   };
-  const std::unique_ptr<Source> source = live_source("0", open, {{0.0, 0.0, 0.0, 0.0}});
+  const std::unique_ptr<Source> source = live_source("0", open, with_pauses({0.0, 0.0, 0.0, 0.0}));
   EXPECT_EQ(source->info().fps, 25.0);
   EXPECT_EQ(source->next()->index, 0);
   camera.fail(1);
@@ -141,18 +150,15 @@ TEST(Live, TheDefaultPausesGrow) {
 TEST(Live, ItCanBeDestroyedInTheMiddleOfALongPause) {
   FakeCamera camera;
   camera.fail(1);
-  std::unique_ptr<Source> source = live_source("0",
-                                               [&] {
-                                                 return LiveDevice{camera.handle(), 30.0};
-                                               },
-                                               {{1e6}, monotonic_clock()});
+  std::unique_ptr<Source> source = live_source(
+      "0", [&] { return camera.device(30.0); }, with_pauses({1e6}));
   ASSERT_TRUE(source);
   source.reset();  // would take twelve days if the pause did not end early
 }
 
 TEST(Live, NothingIsReturnedWithoutADeviceOrAPicture) {
   EXPECT_FALSE(live_source("0", [] { return LiveDevice{}; }));
-  EXPECT_FALSE(live_source("0", [] { return LiveDevice{[](cv::Mat&) { return false; }, 30.0}; }));
+  EXPECT_FALSE(live_source("0", [] { return LiveDevice{[] { return false; }, {}, {}, 30.0}; }));
 }
 
 TEST(Live, DamagedPicturesAreLeftOut) {
@@ -160,7 +166,8 @@ TEST(Live, DamagedPicturesAreLeftOut) {
   const auto open = [&opened] {
     ++opened;
     int count = 0;
-    return LiveDevice{[&opened, count](cv::Mat& picture) mutable {
+    return LiveDevice{[] { return true; },
+                      [&opened, count](cv::Mat& picture) mutable {
                         ++count;
                         if (opened == 1 && count > 1) {
                           CV_Error(cv::Error::StsError, "no such JPEG");  // as a decoder complains
@@ -171,6 +178,7 @@ TEST(Live, DamagedPicturesAreLeftOut) {
                         }
                         return true;
                       },
+                      {},
                       25.0};
   };
   LiveOptions options;
@@ -186,16 +194,21 @@ TEST(Live, DamagedPicturesAreLeftOut) {
 
 TEST(Live, OddPicturesAreMadeUsable) {
   std::atomic<int> reads = 0;
-  const auto grab = [&](cv::Mat& picture) {
-    const int read = reads++;
-    if (read == 0) {
+  const auto grab = [&] { return reads++ < 2; };
+  const auto retrieve = [&](cv::Mat& picture) {
+    if (reads == 1) {
       picture = cv::Mat(48, 64, CV_8UC1, cv::Scalar(50));
-    } else if (read == 1) {
+    } else {
       picture = cv::Mat(96, 128, CV_16UC3, cv::Scalar::all(70 * 257));
     }
-    return read < 2;
+    return true;
   };
-  const std::unique_ptr<Source> source = live_source("0", [&] { return LiveDevice{grab, 30.0}; }, {{}});
+  const std::unique_ptr<Source> source = live_source(
+      "0",
+      [&] {
+        return LiveDevice{grab, retrieve, {}, 30.0};
+      },
+      with_pauses({}));
   std::optional<Frame> last;
   while (std::optional<Frame> frame = source->next()) {
     EXPECT_EQ(frame->image.size(), cv::Size(64, 48));

@@ -12,36 +12,24 @@
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
 #include "telemime/capture/source.h"
+#include "telemime/capture/stream.h"
 #include "telemime/capture/video_file.h"
 
 namespace telemime {
 namespace {
 
-constexpr int stream_patience = 8000;  // milliseconds to connect, and then to wait for each frame
-
 /// Copies of a VideoCapture share the same open device.
-LiveDevice as_device(const cv::VideoCapture& opened) {
-  if (!opened.isOpened()) {
+LiveDevice camera_device(const std::string& device) {
+  cv::VideoCapture video(device, cv::CAP_V4L2);
+  if (!video.isOpened()) {
     return {};
   }
-  const double fps = opened.get(cv::CAP_PROP_FPS);
-  return {[video = opened](cv::Mat& picture) mutable { return video.read(picture); }, fps};
-}
-
-cv::VideoCapture open_stream_capture(const std::string& url) {
-  cv::VideoCapture video;
-  video.open(
-      url, cv::CAP_FFMPEG,
-      {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, stream_patience, cv::CAP_PROP_READ_TIMEOUT_MSEC, stream_patience});
-  return video;
-}
-
-cv::VideoCapture open_camera_capture(const std::string& device) {
-  cv::VideoCapture video(device, cv::CAP_V4L2);
-  if (video.isOpened()) {
-    video.set(cv::CAP_PROP_BUFFERSIZE, 1);  // old frames in the driver's queue are only delay
-  }
-  return video;
+  video.set(cv::CAP_PROP_BUFFERSIZE, 1);  // old frames in the driver's queue are only delay
+  return {
+      [video]() mutable { return video.grab(); },
+      [video](cv::Mat& picture) mutable { return video.retrieve(picture); },
+      // The driver's own stamp; of the monotonic clock with nearly all drivers (uvcvideo: its first bytes).
+      [video] { return video.get(cv::CAP_PROP_POS_MSEC) / 1000.0; }, video.get(cv::CAP_PROP_FPS)};
 }
 
 std::string cameras_found() {
@@ -63,7 +51,7 @@ std::string cameras_found() {
              : "Devices found: " + all + ". Not all of them give pictures.";
 }
 
-std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind) {
+std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, const LiveOptions& options) {
   const std::string device = kind == InputKind::camera ? "/dev/video" + input : input;
   std::error_code ignored;
   if (!std::filesystem::exists(device, ignored)) {
@@ -74,8 +62,8 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind) {
         input, kind, "no right to use " + device,
         "Add yourself to the group that owns it (sudo adduser $USER video), then log in again.");
   }
-  std::unique_ptr<Source> source =
-      live_source(input, [device] { return as_device(open_camera_capture(device)); });
+  std::unique_ptr<Source> source = live_source(
+      input, [device] { return camera_device(device); }, options);
   if (!source) {
     throw cannot_read(input, kind, device + " gives no pictures",
                       "Close other programs that use the camera. " + cameras_found());
@@ -83,9 +71,9 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind) {
   return source;
 }
 
-std::unique_ptr<Source> open_stream(const std::string& url) {
+std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& options) {
   const std::string remedy = "Check the address and that the sender runs; 'ffplay URL' should show it.";
-  cv::VideoCapture video = open_stream_capture(url);
+  cv::VideoCapture video = connect_to_stream(url, options.patience);
   if (!video.isOpened()) {
     throw cannot_read(url, InputKind::stream, "no connection, or no video in it", remedy);
   }
@@ -93,11 +81,12 @@ std::unique_ptr<Source> open_stream(const std::string& url) {
   if (finite) {  // a file on a server: read all of it, and do not start again at its end
     return video_source(video, url, InputKind::stream);
   }
-  std::unique_ptr<Source> source = live_source(url, [url, opened = video]() mutable {
+  auto open = [url, patience = options.patience, opened = video]() mutable {
     const cv::VideoCapture first_time = std::exchange(opened, {});
-    return as_device(first_time.isOpened() ? first_time : open_stream_capture(url));
-  });
+    return stream_device(first_time.isOpened() ? first_time : connect_to_stream(url, patience));
+  };
   video = {};  // the source alone holds it now, and can close it
+  std::unique_ptr<Source> source = live_source(url, std::move(open), options);
   if (!source) {
     throw cannot_read(url, InputKind::stream, "connected, but no picture came", remedy);
   }
@@ -107,6 +96,10 @@ std::unique_ptr<Source> open_stream(const std::string& url) {
 }  // namespace
 
 std::unique_ptr<Source> open_source(const std::string& input) {
+  return open_source(input, LiveOptions());
+}
+
+std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions& options) {
   if (input.empty()) {
     throw Error(ErrorKind::usage, "the name of the input is empty",
                 "Give a video file, a folder of images, a stream URL or a camera (0).");
@@ -115,9 +108,9 @@ std::unique_ptr<Source> open_source(const std::string& input) {
   switch (kind) {
     case InputKind::camera:
     case InputKind::device:
-      return open_camera(input, kind);
+      return open_camera(input, kind, options);
     case InputKind::stream:
-      return open_stream(input);
+      return open_stream(input, options);
     case InputKind::folder:
     case InputKind::pattern:
     case InputKind::image:

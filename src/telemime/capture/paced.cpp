@@ -6,6 +6,8 @@
 namespace telemime {
 namespace {
 
+constexpr double kMostReading = 1.0;  // s, to find the newest frame
+
 class PacedSource : public Source {
  public:
   PacedSource(std::unique_ptr<Source> file, Clock clock)
@@ -17,6 +19,7 @@ class PacedSource : public Source {
   std::string complaint() const override { return file_->complaint(); }
 
   void stop() override { file_->stop(); }
+  void attend(std::function<void(const SourceNews&)> tell) override { file_->attend(std::move(tell)); }
 
   std::optional<Frame> next() override {
     if (!start_) {
@@ -27,12 +30,17 @@ class PacedSource : public Source {
       return std::nullopt;
     }
     clock_.wait_until(*start_ + upcoming_->time);
-    const double elapsed = clock_.now() - *start_;
+    const double began = clock_.now();
+    const double elapsed = began - *start_;
     std::optional<Frame> newest;
     do {
       newest = std::exchange(upcoming_, file_->next());
-    } while (upcoming_ && upcoming_->time <= elapsed);
+    } while (upcoming_ && upcoming_->time <= elapsed && clock_.now() - began < kMostReading);
     newest->taken = *start_ + newest->time;
+    if (upcoming_ && upcoming_->time <= elapsed) {
+      // Reading cannot keep up, and what is left out takes time, too: the file goes on slower.
+      *start_ = clock_.now() - upcoming_->time;
+    }
     return newest;
   }
 

@@ -50,6 +50,32 @@ TEST(Paced, AConsumerThatKeepsUpGetsEveryFrameAtItsTime) {
   EXPECT_EQ(source->complaint(), "as the file says");
 }
 
+TEST(Paced, AFileThatIsReadTooSlowlyGoesOnSlower) {
+  /// Each frame takes as long to read as two and a half last.
+  class SlowToRead : public TenASecond {
+   public:
+    explicit SlowToRead(FakeTime& time) : TenASecond(1000), time_(time) {}
+    std::optional<Frame> next() override {
+      time_.seconds += 0.25;
+      return TenASecond::next();
+    }
+
+   private:
+    FakeTime& time_;
+  };
+  FakeTime time;
+  const std::unique_ptr<Source> source = pace(std::make_unique<SlowToRead>(time), time.clock());
+  std::int64_t before = source->next()->index;
+  for (int i = 0; i < 30; ++i) {
+    const std::optional<Frame> frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_GT(frame->index, before);
+    EXPECT_LE(frame->index, before + 12) << i;
+    EXPECT_LE(frame->taken, time.seconds);
+    before = frame->index;
+  }
+}
+
 TEST(Paced, ASlowConsumerGetsTheNewestFrame) {
   FakeTime time;
   const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(10), time.clock());

@@ -16,10 +16,6 @@ constexpr double slowest = 0.5;    // frames a second
 constexpr double fastest = 1000.0;
 constexpr double fallback_fps = 25.0;
 
-std::string words(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 double scale_to_8_bits(int depth) {
   switch (depth) {
     case CV_8U:
@@ -34,6 +30,16 @@ double scale_to_8_bits(int depth) {
 }
 
 }  // namespace
+
+std::string in_words(cv::Size size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+bool same_shape(cv::Size a, cv::Size b) {
+  constexpr double kRounding = 0.02;
+  return std::abs(static_cast<double>(a.width) * b.height / (static_cast<double>(a.height) * b.width) -
+                  1.0) <= kRounding;
+}
 
 void Notes::add(const std::string& note) {
   if (std::find(lines_.begin(), lines_.end(), note) == lines_.end()) {
@@ -76,16 +82,31 @@ cv::Mat fit_to(const cv::Mat& image, cv::Size size, Notes& notes) {
   if (image.size() == size) {
     return image;
   }
-  notes.add("some frames are not " + words(size) + " like the first one (" + words(image.size()) +
+  notes.add("some frames are not " + in_words(size) + " like the first one (" + in_words(image.size()) +
             " for instance); they were resized");
-  cv::Mat resized;
-  cv::resize(image, resized, size, 0.0, 0.0, image.cols > size.width ? cv::INTER_AREA : cv::INTER_LINEAR);
-  return resized;
+  const auto scaled = [&image](cv::Size to) {
+    cv::Mat resized;
+    cv::resize(image, resized, to, 0.0, 0.0, image.cols > to.width ? cv::INTER_AREA : cv::INTER_LINEAR);
+    return resized;
+  };
+  if (same_shape(image.size(), size)) {
+    return scaled(size);
+  }
+  const double scale =
+      std::min(static_cast<double>(size.width) / image.cols, static_cast<double>(size.height) / image.rows);
+  const auto side = [scale](int pixels, int most) {
+    return std::clamp(static_cast<int>(std::lround(scale * pixels)), 1, most);
+  };
+  const cv::Size inner(side(image.cols, size.width), side(image.rows, size.height));
+  cv::Mat fitted(size, image.type(), cv::Scalar::all(0));
+  scaled(inner).copyTo(
+      fitted(cv::Rect(cv::Point((size.width - inner.width) / 2, (size.height - inner.height) / 2), inner)));
+  return fitted;
 }
 
 void require_usable_size(cv::Size size, const std::string& input) {
   if (std::min(size.width, size.height) < smallest_side) {
-    throw Error(ErrorKind::input, "'" + input + "' has pictures of " + words(size) + " pixels",
+    throw Error(ErrorKind::input, "'" + input + "' has pictures of " + in_words(size) + " pixels",
                 "No person can be seen in so few; give pictures of at least 160x120.");
   }
 }

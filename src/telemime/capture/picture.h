@@ -22,7 +22,14 @@ class Notes {
 /// Alpha is dropped. Returns an empty Mat for an empty one or for another number of channels.
 cv::Mat to_bgr8(const cv::Mat& image);
 
-/// `image` resized to `size` when it has another one (and then a note is added), else itself.
+/// "640x480"
+std::string in_words(cv::Size size);
+
+/// Equal ratios of width and height, up to rounding (2 %).
+bool same_shape(cv::Size a, cv::Size b);
+
+/// `image` resized to `size` when it has another one (and then a note is added), else itself. One of another
+/// shape keeps its proportions, with black bars: a person who is stretched is nobody.
 cv::Mat fit_to(const cv::Mat& image, cv::Size size, Notes& notes);
 
 /// Throws Error(input) when a picture of this size (pixels) is too small to hold a person; `input` names it.

@@ -72,5 +72,26 @@ TEST(RequireUsableSize, RefusesPicturesTooSmallForAPerson) {
   }
 }
 
+TEST(Picture, AnotherShapeKeepsItsProportions) {
+  Notes notes;
+  const cv::Mat wide(36, 64, CV_8UC3, cv::Scalar::all(200));
+  const cv::Mat fitted = fit_to(wide, {32, 24}, notes);
+  EXPECT_EQ(fitted.size(), cv::Size(32, 24));
+  EXPECT_EQ(cv::mean(fitted.rowRange(0, 3))[0], 0.0);
+  EXPECT_EQ(cv::mean(fitted.rowRange(3, 21))[0], 200.0) << "18 of 24 rows, as 36 are of 48";
+  EXPECT_EQ(cv::mean(fitted.rowRange(21, 24))[0], 0.0);
+  const cv::Mat high = fit_to(wide.t(), {32, 24}, notes);
+  EXPECT_EQ(cv::mean(high.col(0))[0], 0.0);
+  EXPECT_EQ(cv::mean(high.col(16))[0], 200.0);
+  EXPECT_EQ(fit_to(cv::Mat(1, 5000, CV_8UC3), {32, 24}, notes).size(), cv::Size(32, 24));
+}
+
+TEST(Picture, ShapesAreEqualUpToRounding) {
+  EXPECT_TRUE(same_shape({640, 480}, {320, 240}));
+  EXPECT_TRUE(same_shape({854, 480}, {1280, 720}));
+  EXPECT_FALSE(same_shape({640, 480}, {640, 360}));
+  EXPECT_FALSE(same_shape({640, 480}, {480, 640}));
+}
+
 }  // namespace
 }  // namespace telemime

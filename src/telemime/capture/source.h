@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,17 @@ struct SourceInfo {
   bool live = false;        ///< frames come in real time and may be dropped
 };
 
+/// What happens to a camera while it is used.
+struct SourceNews {
+  enum class Kind {
+    worse,   ///< something is not as good as it was
+    gone,    ///< no picture has come for some time
+    better,  ///< what was worse or gone is over
+  };
+  Kind kind = Kind::worse;
+  std::string words;  ///< for the user
+};
+
 /// A sequence of frames. File inputs never drop a frame; live inputs keep the newest.
 class Source {
  public:
@@ -32,6 +44,9 @@ class Source {
   virtual std::optional<Frame> next() = 0;
   /// From any thread: a next() that waits for a camera gives nothing, now and from now on. Files never wait.
   virtual void stop() {}
+  /// Before the first next(), by who follows a camera for as long as it takes: one that is gone is waited for
+  /// until stop(), and what happens to it is told at once, from within next(). Files have nothing to tell.
+  virtual void attend(std::function<void(const SourceNews&)> /*tell*/) {}
   /// Words about what went wrong on the way (truncated file, stream interrupted); empty when nothing did.
   virtual std::string complaint() const = 0;
 };

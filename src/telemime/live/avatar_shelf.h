@@ -2,36 +2,60 @@
 #pragma once
 
 #include <array>
-#include <atomic>
+#include <condition_variable>
 #include <cstddef>
-#include <future>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include "telemime/avatar/look.h"
 
 namespace telemime {
 
 /// The project's own avatars, made one after the other in a thread of its own (each takes most of a second),
-/// the one that was asked for next.
+/// the one that was asked for next. From any thread; nobody waits.
 class AvatarShelf {
  public:
-  AvatarShelf();
+  using Bytes = std::shared_ptr<const std::string>;
+  using Ready = std::function<void(Bytes)>;
+  /// The VRM file of a look. What it throws makes that avatar one that cannot be had.
+  using Make = std::function<std::string(const AvatarLook&)>;
+
+  AvatarShelf();  ///< of make_avatar and a body of average shape
+  explicit AvatarShelf(Make make);
   AvatarShelf(const AvatarShelf&) = delete;
   AvatarShelf& operator=(const AvatarShelf&) = delete;
   ~AvatarShelf();  ///< does not wait for those that are not begun
 
-  /// The VRM file of a look; waits while it is made. Null when there is no such look.
-  std::shared_ptr<const std::string> get(std::string_view look) const;
+  /// Whether get() knows the name.
+  static bool has(std::string_view look);
+
+  /// Calls `ready` once with the VRM file: at once when it is there, else from the shelf's thread when it is
+  /// made; with null when it cannot be made or the shelf ends. False, and no call, when there is no such
+  /// look. "<name>-light" is light(look) of avatar/look.h.
+  bool get(std::string_view look, Ready ready);
 
  private:
-  using Bytes = std::shared_ptr<const std::string>;
-  std::array<std::promise<Bytes>, kAvatarLooks.size()> promises_;
-  std::array<std::shared_future<Bytes>, kAvatarLooks.size()> avatars_;
-  mutable std::atomic<std::size_t> wanted_ = 0;  ///< the one that is made next
-  std::atomic<bool> stop_ = false;
+  struct Place {
+    bool done = false;
+    Bytes bytes;  ///< null when it could not be made
+    std::vector<Ready> waiting;
+  };
+  void work();
+  std::optional<std::size_t> next() const;
+  void put(std::size_t look, Bytes bytes);
+
+  Make make_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  std::array<Place, 2 * kAvatarLooks.size()> places_;  ///< of the looks, then of the light ones
+  std::size_t wanted_ = 0;                             ///< the one that is made next
+  bool stop_ = false;
   std::thread thread_;
 };
 

@@ -67,6 +67,9 @@ Command output(const Json& message) {
   if (message.contains("add")) {
     return AddOutput{text(message, "add")};
   }
+  if (message.contains("off")) {
+    return SwitchOutputOff{text(message, "off")};
+  }
   return RemoveOutput{text(message, "remove")};
 }
 
@@ -79,7 +82,7 @@ Command drawn(const Json& message) {
   return Drawn{whole(message, "frame", kMost), stamp.get<double>()};
 }
 
-constexpr std::array<std::pair<const char*, Command (*)(const Json&)>, 8> kCommands = {{
+constexpr std::array<std::pair<const char*, Command (*)(const Json&)>, 9> kCommands = {{
     {"guide", guide},
     {"recalibrate", [](const Json&) -> Command { return Recalibrate{}; }},
     {"output", output},
@@ -87,6 +90,7 @@ constexpr std::array<std::pair<const char*, Command (*)(const Json&)>, 8> kComma
     {"forget",
      [](const Json& m) -> Command { return Forget{static_cast<int>(whole(m, "recording", 1000000))}; }},
     {"pictures", [](const Json& m) -> Command { return Pictures{truth(m, "on")}; }},
+    {"poses", [](const Json& m) -> Command { return Poses{truth(m, "on")}; }},
     {"drawn", drawn},
     {"ping", [](const Json& m) -> Command { return Ping{whole(m, "id", std::int64_t{1} << 53)}; }},
 }};

@@ -18,6 +18,9 @@ struct Recalibrate {};
 struct AddOutput {
   std::string url;
 };
+struct SwitchOutputOff {
+  std::string url;
+};
 struct RemoveOutput {
   std::string url;
 };
@@ -30,6 +33,9 @@ struct Forget {
 struct Pictures {
   bool on;
 };
+struct Poses {
+  bool on;
+};
 struct Drawn {
   std::int64_t frame;
   double stamp;  ///< ms
@@ -37,8 +43,8 @@ struct Drawn {
 struct Ping {
   std::int64_t id;
 };
-using Command =
-    std::variant<Guide, Recalibrate, AddOutput, RemoveOutput, Record, Forget, Pictures, Drawn, Ping>;
+using Command = std::variant<Guide, Recalibrate, AddOutput, SwitchOutputOff, RemoveOutput, Record, Forget,
+                             Pictures, Poses, Drawn, Ping>;
 
 /// Throws Error(usage) in words for anything that is not such a message: no JSON, unknown type, a field that
 /// is missing or of the wrong type or range.

@@ -24,10 +24,12 @@ TEST(Commands, AreRead) {
   EXPECT_TRUE(std::holds_alternative<Recalibrate>(parse_command(R"({"type":"recalibrate"})")));
   EXPECT_EQ(std::get<AddOutput>(parse_command(R"({"type":"output","add":"vmc://localhost"})")).url,
             "vmc://localhost");
+  EXPECT_EQ(std::get<SwitchOutputOff>(parse_command(R"({"type":"output","off":"ws://a"})")).url, "ws://a");
   EXPECT_EQ(std::get<RemoveOutput>(parse_command(R"({"type":"output","remove":"ws://a"})")).url, "ws://a");
   EXPECT_TRUE(std::get<Record>(parse_command(R"({"type":"record","on":true})")).on);
   EXPECT_EQ(std::get<Forget>(parse_command(R"({"type":"forget","recording":3})")).number, 3);
   EXPECT_FALSE(std::get<Pictures>(parse_command(R"({"type":"pictures","on":false})")).on);
+  EXPECT_TRUE(std::get<Poses>(parse_command(R"({"type":"poses","on":true})")).on);
   const auto drawn = std::get<Drawn>(parse_command(R"({"type":"drawn","frame":12,"stamp":1234.5})"));
   EXPECT_EQ(drawn.frame, 12);
   EXPECT_EQ(drawn.stamp, 1234.5);
@@ -35,12 +37,27 @@ TEST(Commands, AreRead) {
 }
 
 TEST(Commands, AnythingElseIsRefusedInWords) {
-  for (const char* text :
-       {"", "7", "[]", "null", "{", "{}", R"({"type":7})", R"({"type":"dance"})", R"({"type":"guide"})",
-        R"({"type":"guide","step":"jump"})", R"({"type":"output"})", R"({"type":"output","add":7})",
-        R"({"type":"record"})", R"({"type":"record","on":1})", R"({"type":"forget","recording":-1})",
-        R"({"type":"forget","recording":1e300})", R"({"type":"drawn","frame":1})",
-        R"({"type":"drawn","frame":1,"stamp":"now"})", R"({"type":"ping","id":1.5})"}) {
+  for (const char* text : {"",
+                           "7",
+                           "[]",
+                           "null",
+                           "{",
+                           "{}",
+                           R"({"type":7})",
+                           R"({"type":"dance"})",
+                           R"({"type":"guide"})",
+                           R"({"type":"guide","step":"jump"})",
+                           R"({"type":"output"})",
+                           R"({"type":"output","add":7})",
+                           R"({"type":"output","off":true})",
+                           R"({"type":"poses"})",
+                           R"({"type":"record"})",
+                           R"({"type":"record","on":1})",
+                           R"({"type":"forget","recording":-1})",
+                           R"({"type":"forget","recording":1e300})",
+                           R"({"type":"drawn","frame":1})",
+                           R"({"type":"drawn","frame":1,"stamp":"now"})",
+                           R"({"type":"ping","id":1.5})"}) {
     EXPECT_NE(refusal(text).find("not understood"), std::string::npos) << text;
   }
   EXPECT_NE(refusal(std::string(10000, '[')).find("deep"), std::string::npos);

@@ -35,6 +35,8 @@ std::string_view to_string(SenderState state) {
       return "connecting";
     case SenderState::sending:
       return "sending";
+    case SenderState::off:
+      return "off";
     case SenderState::failed:
       break;
   }
@@ -78,8 +80,7 @@ std::string hello_message(const std::string& version, const SourceInfo& info, co
                  {"cy", camera.cy}}},
                {"looks", looks},
                {"formats", formats},
-               {"senders", senders},
-               {"settings", Json::object()}});
+               {"senders", senders}});
 }
 
 std::string status_message(const LiveStatus& status) {

@@ -14,6 +14,9 @@
 
 namespace telemime {
 
+/// Of what the server sends (web_server.h): of all but `words` only the newest waits for a slow page.
+enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3 };
+
 /// The messages of docs/live-protocol.md that are not about a pose, as JSON without line breaks.
 
 std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera);

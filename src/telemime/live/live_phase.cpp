@@ -7,8 +7,8 @@
 namespace telemime {
 
 std::string_view to_string(LivePhase phase) {
-  constexpr std::array<std::string_view, 7> kNames = {"empty_room", "background", "person", "tracking",
-                                                      "lost",       "stopped",    "ended"};
+  constexpr std::array<std::string_view, 8> kNames = {"opening",  "empty_room", "background", "person",
+                                                      "tracking", "lost",       "stopped",    "ended"};
   return kNames[static_cast<std::size_t>(phase)];
 }
 

@@ -7,6 +7,7 @@ namespace telemime {
 
 /// Where a live run stands.
 enum class LivePhase {
+  opening,     ///< the camera or the tracker is being made ready; no picture was looked at yet
   empty_room,  ///< waits for the user to step out of the picture
   background,  ///< learns the scene
   person,      ///< waits for a person who can be calibrated

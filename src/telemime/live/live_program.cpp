@@ -1,96 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_program.h"
 
-#include <sys/resource.h>
-
 #include <atomic>
-#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
-#include <fstream>
-#include <iterator>
 #include <mutex>
 #include <thread>
 #include <utility>
 
+#include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
-#include "telemime/live/avatar_shelf.h"
-#include "telemime/live/commands.h"
+#include "telemime/live/kept_outputs.h"
+#include "telemime/live/live_answers.h"
+#include "telemime/live/live_files.h"
 #include "telemime/live/live_messages.h"
-#include "telemime/live/page_files.h"
-#include "telemime/live/recorder.h"
-#include "telemime/live/sender_list.h"
+#include "telemime/live/page_wait.h"
+#include "telemime/live/processor_time.h"
 #include "telemime/network/pose_message.h"
+#include "telemime/network/url.h"
 
 namespace telemime {
 namespace {
 
-// Of WebServer: of all but the first only the newest waits.
-enum Topic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3 };
-
 constexpr double kMs = 1000.0;
 constexpr auto kTick = std::chrono::milliseconds(500);
-constexpr int kPatience = 10;  // ticks without a page until the guided start is skipped
 
 std::shared_ptr<const std::string> shared(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
 }
 
-double cpu_seconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-// "/recordings/3/motion.bvh" in its parts.
-std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) {
-  constexpr std::string_view kFolder = "/recordings/";
-  if (!path.starts_with(kFolder)) {
-    return std::nullopt;
-  }
-  path.remove_prefix(kFolder.size());
-  int number = 0;
-  const auto [end, failure] = std::from_chars(path.data(), path.data() + path.size(), number);
-  if (failure != std::errc() || end == path.data() + path.size() || *end != '/') {
-    return std::nullopt;
-  }
-  return std::pair{number, std::string(end + 1, path.data() + path.size())};
-}
-
 }  // namespace
 
 struct LiveProgram::State {
-  State(const LiveRequest& asked, std::unique_ptr<Source> source,
-        std::function<void(const std::string&)> message)
+  State(const LiveRequest& asked, std::unique_ptr<Source> source, Message message)
       : options(asked),
         console(std::move(message)),
         recorder(asked.recordings, asked.request.output_options,
-                 [this](const std::string& words) { tell(MessageLevel::info, words); }) {
+                 [this](MessageLevel level, const std::string& words) { tell(level, words); }),
+        answers(recorder, senders, clock,
+                {[this](std::uint64_t client, int topic, bool on) { server->set_topic(client, topic, on); },
+                 [this] { tell_status(); }, [this] { kept.changed(); }}) {
     for (const std::string& url : options.send) {
       senders.add(url);
     }
-    server = std::make_unique<WebServer>(
-        options.web,
-        WebHandlers{[this](const std::string& path) { return content(path); },
-                    [this](std::uint64_t) { return greeting(); },
-                    [this](std::uint64_t client, std::string_view text) { return answer(client, text); },
-                    {}});
+    kept.offer(options.resume_outputs);
+    serve();
     LiveHooks hooks;
     hooks.picture = [this](const Frame& frame) { show(frame); };
     hooks.person = [this](const StreamHeader& header) { meet(header); };
     hooks.motion = [this](const MotionFrame& frame, double taken) { hand_out(frame, taken); };
-    hooks.message = [this](MessageLevel level, const std::string& words) { tell(level, words); };
-    info = source->info();
+    hooks.message = [this](MessageLevel level, const std::string& words) { hear(level, words); };
+    const SourceInfo info = source->info();
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
       const std::lock_guard lock(mutex);
       hello = hello_message(options.version, info, session->camera());
     }
-    ready = true;
-    for (const std::string& text : greeting()) {  // to pages that came before there was anything to say
+    ready = session.get();
+    answers.begin(*session);
+    for (const std::string& text : greeting()) {  // to pages that came while there was little to say
       server->send_text(kWords, shared(text));
     }
     painter = std::thread([this] { paint(); });
@@ -113,51 +82,40 @@ struct LiveProgram::State {
     }
     recorder.close();
     server.reset();
+    kept.save();
+  }
+
+  void serve() {
+    WebHandlers handlers;
+    handlers.get = [this](const std::string& path) { return live_file(path, avatars, recorder); };
+    handlers.opened = [this](std::uint64_t) { return greeting(); };
+    handlers.text = [this](std::uint64_t client, std::string_view text) {
+      return serving ? answers(client, text) : std::nullopt;
+    };
+    server = std::make_unique<WebServer>(options.web, handlers);
+    serving = true;
   }
 
   void tell(MessageLevel level, const std::string& words) {
     if (console) {
-      console(words);
+      console(level, words);
     }
-    const auto message = shared(words_message(level, words));
-    if (server) {
-      server->send_text(kWords, message);
+    if (serving && server) {
+      server->send_text(kWords, shared(words_message(level, words)));
     }
   }
 
-  std::optional<WebContent> content(const std::string& path) {
-    constexpr std::string_view kFolder = "/avatars/";
-    constexpr std::string_view kEnding = ".vrm";
-    if (path.starts_with(kFolder) && path.ends_with(kEnding)) {
-      const std::string look = path.substr(kFolder.size(), path.size() - kFolder.size() - kEnding.size());
-      const auto bytes = avatars.get(look);
-      return bytes ? std::optional(WebContent{bytes, "model/gltf-binary", "", false}) : std::nullopt;
+  // What the session says. It says an error when it ends by one.
+  void hear(MessageLevel level, const std::string& words) {
+    if (level == MessageLevel::error) {
+      const std::lock_guard lock(mutex);
+      session_error = words;
     }
-    if (const auto name = recorded_name(path)) {
-      return recorded(name->first, name->second);
-    }
-    return page_file(path);
-  }
-
-  std::optional<WebContent> recorded(int number, const std::string& name) const {
-    const auto file = recorder.file(number, name);
-    if (!file) {
-      return std::nullopt;
-    }
-    std::ifstream in(*file, std::ios::binary);
-    if (!in) {
-      return std::nullopt;
-    }
-    std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    return WebContent{shared(std::move(bytes)), "application/octet-stream",
-                      "telemime-" + std::to_string(number) + "-" + name, false};
+    tell(level, words);
   }
 
   std::vector<std::string> greeting() {
     std::vector<std::string> messages;
-    if (!ready) {
-      return messages;
-    }
     {
       const std::lock_guard lock(mutex);
       for (const std::string& text : {hello, body}) {
@@ -170,64 +128,9 @@ struct LiveProgram::State {
     return messages;
   }
 
-  std::optional<std::string> answer(std::uint64_t client, std::string_view text) {
-    if (!ready) {
-      return words_message(MessageLevel::error, "the program is still starting; try again");
-    }
-    try {
-      return std::visit([&](const auto& command) { return carry_out(client, command); }, parse_command(text));
-    } catch (const Error& e) {
-      return words_message(MessageLevel::error, e.what());
-    }
-  }
-
-  using Answer = std::optional<std::string>;
-  Answer carry_out(std::uint64_t, const Guide& c) {
-    session->guide(c.step);
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const Recalibrate&) {
-    session->recalibrate();
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const AddOutput& c) {
-    senders.add(c.url);
-    tell_status();
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const RemoveOutput& c) {
-    if (!senders.remove(c.url)) {
-      return words_message(MessageLevel::error, c.url + " is not among the outputs");
-    }
-    tell_status();
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const Record& c) {
-    c.on ? recorder.start() : recorder.stop();
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const Forget& c) {
-    if (!recorder.forget(c.number)) {
-      return words_message(MessageLevel::error, "there is no recording " + std::to_string(c.number));
-    }
-    tell_status();
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t client, const Pictures& c) {
-    server->set_topic(client, kPicture, c.on);
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const Drawn& c) {
-    const double now = clock.now();
-    const std::lock_guard lock(mutex);
-    latency.add(kMs * now - c.stamp);
-    return std::nullopt;
-  }
-  Answer carry_out(std::uint64_t, const Ping& c) { return pong_message(c.id, kMs * clock.now()); }
-
   // The image side: only leaves the picture for the painter.
   void show(const Frame& frame) {
-    if (server->clients() == 0) {
+    if (!server->wanted(kPicture)) {
       return;
     }
     {
@@ -249,6 +152,7 @@ struct LiveProgram::State {
         frame = *std::exchange(picture, std::nullopt);
       }
       server->send_binary(kPicture, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
+      ++pictures;
     }
   }
 
@@ -265,77 +169,128 @@ struct LiveProgram::State {
   }
 
   void hand_out(const MotionFrame& frame, double taken) {
-    const std::string text = spoken->pose(frame, kMs * taken);
-    server->send_text(kPose, shared(text));
-    senders.send(frame);
+    if (server->wanted(kPose)) {
+      server->send_text(kPose, shared(spoken->pose(frame, kMs * taken)));
+      ++poses;
+    } else {
+      spoken->pass(frame);
+    }
+    senders.send(frame, kMs * taken);
     recorder.write(frame);
   }
 
   std::string status() {
     LiveStatus now;
-    now.state = session->state();
+    if (const LiveSession* const running = ready) {
+      now.state = running->state();
+    } else {
+      now.state.words = "the camera is made ready, and the scene is learned";
+    }
     now.outputs = senders.status();
     now.recording = recorder.current();
     now.recordings = recorder.ended();
+    now.latency = answers.latency();
     {
       const std::lock_guard lock(mutex);
-      now.latency = latency.summary();
-      now.cpu = cpu;
+      now.cpu = cores.value();
     }
     return status_message(now);
   }
 
-  void tell_status() { server->send_text(kStatus, shared(status())); }
+  void tell_status() {
+    if (server->clients() > 0) {
+      server->send_text(kStatus, shared(status()));
+    }
+  }
 
   void tick() {
-    int alone = 0;
-    double cpu_before = cpu_seconds();
-    double before = clock.now();
+    bool told_end = false;
     while (true) {
       {
         std::unique_lock lock(mutex);
         if (changed.wait_for(lock, kTick, [this] { return stop; })) {
           return;
         }
-        const double cpu_now = cpu_seconds();
-        const double now = clock.now();
-        if (now > before) {
-          cpu = 0.5 * cpu + 0.5 * (cpu_now - cpu_before) / (now - before);
-        }
-        cpu_before = cpu_now;
-        before = now;
+        cores.read(clock.now(), processor_seconds());
       }
-      const bool waits = session->state().phase == LivePhase::empty_room;
-      alone = waits && server->clients() == 0 ? alone + 1 : 0;
-      if (alone == kPatience) {
-        tell(MessageLevel::info,
-             "no page is open to guide the start: going on without a picture of the empty room");
-        session->guide(GuideStep::skip);
+      const LiveState now = session->state();
+      wait_for_page(now.phase);
+      if (now.phase == LivePhase::ended && !std::exchange(told_end, true)) {
+        tell_end(now.words);
       }
+      kept.save();
       tell_status();
     }
   }
 
+  // The empty room is asked for by a page.
+  void wait_for_page(LivePhase phase) {
+    switch (page_wait.look(phase == LivePhase::empty_room, server->clients(), clock.now())) {
+      case PageWait::Step::none:
+        break;
+      case PageWait::Step::ask:
+        tell(MessageLevel::warning,
+             "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
+                 "\n  Without a page the start goes on by itself after " +
+                 std::to_string(std::lround(page_wait.patience())) + " s; --no-guide does not wait.");
+        break;
+      case PageWait::Step::go_on:
+        tell(MessageLevel::warning,
+             "no page is open to guide the start: going on without a picture of the empty room");
+        session->guide(GuideStep::skip);
+        break;
+    }
+  }
+
+  void tell_end(const std::string& words) {
+    const std::optional<LiveFailure> why = failure();
+    if (why ? why->input : !words.empty()) {  // what failed inside was told when it did
+      tell(why ? MessageLevel::error : MessageLevel::warning, words);
+    }
+  }
+
+  std::optional<LiveFailure> failure() const {
+    const LiveState now = session->state();
+    if (now.phase != LivePhase::ended) {
+      return std::nullopt;
+    }
+    {
+      const std::lock_guard lock(mutex);
+      if (!session_error.empty()) {
+        return LiveFailure{false, session_error};
+      }
+    }
+    const InputKind kind = input_kind(options.request.input);
+    const bool camera = kind == InputKind::camera || kind == InputKind::device || kind == InputKind::stream;
+    return camera && !now.words.empty() ? std::optional(LiveFailure{true, now.words}) : std::nullopt;
+  }
+
   LiveRequest options;
-  std::function<void(const std::string&)> console;
+  Message console;
   Clock clock = monotonic_clock();
   double began = clock.now();
-  double cpu_at_start = cpu_seconds();
-  SourceInfo info;
+  double cpu_at_start = processor_seconds();
+  std::atomic<bool> serving = false;  // the server is there
   SenderList senders;
+  KeptOutputs kept{options.settings, senders,
+                   [this](MessageLevel level, const std::string& words) { tell(level, words); }};
   Recorder recorder;
   AvatarShelf avatars;
-  std::atomic<bool> ready = false;       // the session is there
-  std::unique_ptr<PoseMessages> spoken;  // of the search side
+  LiveAnswers answers;
+  std::atomic<const LiveSession*> ready = nullptr;
+  std::atomic<std::int64_t> poses = 0;
+  std::atomic<std::int64_t> pictures = 0;
+  std::unique_ptr<PoseMessages> spoken;   // of the search side
+  PageWait page_wait{options.page_wait};  // of the ticker
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable changed;
   bool stop = false;
   std::string hello;
   std::string body;
+  std::string session_error;
   std::optional<Frame> picture;
-  LatencyRecord latency;
-  double cpu = 0.0;
+  CoresInUse cores{began, cpu_at_start};
 
   std::unique_ptr<WebServer> server;
   std::unique_ptr<LiveSession> session;
@@ -343,8 +298,7 @@ struct LiveProgram::State {
   std::thread ticker;
 };
 
-LiveProgram::LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source,
-                         std::function<void(const std::string&)> message)
+LiveProgram::LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source, Message message)
     : state_(std::make_unique<State>(options, std::move(source), std::move(message))) {}
 
 LiveProgram::~LiveProgram() = default;
@@ -357,11 +311,20 @@ LiveReport LiveProgram::report() const {
   LiveReport report;
   report.state = state_->session->state();
   report.outputs = state_->senders.status();
+  report.failure = state_->failure();
+  report.pages = state_->server->clients();
+  report.poses = state_->poses;
+  report.pictures = state_->pictures;
   const double seconds = state_->clock.now() - state_->began;
-  report.cpu = seconds > 0.0 ? (cpu_seconds() - state_->cpu_at_start) / seconds : 0.0;
-  const std::lock_guard lock(state_->mutex);
-  report.latency = state_->latency.summary();
+  report.cpu = seconds > 0.0 ? (processor_seconds() - state_->cpu_at_start) / seconds : 0.0;
+  report.latency = state_->answers.latency();
   return report;
+}
+
+std::string page_url(const WebServerOptions& web, std::uint16_t port) {
+  const bool here =
+      web.address == "127.0.0.1" || web.address == "0.0.0.0" || web.address == "::" || web.address == "::1";
+  return "http://" + host_and_port(here ? "localhost" : web.address, port);
 }
 
 }  // namespace telemime

@@ -19,11 +19,20 @@ namespace telemime {
 /// What `telemime live` is asked to do.
 struct LiveRequest {
   TrackRequest request;
-  bool guided = true;             ///< wait for the empty room, as long as a page is open to ask for it
-  WebServerOptions web;           ///< where the page is served
-  std::vector<std::string> send;  ///< URLs of senders
+  bool guided = true;              ///< wait for the empty room
+  double page_wait = 60.0;         ///< s without a page to ask for it, until the start goes on without
+  WebServerOptions web;            ///< where the page is served
+  std::vector<std::string> send;   ///< URLs of senders
+  std::filesystem::path settings;  ///< file of what is kept for later runs; empty: nothing is
+  bool resume_outputs = false;     ///< send to the outputs kept by earlier runs at once
   std::filesystem::path recordings = "telemime-recordings";
   std::string version;
+};
+
+/// Why a run has ended that nobody asked to end.
+struct LiveFailure {
+  bool input = false;  ///< the camera or stream cannot be read any more; else something inside failed
+  std::string words;
 };
 
 /// How a live run is doing, for the console.
@@ -33,16 +42,21 @@ struct LiveReport {
       latency;       ///< from the camera to the avatar drawn, as pages measured; ms
   double cpu = 0.0;  ///< cores that this process used since it began
   std::vector<SenderStatus> outputs;
+  std::optional<LiveFailure> failure;  ///< never at the end of a file
+  std::size_t pages = 0;               ///< that are open
+  std::int64_t poses = 0;              ///< messages made for pages; none are when nobody gets them
+  std::int64_t pictures = 0;           ///< the same
 };
 
 /// A live run with everything around it: the page, senders, recordings. It runs in threads of its own from
 /// the constructor to the destructor.
 class LiveProgram {
  public:
+  using Message = std::function<void(MessageLevel, const std::string&)>;
+
   /// `message`: words for the console, from any thread. Throws Error for settings, senders' URLs, a port that
   /// is taken.
-  LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source,
-              std::function<void(const std::string&)> message);
+  LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source, Message message);
   LiveProgram(const LiveProgram&) = delete;
   LiveProgram& operator=(const LiveProgram&) = delete;
   ~LiveProgram();
@@ -54,5 +68,8 @@ class LiveProgram {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Where a browser on this computer finds the page that is served so, at that port.
+std::string page_url(const WebServerOptions& web, std::uint16_t port);
 
 }  // namespace telemime

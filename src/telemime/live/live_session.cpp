@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_session.h"
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "telemime/live/hand_over.h"
+#include "telemime/live/pace.h"
+#include "telemime/live/room_pictures.h"
 #include "telemime/pipeline/scene.h"
 #include "telemime/pipeline/set_up.h"
 #include "telemime/pipeline/told.h"
@@ -20,11 +19,7 @@ namespace telemime {
 namespace {
 
 constexpr double kStopped = 2.0;  // s without a picture
-
-struct Slot {
-  SeenFrame seen;
-  FrameTimes times;
-};
+constexpr double kMs = 1000.0;    // of a second
 
 // What the user asked for since the last frame.
 struct Wishes {
@@ -36,21 +31,26 @@ struct Wishes {
 
 struct LiveSession::State {
   State(const TrackRequest& asked, bool guide, std::unique_ptr<Source> input, LiveHooks calls, Clock time)
-      : request(asked), source(std::move(input)), hooks(std::move(calls)), clock(std::move(time)) {
+      : request(asked),
+        source(std::move(input)),
+        hooks(std::move(calls)),
+        clock(std::move(time)),
+        last_stamp(clock.now()) {
     request.config.look_back = false;  // there is nothing to look back from
     std::vector<std::string> messages;
     tracker = make_tracker(request, source->info(), messages);
-    scene_known = !request.calibration.empty();
+    bool scene_known = !request.calibration.empty();
     if (!request.background.empty() && !scene_known) {
       const Footage scene = learn_scene(request, source->info(), *source, *tracker);
       messages.insert(messages.end(), scene.messages.begin(), scene.messages.end());
       scene_known = true;
     }
     phase = scene_known ? LivePhase::person : guide ? LivePhase::empty_room : LivePhase::background;
-    settled = tracker->settled();
+    hand_over.set_settled(tracker->settled());
     for (const std::string& words : messages) {
       say(words);
     }
+    source->attend([this](const SourceNews& news) { hear(news); });
   }
 
   void say(const std::string& words, MessageLevel level = MessageLevel::info) const {
@@ -65,7 +65,12 @@ struct LiveSession::State {
     reason = why;
   }
 
-  // The next picture; nothing at the end.
+  LivePhase current() const {
+    const std::lock_guard lock(mutex);
+    return phase;
+  }
+
+  // The next picture; nothing at the end, or when all is to stop.
   std::optional<Frame> take() {
     {
       const std::lock_guard lock(mutex);
@@ -75,68 +80,58 @@ struct LiveSession::State {
     {
       const std::lock_guard lock(mutex);
       waiting_since.reset();
+      camera_words.clear();
+      opened = true;
     }
-    if (frame && hooks.picture) {
+    if (!frame || hand_over.stopping()) {
+      return std::nullopt;
+    }
+    frame->taken = last_stamp = usable_stamp(frame->taken, last_stamp, clock.now());
+    if (hooks.picture) {
       hooks.picture(*frame);
     }
     return frame;
   }
 
-  bool stopping() const {
-    const std::lock_guard lock(mutex);
-    return stop;
+  // From within take().
+  void hear(const SourceNews& news) {
+    using Change = SourceNews::Kind;
+    say(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
+    if (news.kind == Change::gone) {
+      {
+        const std::lock_guard lock(mutex);
+        camera_words = news.words;
+      }
+      if (hand_over.wait_for_search()) {
+        leave_person();
+      }
+    }
   }
 
   void stop_all() {
-    {
-      const std::lock_guard lock(mutex);
-      stop = true;
-    }
-    changed.notify_all();
+    hand_over.stop();
     source->stop();
   }
 
   // The image side's thread.
   void see() {
     guarded([this] {
-      std::size_t mine = 0;
-      while (!stopping()) {
+      bool more = true;
+      while (more && !hand_over.stopping()) {
         follow_wishes();
         const LivePhase now = current();
-        if (now == LivePhase::empty_room) {
-          if (!take()) {
-            break;
-          }
-        } else if (now == LivePhase::background) {
-          if (!learn_background()) {
-            break;
-          }
-        } else if (!look(slots[mine])) {
-          break;
-        } else {
-          mine = 1 - mine;
-        }
+        more = now == LivePhase::empty_room   ? take().has_value()
+               : now == LivePhase::background ? learn_background()
+                                              : look();
       }
     });
-    wait_for_search();
-    if (!stopping()) {
+    hand_over.wait_for_search();
+    if (!hand_over.stopping()) {
       leave_person();
       const std::string complaint = source->complaint();
       enter(LivePhase::ended, failure.empty() ? complaint : failure);
     }
-    stop_search();
-  }
-
-  LivePhase current() const {
-    const std::lock_guard lock(mutex);
-    return phase;
-  }
-
-  // Waits until the search has nothing to do; false when all is to stop.
-  bool wait_for_search() {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [this] { return stop || search_stop || (ready == nullptr && !busy); });
-    return !stop;
+    hand_over.finish();
   }
 
   void follow_wishes() {
@@ -151,14 +146,11 @@ struct LiveSession::State {
         enter(LivePhase::background, "");
       }
     }
-    if ((asked.recalibrate || asked.guide == GuideStep::again) && wait_for_search()) {
+    if ((asked.recalibrate || asked.guide == GuideStep::again) && hand_over.wait_for_search()) {
       tracker->recalibrate();
       leave_person();
-      {
-        const std::lock_guard lock(mutex);
-        settled = false;
-        told.forget();
-      }
+      hand_over.set_settled(false);
+      told.forget();
       if (asked.guide == GuideStep::again) {
         enter(LivePhase::empty_room, "");
       } else if (current() == LivePhase::tracking || current() == LivePhase::lost) {
@@ -176,21 +168,10 @@ struct LiveSession::State {
     last_motion.reset();
   }
 
-  // Of about a second of pictures; false at the end of the input.
+  // False at the end of the input.
   bool learn_background() {
-    std::vector<Frame> frames;
-    const auto count = static_cast<std::size_t>(std::clamp(source->info().fps, 8.0, 60.0));
-    while (frames.size() < count) {
-      auto frame = take();
-      if (!frame) {
-        break;
-      }
-      frames.push_back(std::move(*frame));
-      if (stopping()) {
-        return false;
-      }
-    }
-    if (frames.empty()) {
+    const std::vector<Frame> frames = room_pictures([this] { return take(); });
+    if (frames.empty() || hand_over.stopping()) {
       return false;
     }
     if (empty_promised) {
@@ -207,80 +188,46 @@ struct LiveSession::State {
   }
 
   // The next frame's features, and over to the search; false at the end.
-  bool look(Slot& slot) {
-    bool known = false;
-    {
-      std::unique_lock lock(mutex);
-      // What is not taken yet is in the other slot; before a person is known the search has a say in what the
-      // image side learns.
-      changed.wait(lock, [this] { return stop || search_stop || (ready == nullptr && (settled || !busy)); });
-      if (stop || search_stop) {
-        return false;
-      }
-      known = settled;
+  bool look() {
+    LiveSlot* const slot = hand_over.begin();
+    if (slot == nullptr) {
+      return false;
     }
+    const bool settled = hand_over.settled();
     const std::optional<Frame> frame = take();
     if (!frame) {
       return false;
     }
-    slot.times = {frame->index, frame->taken, clock.now(), 0.0, 0.0, 0.0};
-    tracker->look(*frame, known, slot.seen);
-    slot.times.seen = clock.now();
-    {
-      const std::lock_guard lock(mutex);
-      ready = &slot;
-    }
-    changed.notify_all();
+    slot->times = {frame->index, frame->taken, clock.now(), 0.0, 0.0, 0.0};
+    tracker->look(*frame, settled, slot->seen);
+    slot->times.seen = clock.now();
+    hand_over.give();
     return true;
   }
 
   // The search side's thread.
   void search() {
     guarded([this] {
-      while (true) {
-        Slot* slot = nullptr;
-        {
-          std::unique_lock lock(mutex);
-          changed.wait(lock, [this] { return stop || search_stop || ready != nullptr; });
-          if (stop || (search_stop && ready == nullptr)) {
-            return;
-          }
-          slot = std::exchange(ready, nullptr);
-          busy = true;
-        }
-        changed.notify_all();
+      while (LiveSlot* const slot = hand_over.take()) {
         decide(*slot);
-        {
-          const std::lock_guard lock(mutex);
-          busy = false;
-        }
-        changed.notify_all();
+        hand_over.done(tracker->settled());
       }
     });
-    stop_search();
+    hand_over.finish();
   }
 
-  void stop_search() {
-    {
-      const std::lock_guard lock(mutex);
-      search_stop = true;
-      busy = false;
-    }
-    changed.notify_all();
-  }
-
-  void decide(Slot& slot) {
+  void decide(LiveSlot& slot) {
     slot.times.searched = clock.now();
-    bool was_settled = false;
-    {
-      const std::lock_guard lock(mutex);
-      was_settled = settled && smoother != nullptr;
+    const bool was_settled = hand_over.settled() && smoother != nullptr;
+    if (request.keep_pace) {
+      tracker->set_effort(pace.effort());
     }
     const TrackedFrame result = tracker->decide(slot.seen);
-    if (tracker->settled() && !was_settled) {
+    learn_pace(slot.times);
+    const bool settled = tracker->settled();
+    if (settled && !was_settled) {
       const StreamHeader header = header_of(source->info(), *tracker);
-      SmoothingOptions smoothing = request.config.smoothing;
-      smoother = make_smoother(smoothing, header.body, header.camera);
+      smoother = make_smoother(request.config.smoothing, header.body, header.camera);
       if (hooks.person) {
         hooks.person(header);
       }
@@ -290,19 +237,27 @@ struct LiveSession::State {
         say(words, MessageLevel::warning);
       }
     }
-    if (tracker->settled() && hooks.motion) {
+    if (settled && hooks.motion) {
       last_motion = (*smoother)(result.motion);
       last_taken = slot.seen.frame.taken;
       hooks.motion(*last_motion, last_taken);
     }
     slot.times.decided = clock.now();
     const std::lock_guard lock(mutex);
-    settled = tracker->settled();
     statistics.add(slot.times);
     reason = result.note;
     phase = result.motion.state == TrackState::tracking ? LivePhase::tracking
             : settled                                   ? LivePhase::lost
                                                         : LivePhase::person;
+  }
+
+  // Only frames of a person who is followed: to find one takes longer, and seldom.
+  void learn_pace(const FrameTimes& times) {
+    const auto frames = static_cast<double>(times.index - followed.index);
+    if (last_motion && last_motion->state == TrackState::tracking && frames > 0.0) {
+      pace.searched(kMs * (clock.now() - times.searched), kMs * (times.taken - followed.taken) / frames);
+    }
+    followed = times;
   }
 
   // What fails in a thread ends the run, in words.
@@ -322,27 +277,25 @@ struct LiveSession::State {
   LiveHooks hooks;
   Clock clock;
   std::unique_ptr<Tracker> tracker;  // look() of one thread beside decide() of the other
-  bool scene_known = false;
+  HandOver hand_over;
   bool empty_promised = false;             // of the image side: the user says that the room is empty
-  std::array<Slot, 2> slots;               // one being looked at, one being searched
+  double last_stamp;                       // of the image side: Frame::taken of the last frame
   std::optional<MotionFrame> last_motion;  // of the search side, handed out
+  Pace pace;                               // of the search side
+  FrameTimes followed;                     // of the last frame on the search side
   double last_taken = 0.0;                 // of the same frame
   std::unique_ptr<Smoother> smoother;      // of the search side
+  Told told;                               // of the search side
 
   mutable std::mutex mutex;  // of what follows
-  std::condition_variable changed;
-  Slot* ready = nullptr;  // looked at, and not yet taken by the search
-  bool busy = false;      // the search is at work
-  bool settled = false;
-  bool stop = false;
-  bool search_stop = false;  // when what is ready is done
   Wishes wishes;
+  bool opened = false;  // a picture has come
   LivePhase phase = LivePhase::person;
   std::string reason;  // in words, why nobody is tracked
   std::string failure;
   std::optional<double> waiting_since;  // for a picture, s of the clock
+  std::string camera_words;             // why there is none
   LiveStatistics statistics;
-  Told told;
 
   std::thread image_side;
   std::thread search_side;
@@ -382,9 +335,16 @@ LiveState LiveSession::state() const {
   const double now = state_->clock.now();
   const std::lock_guard lock(state_->mutex);
   LiveState state{state_->phase, state_->reason, state_->statistics.rates(now)};
-  if (state.phase != LivePhase::ended && state_->waiting_since && now - *state_->waiting_since > kStopped) {
+  if (state.phase == LivePhase::ended) {
+    return state;
+  }
+  if (!state_->opened) {
+    state.phase = LivePhase::opening;
+    state.words = "waiting for the first picture";
+  }
+  if (state_->waiting_since && now - *state_->waiting_since > kStopped) {
     state.phase = LivePhase::stopped;
-    state.words = "the camera gives no pictures now";
+    state.words = state_->camera_words.empty() ? "the camera gives no pictures now" : state_->camera_words;
   }
   return state;
 }

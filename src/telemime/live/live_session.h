@@ -18,16 +18,18 @@ namespace telemime {
 /// What a user may answer in the guided start.
 enum class GuideStep { empty, skip, again };
 
-/// Called from the session's threads; none may block. All may be empty.
+/// Called from the session's threads; none may block. All may be empty. `taken` of frames and motion is a
+/// usable_stamp (live_statistics.h), s of the session's clock.
 struct LiveHooks {
   std::function<void(const Frame&)> picture;        ///< each frame that is looked at, first of all
   std::function<void(const StreamHeader&)> person;  ///< a person was calibrated: their frames follow
-  std::function<void(const MotionFrame&, double taken)> motion;   ///< smoothed; `taken` in s of the clock
+  std::function<void(const MotionFrame&, double taken)> motion;   ///< smoothed
   std::function<void(MessageLevel, const std::string&)> message;  ///< what the user should know, in words
 };
 
+/// As long as there is no session yet: `opening`.
 struct LiveState {
-  LivePhase phase = LivePhase::person;
+  LivePhase phase = LivePhase::opening;
   std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
   LiveRates rates;
 };
@@ -35,7 +37,7 @@ struct LiveState {
 /// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of
 /// the one before. Each thread has one frame at most and the source keeps the newest, so nothing is ever late
 /// by more than the work in hand. A source that drops no frame gives the poses that Tracker::step gives in
-/// turn.
+/// turn. A camera that is gone is waited for, and what happens to it is told by LiveHooks::message.
 class LiveSession {
  public:
   /// `request`: input's name, background, camera, calibration file, configuration; the rest is not used.
@@ -46,8 +48,8 @@ class LiveSession {
   LiveSession& operator=(const LiveSession&) = delete;
   ~LiveSession();  ///< stop()
 
-  /// When it returns no hook is called any more; the rest may still be asked. Waits for the work in hand, and
-  /// for a camera that is being read.
+  /// When it returns no hook is called any more; the rest may still be asked. Waits for the work in hand, not
+  /// for the camera.
   void stop();
 
   /// The next three from any thread; they act at the next frame.

@@ -24,6 +24,12 @@ double quantile_of(std::vector<double> values, double q) {
   return *at;
 }
 
+double usable_stamp(double taken, double last, double now) {
+  constexpr double kOldest = 10.0;                             // s: no frame waits so long
+  const bool usable = taken <= now && now - taken <= kOldest;  // neither of a NaN
+  return std::max(usable ? taken : now, last);
+}
+
 void LiveStatistics::add(const FrameTimes& times) {
   if (!last_.empty()) {
     dropped_ += std::max<std::int64_t>(0, times.index - last_.back().index - 1);

@@ -12,7 +12,7 @@ namespace telemime {
 /// When one live frame passed which station; seconds of one clock.
 struct FrameTimes {
   std::int64_t index = 0;  ///< of the input
-  double taken = 0.0;      ///< by the camera
+  double taken = 0.0;      ///< by the camera; a usable_stamp
   double begun = 0.0;      ///< its features
   double seen = 0.0;       ///< features done
   double searched = 0.0;   ///< search begun
@@ -36,6 +36,11 @@ struct LiveRates {
   std::int64_t dropped = 0;  ///< frames of the camera that were never looked at
   StageTimes ms;
 };
+
+/// Frame::taken as statistics and pages can use it. Sources may give odd stamps: none, of another clock, in
+/// the future, backward. `taken` where it lies in the ten seconds before `now`, else `now`; but never before
+/// `last`, that of the frame before. All in seconds of one clock that never goes back; last <= now.
+double usable_stamp(double taken, double last, double now);
 
 /// Rates and times over the last 100 frames. Not for several threads.
 class LiveStatistics {

@@ -12,6 +12,19 @@ FrameTimes at(std::int64_t index, double taken) {
   return {index, taken, taken + 0.001, taken + 0.010, taken + 0.012, taken + 0.034};
 }
 
+TEST(UsableStamp, IsTheSourcesWhereItCanBe) {
+  EXPECT_EQ(usable_stamp(99.5, 99.0, 100.0), 99.5);
+  EXPECT_EQ(usable_stamp(100.0, 99.0, 100.0), 100.0);
+}
+
+TEST(UsableStamp, OddOnesDoNoHarm) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double odd : {0.0, -5.0, 101.0, 1.7e9, kInf, -kInf, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(usable_stamp(odd, 99.0, 100.0), 100.0) << odd;
+  }
+  EXPECT_EQ(usable_stamp(98.0, 99.0, 100.0), 99.0) << "it does not go back";
+}
+
 TEST(Quantile, OfFewValues) {
   EXPECT_EQ(quantile_of({}, 0.5), 0.0);
   EXPECT_EQ(quantile_of({3.0}, 0.95), 3.0);

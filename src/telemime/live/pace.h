@@ -10,13 +10,14 @@ class Pace {
   /// Share of the configuration's evaluations for the next frame: 1 where there is time, never under 0.25.
   double effort() const { return effort_; }
 
-  /// A frame was searched with effort(): `search_ms` is what that took, `interval_ms` the time between the
-  /// camera's frames (both above 0; else nothing is learned).
+  /// A frame was searched with effort(): `search_ms` is what that took, `interval_ms` the time since the
+  /// camera's frame before (both above 0; else nothing is learned).
   void searched(double search_ms, double interval_ms);
 
  private:
   double effort_ = 1.0;
-  double full_ms_ = 0.0;  // of a search with all evaluations, smoothed; 0: not known
+  double full_ms_ = 0.0;      // of a search with all evaluations, smoothed; 0: not known
+  double interval_ms_ = 0.0;  // between the camera's frames, smoothed; 0: not known
 };
 
 }  // namespace telemime

@@ -21,9 +21,10 @@ constexpr std::size_t kMostWaiting = 250;  // frames
 
 // One thing to do for the recorder's thread.
 struct Task {
-  enum class Kind { person, frame, start, stop } kind = Kind::frame;
-  std::shared_ptr<const StreamHeader> header;
-  MotionFrame frame;
+  enum class Kind { person, frame, start, stop, forget } kind = Kind::frame;
+  std::shared_ptr<const StreamHeader> header = {};
+  MotionFrame frame = {};
+  Recording recording = {};
 };
 
 // A recording while it is written.
@@ -64,7 +65,7 @@ struct Recorder::State {
         carry_out(task);
       } catch (const std::exception& e) {
         // A full disk: what was written so far is kept.
-        say(std::string("the recording was ended: ") + e.what());
+        say(MessageLevel::error, std::string("the recording was ended: ") + e.what());
         asked = false;
         wanted = false;
         close();
@@ -82,7 +83,7 @@ struct Recorder::State {
       case Task::Kind::start:
         wanted = true;
         if (!header) {
-          say("the recording begins when a person is tracked");
+          say(MessageLevel::info, "the recording begins when a person is tracked");
         }
         break;
       case Task::Kind::stop:
@@ -93,6 +94,9 @@ struct Recorder::State {
         if (wanted && header) {
           write(task.frame);
         }
+        break;
+      case Task::Kind::forget:
+        remove(task.recording);
         break;
     }
   }
@@ -109,8 +113,15 @@ struct Recorder::State {
       open->recording.frames = made.frame + 1;
       open->recording.seconds = static_cast<double>(made.frame + 1) / header->fps;
     }
-    const std::lock_guard lock(mutex);
-    current = open->recording;
+    {
+      const std::lock_guard lock(mutex);
+      current = open->recording;
+    }
+    if (open->recording.frames >= most_frames) {
+      say(MessageLevel::info,
+          "recording " + std::to_string(open->recording.number) + " is full: it goes on in the next one");
+      close();
+    }
   }
 
   void begin() {
@@ -143,7 +154,7 @@ struct Recorder::State {
       try {
         file->close();
       } catch (const Error& e) {
-        say(e.what());
+        say(MessageLevel::error, e.what());
       }
     }
     for (const auto& file : open->files) {
@@ -161,21 +172,40 @@ struct Recorder::State {
       ended.push_back(recording);
       missing = std::exchange(lost, 0);
     }
-    say("recorded " + std::to_string(recording.frames) + " frames in " + recording.folder.string());
+    say(MessageLevel::info,
+        "recorded " + std::to_string(recording.frames) + " frames in " + recording.folder.string());
     if (missing > 0) {
-      say(std::to_string(missing) + " frames are missing in it: the disk was too slow");
+      say(MessageLevel::warning,
+          std::to_string(missing) + " frames are missing in it: the disk was too slow");
     }
   }
 
-  void say(const std::string& words) const {
+  void remove(const Recording& recording) const {
+    std::error_code failed;
+    for (const RecordedFile& file : recording.files) {
+      std::error_code why;
+      if (!std::filesystem::remove(recording.folder / file.name, why) && why) {
+        failed = why;
+      }
+    }
+    if (failed) {
+      say(MessageLevel::error,
+          "the recording in " + recording.folder.string() + " could not be deleted: " + failed.message());
+      return;
+    }
+    std::filesystem::remove(recording.folder, failed);  // when nothing else was put there
+  }
+
+  void say(MessageLevel level, const std::string& words) const {
     if (message) {
-      message(words);
+      message(level, words);
     }
   }
 
   std::filesystem::path folder;
   OutputOptions options;
-  std::function<void(const std::string&)> message;
+  Message message;
+  std::int64_t most_frames = 0;
 
   // Of the recorder's thread.
   std::shared_ptr<const StreamHeader> header;
@@ -197,12 +227,13 @@ struct Recorder::State {
   std::thread thread;
 };
 
-Recorder::Recorder(std::filesystem::path folder, OutputOptions options,
-                   std::function<void(const std::string&)> message)
+Recorder::Recorder(std::filesystem::path folder, OutputOptions options, Message message,
+                   std::int64_t most_frames)
     : state_(std::make_unique<State>()) {
   state_->folder = std::move(folder);
   state_->options = std::move(options);
   state_->message = std::move(message);
+  state_->most_frames = most_frames;
   state_->thread = std::thread([s = state_.get()] { s->work(); });
 }
 
@@ -222,7 +253,7 @@ void Recorder::close() {
 }
 
 void Recorder::person(const StreamHeader& header) {
-  state_->push({Task::Kind::person, std::make_shared<const StreamHeader>(header), {}});
+  state_->push({Task::Kind::person, std::make_shared<const StreamHeader>(header)});
 }
 
 void Recorder::write(const MotionFrame& frame) {
@@ -232,13 +263,13 @@ void Recorder::write(const MotionFrame& frame) {
 }
 
 void Recorder::start() {
-  state_->push({Task::Kind::start, {}, {}});
+  state_->push({Task::Kind::start});
   state_->asked = true;
 }
 
 void Recorder::stop() {
   state_->asked = false;
-  state_->push({Task::Kind::stop, {}, {}});
+  state_->push({Task::Kind::stop});
 }
 
 std::optional<Recording> Recorder::current() const {
@@ -269,15 +300,11 @@ bool Recorder::forget(int number) {
   if (found == state_->ended.end()) {
     return false;
   }
-  const Recording recording = *found;
+  Task task{Task::Kind::forget};
+  task.recording = std::move(*found);
   state_->ended.erase(found);
-  lock.unlock();  // a slow disk is not to hold up who records
-  for (const RecordedFile& file : recording.files) {
-    std::error_code ignored;
-    std::filesystem::remove(recording.folder / file.name, ignored);
-  }
-  std::error_code ignored;
-  std::filesystem::remove(recording.folder, ignored);  // when nothing else was put there
+  lock.unlock();
+  state_->push(std::move(task));  // a slow disk is not to hold up who asks
   return true;
 }
 

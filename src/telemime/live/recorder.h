@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "telemime/live/message_level.h"
 #include "telemime/outputs/all.h"
 
 namespace telemime {
@@ -27,15 +28,22 @@ struct Recording {
   std::vector<RecordedFile> files;  ///< of an ended one
 };
 
+/// Two hours at 30 frames a second.
+inline constexpr std::int64_t kMostRecordedFrames = 216'000;
+
 /// Records live motion into files, one folder for each recording, in every format and at a constant rate
 /// (resampler.h). Writes in a thread of its own: a slow disk costs frames of the recording, after 10 s, and
-/// never the tracker's time. Everything from any thread; nothing throws but the constructor.
+/// never the tracker's time; a full one ends the recording, whose files then hold what was written.
+/// Everything from any thread; nothing throws but the constructor.
 class Recorder {
  public:
+  using Message = std::function<void(MessageLevel, const std::string&)>;
+
   /// `folder` is made with the first recording. `message` gets what the user should know, from the recorder's
-  /// thread.
-  Recorder(std::filesystem::path folder, OutputOptions options,
-           std::function<void(const std::string&)> message);
+  /// thread. A recording of `most_frames` goes on in the next one: some formats keep 230 bytes a frame in
+  /// memory until its end (measured with all: 62 MB for an hour at 25 a second, twice that while it ends).
+  Recorder(std::filesystem::path folder, OutputOptions options, Message message,
+           std::int64_t most_frames = kMostRecordedFrames);
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();  ///< close()
@@ -56,7 +64,7 @@ class Recorder {
   std::vector<Recording> ended() const;
   /// Of an ended recording; nothing where there is no such file.
   std::optional<std::filesystem::path> file(int number, const std::string& name) const;
-  /// Deletes an ended recording's files; false when there is none of that number.
+  /// Deletes an ended recording's files, soon; false when there is none of that number.
   bool forget(int number);
 
  private:

@@ -2,6 +2,7 @@
 #include "telemime/live/sender_list.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "telemime/core/errors.h"
 
@@ -10,49 +11,114 @@ namespace {
 
 constexpr std::size_t kMost = 16;
 
+// A page may name an output by what it got from us, also one that could never be sent to.
+std::optional<std::string> meaning_if_any(const std::string& url) {
+  try {
+    return meaning_of(url);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
-void SenderList::add(const std::string& url) {
-  const std::lock_guard lock(mutex_);
-  if (std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.url == url; })) {
-    throw Error(ErrorKind::usage, url + " is sent to already");
-  }
+SenderList::Entry* SenderList::find(const std::string& meaning) {
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& entry) { return entry.meaning == meaning; });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+void SenderList::require_room() const {
   if (entries_.size() >= kMost) {
     throw Error(ErrorKind::usage, "there are " + std::to_string(kMost) + " outputs already",
                 "Remove one first.");
+  }
+}
+
+void SenderList::add(const std::string& url, bool keep) {
+  const std::string meaning = meaning_of(url);
+  const std::lock_guard lock(mutex_);
+  Entry* entry = find(meaning);
+  if (entry != nullptr && entry->sender) {
+    throw Error(ErrorKind::usage,
+                url + " is sent to already" + (entry->url == url ? "" : ", as " + entry->url));
+  }
+  if (entry == nullptr) {
+    require_room();
   }
   const std::shared_ptr<Sender> sender = make_sender(url);
   if (header_) {
     sender->begin(*header_);
   }
-  entries_.push_back({url, sender});
+  if (entry == nullptr) {
+    entry = &entries_.emplace_back();
+  }
+  *entry = {url, meaning, sender, keep || entry->keep};
+}
+
+void SenderList::offer(const std::string& url) {
+  const std::string meaning = meaning_of(url);
+  const std::lock_guard lock(mutex_);
+  if (Entry* const entry = find(meaning)) {
+    entry->keep = true;
+    return;
+  }
+  require_room();
+  entries_.push_back({url, meaning, nullptr, true});
+}
+
+bool SenderList::switch_off(const std::string& url) {
+  const auto meaning = meaning_if_any(url);
+  std::shared_ptr<Sender> gone;  // ends outside the lock: it joins a thread
+  const std::lock_guard lock(mutex_);
+  Entry* const entry = meaning ? find(*meaning) : nullptr;
+  if (entry == nullptr) {
+    return false;
+  }
+  gone = std::move(entry->sender);
+  return true;
 }
 
 bool SenderList::remove(const std::string& url) {
-  std::shared_ptr<Sender> gone;  // ends outside the lock: it joins a thread
+  const auto meaning = meaning_if_any(url);
+  std::shared_ptr<Sender> gone;  // as above
   const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.url == url; });
-  if (found == entries_.end()) {
+  Entry* const entry = meaning ? find(*meaning) : nullptr;
+  if (entry == nullptr) {
     return false;
   }
-  gone = std::move(found->sender);
-  entries_.erase(found);
+  gone = std::move(entry->sender);
+  entries_.erase(entries_.begin() + (entry - entries_.data()));
   return true;
+}
+
+std::vector<std::string> SenderList::kept() const {
+  std::vector<std::string> urls;
+  const std::lock_guard lock(mutex_);
+  for (const Entry& entry : entries_) {
+    if (entry.keep) {
+      urls.push_back(entry.url);
+    }
+  }
+  return urls;
 }
 
 void SenderList::person(const StreamHeader& header) {
   const std::lock_guard lock(mutex_);
   header_ = header;
   for (const Entry& entry : entries_) {
-    entry.sender->begin(header);
+    if (entry.sender) {
+      entry.sender->begin(header);
+    }
   }
 }
 
-void SenderList::send(const MotionFrame& frame) {
+void SenderList::send(const MotionFrame& frame, double taken) {
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_) {
-    entry.sender->send(frame);
+    if (entry.sender) {
+      entry.sender->send(frame, taken);
+    }
   }
 }
 
@@ -60,7 +126,14 @@ std::vector<SenderStatus> SenderList::status() const {
   std::vector<SenderStatus> all;
   const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_) {
-    all.push_back(entry.sender->status());
+    if (entry.sender) {
+      all.push_back(entry.sender->status());
+    } else {
+      SenderStatus& off = all.emplace_back();
+      off.url = entry.url;
+      off.state = SenderState::off;
+      off.words = "nothing is sent there until it is switched on";
+    }
   }
   return all;
 }

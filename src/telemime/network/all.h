@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -18,6 +19,7 @@ namespace telemime {
 /// One way to send frames to other programs.
 struct SenderKind {
   std::string_view scheme;   ///< before "://"
+  std::uint16_t port = 0;    ///< when the URL names none; 0: it must
   std::string_view example;  ///< a URL that can be typed as it is
   std::string_view options;  ///< behind "?", for the user; the first value of each is the default
   std::string_view summary;
@@ -27,13 +29,14 @@ struct SenderKind {
 
 /// All of them. A new kind is a Link (send_queue.h) and a line here. `mirror` is an option of each.
 inline constexpr std::array<SenderKind, 4> kSenderKinds = {{
-    {"vmc", "vmc://localhost:39539", "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
+    {"vmc", kMarionettePort, "vmc://localhost:39539",
+     "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
      "avatar programs that take the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
-    {"bap+tcp", "bap+tcp://localhost:5000", "profile=iso|greta|vreng-3.1|vreng-3.2, mirror=0|1",
+    {"bap+tcp", 0, "bap+tcp://localhost:5000", "profile=iso|greta|vreng-3.1|vreng-3.2, mirror=0|1",
      "MPEG-4 body animation parameters as lines of text, to a program that listens", make_bap_tcp_sender},
-    {"bap+serve", "bap+serve://:4150", "profile=vreng-3.1|vreng-3.2|iso|greta, mirror=0|1",
+    {"bap+serve", kVapsPort, "bap+serve://:4150", "profile=vreng-3.1|vreng-3.2|iso|greta, mirror=0|1",
      "a server of MPEG-4 body animation parameters that VREng's clients can play", make_bap_serve_sender},
-    {"ws", "ws://localhost:8080/motion", "mirror=0|1; others go to the receiver",
+    {"ws", kHttpPort, "ws://localhost:8080/motion", "mirror=0|1; all others go to the receiver",
      "JSON messages over a WebSocket, for programs of one's own", make_web_socket_sender},
 }};
 

@@ -19,8 +19,6 @@ namespace {
 
 namespace asio = boost::asio;
 
-constexpr std::uint16_t kVapsPort = 4150;
-
 /// Lines as VREng's server sends them: its clients part words at blanks alone.
 std::string on_one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -67,7 +65,7 @@ class BapServeLink final : public Link {
     }
   }
 
-  bool frame(const MotionFrame& frame, double /*stamp*/) override {
+  bool frame(const MotionFrame& frame, double /*taken*/) override {
     const std::string datagram = on_one_line(encoder_->frame(frame));
     bool sent = false;
     for (const auto& client : clients_) {

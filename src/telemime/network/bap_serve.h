@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 
 #include "telemime/network/sender.h"
 #include "telemime/network/url.h"
 
 namespace telemime {
+
+/// Where VREng looks for its "vaps".
+inline constexpr std::uint16_t kVapsPort = 4150;
 
 /// bap+serve://[address]:4150[?profile=vreng-3.1|vreng-3.2|iso|greta]: a server in the manner of VREng's
 /// "vaps". Clients connect by TCP and send the commands of bap_session.h; `play`, whatever the file, gives

@@ -16,6 +16,7 @@ namespace {
 using testing_bap::BapText;
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
+using testing_receivers::kTaken;
 using testing_receivers::TcpPeer;
 using testing_receivers::UdpReceiver;
 
@@ -51,7 +52,7 @@ class BapServe : public ::testing::Test {
     MotionFrame frame = frames_[next_ % frames_.size()];
     frame.frame = next_;
     frame.time = static_cast<double>(next_++) / header_.fps;
-    sender_->send(frame);
+    sender_->send(frame, kTaken);
   }
 
   StreamHeader header_ = testing_motion::header();
@@ -73,7 +74,7 @@ TEST_F(BapServe, PlaysToAClientByUdp) {
   EXPECT_EQ(head[3], "0");
   Pose pose;
   pose[Angle::l_shoulder_flexion] = -1.0;
-  sender_->send(testing_motion::frame_of(header_.body, header_.camera, pose, 5, header_.fps));
+  sender_->send(testing_motion::frame_of(header_.body, header_.camera, pose, 5, header_.fps), kTaken);
   const BapText frame = BapText::from_datagram(udp.receive().value_or(""));
   EXPECT_EQ(frame.number, 5);
   EXPECT_EQ(frame.values.at(32), 100000);

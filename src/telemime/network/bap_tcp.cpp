@@ -40,7 +40,7 @@ class BapTcpLink final : public Link {
     }
   }
 
-  bool frame(const MotionFrame& frame, double /*stamp*/) override {
+  bool frame(const MotionFrame& frame, double /*taken*/) override {
     write(encoder_->frame(frame));
     return true;
   }

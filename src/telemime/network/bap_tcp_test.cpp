@@ -16,6 +16,7 @@ namespace {
 using testing_bap::BapText;
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
+using testing_receivers::kTaken;
 using testing_receivers::TcpListener;
 using testing_receivers::TcpPeer;
 
@@ -40,7 +41,7 @@ TEST_F(BapTcp, StreamsWhatTheFileHoldsForEveryProfile) {
     EXPECT_EQ(receiver.line().value_or("") + "\n", head);
     EXPECT_EQ(BapText::words(head).at(3), "0") << "an endless stream";
     for (const MotionFrame& frame : frames_) {
-      sender->send(frame);
+      sender->send(frame, kTaken);
       const std::string mask = receiver.line().value_or("");
       const std::string values = receiver.line().value_or("");
       ASSERT_EQ(mask + "\n" + values + "\n", encoder->frame(frame)) << profile;
@@ -57,7 +58,7 @@ TEST_F(BapTcp, AReceiverReadsTheAngles) {
   Pose pose;
   pose[Angle::l_shoulder_flexion] = -1.0;
   pose[Angle::r_elbow_flexion] = -0.5;
-  sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 7, header_.fps));
+  sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 7, header_.fps), kTaken);
   EXPECT_EQ(receiver.line().value_or("").substr(0, 4), "3.1 ");
   const BapText frame{receiver.line().value_or(""), receiver.line().value_or("")};
   EXPECT_EQ(frame.mask_length, 186U);
@@ -75,7 +76,7 @@ TEST_F(BapTcp, MirroredOnRequest) {
   sender->begin(header_);
   Pose pose;
   pose[Angle::l_shoulder_flexion] = -1.0;
-  sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 0, header_.fps));
+  sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 0, header_.fps), kTaken);
   receiver.line();
   const BapText frame{receiver.line().value_or(""), receiver.line().value_or("")};
   EXPECT_EQ(frame.values.at(33), 100000);
@@ -87,7 +88,7 @@ TEST_F(BapTcp, AReceiverThatComesLaterIsFound) {
   const auto sender = make_sender(url_of(port));
   sender->begin(header_);
   EXPECT_TRUE(comes_true([&] {
-    sender->send(frames_[0]);
+    sender->send(frames_[0], kTaken);
     return sender->status().state == SenderState::failed;
   }));
   EXPECT_EQ(sender->status().words, "nobody listens there; trying again");
@@ -103,7 +104,7 @@ TEST_F(BapTcp, AReceiverThatClosesGetsTheHeaderAgainWhenItIsBack) {
   sender->begin(header_);
   for (int time = 0; time < 3; ++time) {
     TcpPeer receiver = listener.accept();
-    sender->send(frames_[0]);
+    sender->send(frames_[0], kTaken);
     EXPECT_EQ(receiver.line().value_or("").substr(0, 4), "3.1 ");
     EXPECT_TRUE(receiver.line().has_value());
     if (time == 1) {
@@ -112,7 +113,7 @@ TEST_F(BapTcp, AReceiverThatClosesGetsTheHeaderAgainWhenItIsBack) {
       receiver.close();
     }
     EXPECT_TRUE(comes_true([&] {
-      sender->send(frames_[1]);
+      sender->send(frames_[1], kTaken);
       return listener.somebody_waits();
     }));
   }
@@ -124,11 +125,11 @@ TEST_F(BapTcp, AReceiverMayCloseItsOwnDirection) {
   sender->begin(header_);
   TcpPeer receiver = listener.accept();
   receiver.shut_own_direction();
-  sender->send(frames_[0]);
+  sender->send(frames_[0], kTaken);
   EXPECT_TRUE(receiver.line().has_value());
   for (int t = 0; t < 10; ++t) {
     EXPECT_TRUE(receiver.line().has_value() && receiver.line().has_value());
-    sender->send(frames_[1]);
+    sender->send(frames_[1], kTaken);
   }
   EXPECT_EQ(sender->status().state, SenderState::sending);
 }
@@ -140,7 +141,7 @@ TEST_F(BapTcp, AReceiverThatNeverReadsLosesFramesAlone) {
   sender->begin(header_);
   std::int64_t given = 0;
   EXPECT_TRUE(comes_true([&] {
-    sender->send(frames_[0]);
+    sender->send(frames_[0], kTaken);
     ++given;
     return sender->status().words == "it reads too slowly; frames are dropped";
   }));
@@ -159,7 +160,7 @@ TEST_F(SlowBapTcp, AReceiverThatNeverReadsIsGivenUp) {
   const TcpPeer receiver = listener.accept();
   sender->begin(header_);
   EXPECT_TRUE(comes_true([&] {
-    sender->send(frames_[0]);
+    sender->send(frames_[0], kTaken);
     return listener.somebody_waits();
   })) << "it is left, and tried again";
   TcpPeer again = listener.accept();

@@ -41,6 +41,19 @@ TEST_F(PoseMessage, TheBodyIsTheSkeletonInItsTPose) {
   EXPECT_GT(body["bones"]["leftHand"][0], 0.3) << "x is to the person's own left";
 }
 
+TEST_F(PoseMessage, WhatWasPassedOverCountsAsTheFirstFrame) {
+  Random random(8);
+  PoseMessages told(header_);
+  PoseMessages passed(header_);
+  const MotionFrame first = frame_of(testing_motion::random_pose(header_.limits, random));
+  MotionFrame second = frame_of(testing_motion::random_pose(header_.limits, random));
+  second.pose.root.x() += 0.3;
+  told.pose(first, 0.0);
+  passed.pass(first);
+  EXPECT_EQ(passed.pose(second, 0.0), told.pose(second, 0.0));
+  EXPECT_NE(PoseMessages(header_).pose(second, 0.0), told.pose(second, 0.0));
+}
+
 TEST_F(PoseMessage, APoseHasTheRotationsJointsAndPixels) {
   Random random(6);
   PoseMessages messages(header_);

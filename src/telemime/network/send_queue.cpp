@@ -31,12 +31,8 @@ struct Stopped {};
 
 struct WaitingFrame {
   MotionFrame frame;
-  double stamp = 0.0;  ///< ms of the monotonic clock
+  double taken = 0.0;  ///< ms of the monotonic clock
 };
-
-double monotonic_ms() {
-  return std::chrono::duration<double, std::milli>(SteadyClock::now().time_since_epoch()).count();
-}
 
 /// Growing pauses between attempts: none, then 0.1 s, doubled up to 5 s.
 class Pauses {
@@ -79,7 +75,7 @@ class QueuedSender final : public Sender, private SendLoop {
     wake();
   }
 
-  void send(const MotionFrame& frame) override {
+  void send(const MotionFrame& frame, double taken) override {
     {
       const std::lock_guard lock(mutex_);
       if (!person_) {
@@ -89,7 +85,7 @@ class QueuedSender final : public Sender, private SendLoop {
         queue_.pop_front();
         ++status_.dropped;
       }
-      queue_.push_back({frame, monotonic_ms()});
+      queue_.push_back({frame, taken});
     }
     wake();
   }
@@ -205,7 +201,7 @@ class QueuedSender final : public Sender, private SendLoop {
   void write(const StreamHeader& person, const WaitingFrame& next) {
     bool arrived = false;
     try {
-      arrived = link_->frame(mirror_ ? mirrored(next.frame, person.camera) : next.frame, next.stamp);
+      arrived = link_->frame(mirror_ ? mirrored(next.frame, person.camera) : next.frame, next.taken);
     } catch (const std::exception&) {
       const std::lock_guard lock(mutex_);
       ++status_.dropped;

@@ -59,9 +59,9 @@ class Link {
   virtual void open() = 0;
   /// The person whose frames follow: after each open(), and when they were calibrated anew.
   virtual void person(const std::shared_ptr<const StreamHeader>& person) = 0;
-  /// Writes a frame; `stamp` is when it came, ms of the monotonic clock. False when there was nobody to send
-  /// it to, which is no failure. Throws LinkBroken.
-  virtual bool frame(const MotionFrame& frame, double stamp) = 0;
+  /// Writes a frame; `taken` as in Sender::send. False when there was nobody to send it to, which is no
+  /// failure. Throws LinkBroken.
+  virtual bool frame(const MotionFrame& frame, double taken) = 0;
   /// Lets go of the connection. Called after each open(), also after one that failed.
   virtual void close() noexcept = 0;
 };

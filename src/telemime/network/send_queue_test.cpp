@@ -19,6 +19,7 @@ namespace {
 
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
+using testing_receivers::kTaken;
 
 constexpr std::chrono::milliseconds kLong = std::chrono::minutes(10);
 
@@ -46,7 +47,7 @@ class ScriptedLink final : public Link {
     script_.open(loop_);
   }
   void person(const std::shared_ptr<const StreamHeader>& /*person*/) override { ++script_.persons; }
-  bool frame(const MotionFrame& frame, double /*stamp*/) override {
+  bool frame(const MotionFrame& frame, double /*taken*/) override {
     {
       const std::lock_guard lock(script_.mutex);
       script_.seen.push_back(frame.frame);
@@ -71,7 +72,7 @@ class SendQueue : public ::testing::Test {
   void send(std::int64_t number) const {
     MotionFrame frame;
     frame.frame = number;
-    sender_->send(frame);
+    sender_->send(frame, kTaken);
   }
   bool failed(const std::string& words) const {
     return comes_true(

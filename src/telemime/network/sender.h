@@ -10,7 +10,12 @@
 
 namespace telemime {
 
-enum class SenderState { connecting, sending, failed };
+enum class SenderState {
+  connecting,
+  sending,
+  failed,
+  off,  ///< there is no sender: the user has not switched it on
+};
 
 /// How an output over the network is doing.
 struct SenderStatus {
@@ -35,12 +40,18 @@ class Sender {
 
   /// The person whose frames follow. Called again when the person was calibrated anew.
   virtual void begin(const StreamHeader& header) = 0;
-  virtual void send(const MotionFrame& frame) = 0;
+  /// `taken`: when the camera took the picture, ms of the program's monotonic clock.
+  virtual void send(const MotionFrame& frame, double taken) = 0;
   virtual SenderStatus status() const = 0;
 };
 
 /// By the scheme of the URL: one of sender_kinds() (all.h). Throws Error(usage) for one that is unknown or
 /// malformed, in words that show a right one.
 std::unique_ptr<Sender> make_sender(const std::string& url);
+
+/// What the URL means, as text: two that mean the same output have the same one. The scheme, the host
+/// (localhost is 127.0.0.1; none, where that is allowed, too), port, path and options, with what the URL
+/// leaves out filled in. Throws as make_sender does for a URL that cannot be parsed or has an unknown scheme.
+std::string meaning_of(const std::string& url);
 
 }  // namespace telemime

@@ -51,5 +51,35 @@ TEST(Senders, BadUrlsAreRefusedInWords) {
   EXPECT_NE(refusal("wss://localhost").find("ws://localhost:8080/motion"), std::string::npos);
 }
 
+TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
+  const auto same = [](const std::string& a, const std::string& b) { return meaning_of(a) == meaning_of(b); };
+  EXPECT_TRUE(same("vmc://localhost", "vmc://localhost:39539"));
+  EXPECT_TRUE(same("VMC://LocalHost/", "vmc://127.0.0.1?bundle=1&mirror=0"));
+  EXPECT_TRUE(same("vmc://h?root=moves&bundle=0", "vmc://h?bundle=0&root=moves&positions=all"));
+  EXPECT_TRUE(same("vmc://h?bundle=0&bundle=1", "vmc://h?bundle=0")) << "the first one counts";
+  EXPECT_TRUE(same("vmc://[0:0::1]", "vmc://[::1]:39539"));
+  EXPECT_TRUE(same("bap+serve://:4150", "bap+serve://127.0.0.1?profile=vreng-3.1"));
+  EXPECT_TRUE(same("ws://h:80", "ws://h/?mirror=0"));
+  EXPECT_TRUE(same("bap+tcp://h:5000", "bap+tcp://h:5000?profile=iso"));
+
+  EXPECT_FALSE(same("vmc://localhost", "vmc://localhost:39540"));
+  EXPECT_FALSE(same("vmc://localhost", "vmc://localhost?mirror=1"));
+  EXPECT_FALSE(same("vmc://a", "vmc://b"));
+  EXPECT_FALSE(same("bap+tcp://h:4150", "bap+serve://h:4150"));
+  EXPECT_FALSE(same("bap+serve://:4150", "bap+serve://0.0.0.0:4150"));
+  EXPECT_FALSE(same("ws://h:80/a", "ws://h:80/A")) << "only a host is the same in capitals";
+  EXPECT_FALSE(same("ws://h:80/?a=1&b=2", "ws://h:80/?b=2&a=1")) << "what order means is the receiver's";
+}
+
+TEST(Senders, EveryOptionOfTheTableIsOneAndItsFirstValueTheDefault) {
+  EXPECT_EQ(meaning_of("vmc://localhost"),
+            "vmc://127.0.0.1:39539/&bundle=1&mirror=0&positions=all&root=still");
+  for (const SenderKind& kind : sender_kinds()) {
+    const std::string meaning = meaning_of(std::string(kind.example));
+    const std::string options = meaning.substr(meaning.find('&') + 1);
+    EXPECT_NO_THROW(make_sender(std::string(kind.example) + "?" + options)) << options;
+  }
+}
+
 }  // namespace
 }  // namespace telemime

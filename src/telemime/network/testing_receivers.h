@@ -22,7 +22,8 @@
 /// senders' own code is used here.
 namespace telemime::testing_receivers {
 
-inline constexpr int kPatience = 20000;  ///< ms: how long a test waits for what must come
+inline constexpr double kTaken = 1234.5;  ///< ms, of frames whose time is of no matter
+inline constexpr int kPatience = 20000;   ///< ms: how long a test waits for what must come
 
 /// A file descriptor that closes itself.
 class Fd {

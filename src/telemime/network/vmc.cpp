@@ -20,8 +20,6 @@ namespace {
 
 namespace asio = boost::asio;
 
-constexpr std::uint16_t kMarionettePort = 39539;
-
 class VmcLink final : public Link {
  public:
   VmcLink(SendLoop& loop, const SendUrl& url, const VmcOptions& options)
@@ -55,7 +53,7 @@ class VmcLink final : public Link {
     }
   }
 
-  bool frame(const MotionFrame& raw, double /*stamp*/) override {
+  bool frame(const MotionFrame& raw, double /*taken*/) override {
     const MotionFrame frame = motion_->clean(raw);
     const auto motion = (*motion_)(frame);
     for (const std::string& datagram :

@@ -21,6 +21,7 @@ using testing_osc::OscMessage;
 using testing_osc::UnityPlace;
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
+using testing_receivers::kTaken;
 using testing_receivers::UdpReceiver;
 
 constexpr std::size_t kBones = 19;
@@ -103,7 +104,7 @@ TEST_F(Vmc, RotationsAndPositionsAreThoseThatWereSent) {
     if (t == 0) {
       origin = frame.pose.root;
     }
-    sender->send(frame);
+    sender->send(frame, kTaken);
     const ReceivedFrame got = next_frame(receiver_);
     EXPECT_EQ(got.marionette.ok, (std::vector<std::int32_t>{1, 3, 0, 1}));
     EXPECT_FLOAT_EQ(got.marionette.time, static_cast<float>(frame.time));
@@ -127,7 +128,7 @@ TEST_F(Vmc, AnArmThatPointsAtTheCameraPointsForward) {
   pose[Angle::l_shoulder_flexion] = -0.5 * kHalfTurn;
   const auto sender = make_sender(url_of(receiver_.port()));
   sender->begin(header_);
-  sender->send(frame_of(pose, 0));
+  sender->send(frame_of(pose, 0), kTaken);
   const auto bones = next_frame(receiver_).marionette.bones;
   // Kinematics as a receiver does them, in Unity's frame: x to the avatar's right, y up, z forward.
   Eigen::Affine3d wrist = Eigen::Affine3d::Identity();
@@ -149,7 +150,7 @@ TEST_F(Vmc, SingleMessagesWithoutBundles) {
   const auto sender = make_sender(url_of(receiver_.port(), "?bundle=0"));
   sender->begin(header_);
   const MotionFrame frame = frame_of(random_pose(), 0);
-  sender->send(frame);
+  sender->send(frame, kTaken);
   const ReceivedFrame got = next_frame(receiver_);
   EXPECT_EQ(got.datagrams.size(), kBones + 3);
   EXPECT_EQ(got.messages, kBones + 3);
@@ -162,7 +163,7 @@ TEST_F(Vmc, SingleMessagesWithoutBundles) {
 TEST_F(Vmc, PositionsOfTheHipsAlone) {
   const auto sender = make_sender(url_of(receiver_.port(), "?positions=hips"));
   sender->begin(header_);
-  sender->send(frame_of(random_pose(), 0));
+  sender->send(frame_of(random_pose(), 0), kTaken);
   for (const auto& [name, place] : next_frame(receiver_).marionette.bones) {
     if (name == "Hips") {
       EXPECT_LT((position_of(place) - skeleton_.position[0]).norm(), 1e-4);
@@ -176,10 +177,10 @@ TEST_F(Vmc, TheRootMovesOnRequest) {
   const auto sender = make_sender(url_of(receiver_.port(), "?root=moves"));
   sender->begin(header_);
   Pose pose;
-  sender->send(frame_of(pose, 0));
+  sender->send(frame_of(pose, 0), kTaken);
   next_frame(receiver_);
   pose.root += Eigen::Vector3d(0.2, -0.1, -0.3);  // to the camera's right, up, toward the camera
-  sender->send(frame_of(pose, 1));
+  sender->send(frame_of(pose, 1), kTaken);
   const Marionette got = next_frame(receiver_).marionette;
   // The camera's right is the left of a person who faces it: Unity's -x.
   const std::vector<float> moved = {-0.2F, 0.1F, 0.3F};
@@ -193,7 +194,7 @@ TEST_F(Vmc, MirroredOnRequest) {
   const auto sender = make_sender(url_of(receiver_.port(), "?mirror=1"));
   sender->begin(header_);
   const MotionFrame frame = frame_of(random_pose(), 0);
-  sender->send(frame);
+  sender->send(frame, kTaken);
   const Pose mirrored_pose = mirrored(frame.pose);
   expect_equal(next_frame(receiver_).marionette,
                humanoid_motion(header_.body, mirrored_pose, mirrored_pose.root));
@@ -204,26 +205,26 @@ TEST_F(Vmc, ALostPersonIsToldAndLeavesTheBonesAlone) {
   sender->begin(header_);
   MotionFrame frame = frame_of(random_pose(), 0);
   frame.state = TrackState::lost;
-  sender->send(frame);
+  sender->send(frame, kTaken);
   const ReceivedFrame got = next_frame(receiver_, true);
   EXPECT_EQ(got.messages, 2U);
   EXPECT_EQ(got.marionette.ok, (std::vector<std::int32_t>{1, 3, 0, 0}));
   frame.state = TrackState::tracking;
   frame.pose.angles[0] = std::nan("");
-  sender->send(frame);
+  sender->send(frame, kTaken);
   EXPECT_EQ(next_frame(receiver_, true).marionette.ok.at(3), 0) << "an impossible pose is a lost one";
 }
 
 TEST_F(Vmc, AnotherPersonHasOtherOffsets) {
   const auto sender = make_sender(url_of(receiver_.port()));
   sender->begin(header_);
-  sender->send(frame_of(random_pose(), 0));
+  sender->send(frame_of(random_pose(), 0), kTaken);
   next_frame(receiver_);
   header_.body = make_body(Shape{1.5, {}, 0.5});
   skeleton_ = humanoid_skeleton(header_.body);
   sender->begin(header_);
   const MotionFrame frame = frame_of(random_pose(), 1);
-  sender->send(frame);
+  sender->send(frame, kTaken);
   expect_equal(next_frame(receiver_).marionette, humanoid_motion(header_.body, frame.pose, frame.pose.root));
 }
 
@@ -235,14 +236,14 @@ TEST(VmcWithoutReceiver, IsReportedInWordsAndFoundLater) {
   EXPECT_EQ(sender->status().url, url_of(port));
   sender->begin(header);
   EXPECT_TRUE(comes_true([&] {
-    sender->send(frames[0]);
+    sender->send(frames[0], kTaken);
     return sender->status().state == SenderState::failed && sender->status().dropped > 10;
   }));
   EXPECT_EQ(sender->status().words, "nobody listens there; trying again");
   EXPECT_EQ(sender->status().receivers, 0);
   UdpReceiver receiver(port);
   EXPECT_TRUE(comes_true([&] {
-    sender->send(frames[0]);
+    sender->send(frames[0], kTaken);
     return sender->status().state == SenderState::sending;
   }));
   EXPECT_EQ(sender->status().words, "");

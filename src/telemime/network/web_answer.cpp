@@ -57,9 +57,43 @@ std::string plain_name(std::string name) {
   return name;
 }
 
+/// What is asked for of a file, by its headers. `message` is that of the whole.
+void set_file(WebAnswer& answer, WebFile file, const WebRequest& request) {
+  auto& message = answer.message;
+  WebRange range{WebRange::Kind::whole, 0, file.size()};
+  const std::string_view condition = view(request[http::field::if_range]);
+  if (!answer.head && request.count(http::field::range) == 1 &&
+      (condition.empty() || condition == file.tag())) {
+    range = web_range(view(request[http::field::range]), file.size());
+  }
+  const std::string size = std::to_string(file.size());
+  message.set(http::field::accept_ranges, "bytes");
+  message.set(http::field::etag, file.tag());
+  if (range.kind == WebRange::Kind::part) {
+    message.result(http::status::partial_content);
+    message.set(http::field::content_range, "bytes " + std::to_string(range.first) + "-" +
+                                                std::to_string(range.first + range.size - 1) + "/" + size);
+  } else if (range.kind == WebRange::Kind::nothing) {
+    message.result(http::status::range_not_satisfiable);
+    message.set(http::field::content_range, "bytes */" + size);
+  }
+  message.content_length(range.size);
+  answer.first = range.first;
+  answer.left = answer.head ? 0 : range.size;
+  answer.file = std::make_shared<WebFile>(std::move(file));
+}
+
+void set_bytes(WebAnswer& answer, WebBytes bytes) {
+  answer.bytes = std::move(bytes);
+  answer.message.content_length(answer.bytes->size());
+  if (!answer.head) {
+    answer.message.body() = {answer.bytes->data(), answer.bytes->size()};
+  }
+}
+
 WebAnswer with_content(WebContent content, const WebRequest& request) {
   WebAnswer answer;
-  answer.bytes = content.bytes ? std::move(content.bytes) : std::make_shared<const std::string>();
+  answer.head = request.method() == http::verb::head;
   auto& message = answer.message;
   message.result(http::status::ok);
   message.version(request.version());
@@ -72,9 +106,16 @@ WebAnswer with_content(WebContent content, const WebRequest& request) {
     message.set(http::field::content_disposition,
                 "attachment; filename=\"" + plain_name(std::move(content.file_name)) + "\"");
   }
-  message.content_length(answer.bytes->size());
-  if (request.method() != http::verb::head) {
-    message.body() = {answer.bytes->data(), answer.bytes->size()};
+  if (!content.file.empty()) {
+    std::optional<WebFile> file = WebFile::open(content.file);
+    if (!file) {
+      return web_refusal(http::status::not_found, "This file is no longer there.");
+    }
+    set_file(answer, std::move(*file), request);
+  } else if (content.later) {
+    answer.later = std::move(content.later);
+  } else {
+    set_bytes(answer, content.bytes ? std::move(content.bytes) : std::make_shared<const std::string>());
   }
   return answer;
 }
@@ -120,6 +161,19 @@ std::optional<WebAnswer> stranger(const WebRequest& request, const WebNames& nam
 }
 
 }  // namespace
+
+void WebAnswer::finish(WebBytes made) {
+  later = nullptr;
+  if (made) {
+    set_bytes(*this, std::move(made));
+    return;
+  }
+  const bool without_body = head;
+  *this = web_refusal(http::status::internal_server_error, "The program could not make this.");
+  if (without_body) {
+    message.body() = {};
+  }
+}
 
 WebAnswer web_refusal(http::status status, const std::string& words) {
   WebAnswer answer;

@@ -4,10 +4,13 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/span_body.hpp>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "telemime/network/web_file.h"
 #include "telemime/network/web_origin.h"
 #include "telemime/network/web_server.h"
 
@@ -19,7 +22,16 @@ using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 struct WebAnswer {
   bool upgrade = false;  ///< it is a WebSocket; the rest is empty
   boost::beast::http::response<boost::beast::http::span_body<const char>> message;
-  std::shared_ptr<const std::string> bytes;  ///< what message.body() looks at
+  WebBytes bytes;                 ///< what message.body() looks at
+  std::shared_ptr<WebFile> file;  ///< what follows the message, from `first` on, `left` bytes
+  std::uint64_t first = 0;
+  std::uint64_t left = 0;
+  /// Not empty: first this, then finish().
+  std::function<void(std::function<void(WebBytes)>)> later;
+  /// Puts the bytes in that were waited for; none become a refusal.
+  void finish(WebBytes made);
+
+  bool head = false;  ///< no bytes are to be sent
 };
 
 /// Decides. `request` is a whole header; `has_body` says whether something follows it, which is always

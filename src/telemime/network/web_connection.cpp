@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/web_connection.h"
 
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/read.hpp>
@@ -19,6 +20,8 @@ using boost::system::error_code;
 // All programs of localhost share their cookies, so that headers can be long.
 constexpr std::size_t longest_header = 32 * 1024;
 constexpr std::chrono::seconds linger_time{2};
+// Of a file: what is read at a time, between which others have their turn.
+constexpr std::size_t longest_part = 128 * 1024;
 
 std::string local_address(const boost::asio::ip::tcp::socket& socket) {
   error_code error;
@@ -85,6 +88,34 @@ void WebConnection::upgrade() {
 
 void WebConnection::respond(WebAnswer answer) {
   answer_ = std::move(answer);
+  if (answer_.later) {
+    wait();
+  } else {
+    write();
+  }
+}
+
+void WebConnection::wait() {
+  // Nobody else keeps this connection while nothing is under way.
+  hub_->hold(shared_from_this());
+  stream_.expires_never();
+  const auto ready = [door = hub_->door(), weak = weak_from_this()](const WebBytes& bytes) {
+    door->post([weak, bytes] {
+      const std::shared_ptr<WebConnection> self = weak.lock();
+      if (self && self->hub_->let_go(self)) {
+        self->answer_.finish(bytes);
+        self->write();
+      }
+    });
+  };
+  try {
+    std::exchange(answer_.later, nullptr)(ready);
+  } catch (...) {
+    ready(nullptr);
+  }
+}
+
+void WebConnection::write() {
   serializer_.emplace(answer_.message);
   write_some();
 }
@@ -98,15 +129,58 @@ void WebConnection::write_some() {
     }
     if (!self->serializer_->is_done()) {
       self->write_some();
-    } else if (self->answer_.message.keep_alive()) {
-      self->read();
     } else {
-      self->stream_.expires_after(linger_time);
-      error_code ignored;
-      self->stream_.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
-      self->linger();
+      self->send_file();
     }
   });
+}
+
+void WebConnection::send_file() {
+  if (answer_.left == 0) {
+    sent();
+    return;
+  }
+  part_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(longest_part, answer_.left)));
+  part_.resize(answer_.file->read(answer_.first, part_));
+  part_sent_ = 0;
+  if (part_.empty()) {
+    stream_.close();  // the file was cut short, or the disk fails: not what was promised, and the end says so
+    return;
+  }
+  answer_.first += part_.size();
+  answer_.left -= part_.size();
+  send_part();
+}
+
+void WebConnection::send_part() {
+  stream_.expires_after(hub_->options().stalled_after);
+  stream_.async_write_some(boost::asio::buffer(part_.data() + part_sent_, part_.size() - part_sent_),
+                           [self = shared_from_this()](error_code error, std::size_t count) {
+                             if (error) {
+                               return;
+                             }
+                             self->part_sent_ += count;
+                             if (self->part_sent_ < self->part_.size()) {
+                               self->send_part();
+                             } else {
+                               self->send_file();
+                             }
+                           });
+}
+
+void WebConnection::sent() {
+  const bool again = answer_.message.keep_alive();
+  serializer_.reset();
+  answer_ = {};  // a file is closed, big bytes are let go
+  part_ = {};
+  if (again) {
+    read();
+    return;
+  }
+  stream_.expires_after(linger_time);
+  error_code ignored;
+  stream_.socket().shutdown(boost::asio::socket_base::shutdown_send, ignored);
+  linger();
 }
 
 // Closing while the other side still sends would reset the connection, and the answer would be lost.

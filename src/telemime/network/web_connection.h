@@ -6,8 +6,11 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/serializer.hpp>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "telemime/network/web_answer.h"
 #include "telemime/network/web_hub.h"
@@ -27,7 +30,12 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void answer(boost::system::error_code error);
   void upgrade();
   void respond(WebAnswer answer);
+  void wait();
+  void write();
   void write_some();
+  void send_file();
+  void send_part();
+  void sent();
   void linger();
 
   std::shared_ptr<WebHub> hub_;
@@ -39,6 +47,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   WebAnswer answer_;
   std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>>
       serializer_;
+  std::vector<char> part_;     ///< of the file
+  std::size_t part_sent_ = 0;  ///< bytes of it
   std::array<char, 4096> rest_{};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/web_hub.h"
 
+#include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -21,8 +22,9 @@ std::string error_message(const std::string& words) {
 
 }  // namespace
 
-WebHub::WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names)
-    : options_(options), handlers_(std::move(handlers)), names_(std::move(names)) {}
+WebHub::WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names,
+               std::shared_ptr<WebDoor> door)
+    : options_(options), handlers_(std::move(handlers)), names_(std::move(names)), door_(std::move(door)) {}
 
 std::shared_ptr<void> WebHub::ticket() {
   if (*connections_ >= options_.most_clients + more_connections) {
@@ -38,6 +40,8 @@ std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& clie
   }
   clients_[++last_id_] = client;
   count_ = clients_.size();
+  const std::lock_guard lock(mutex_);
+  turned_off_[last_id_];
   return last_id_;
 }
 
@@ -46,6 +50,10 @@ void WebHub::leave(std::uint64_t id) {
     return;
   }
   count_ = clients_.size();
+  {
+    const std::lock_guard lock(mutex_);
+    turned_off_.erase(id);
+  }
   try {
     if (handlers_.closed) {
       handlers_.closed(id);
@@ -58,6 +66,13 @@ void WebHub::leave_all() {
   while (!clients_.empty()) {
     leave(clients_.begin()->first);
   }
+  held_.clear();
+}
+
+bool WebHub::wanted(int topic) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(turned_off_.begin(), turned_off_.end(),
+                     [topic](const auto& client) { return topic == 0 || !client.second.contains(topic); });
 }
 
 std::vector<std::string> WebHub::greeting(std::uint64_t id) const {
@@ -109,6 +124,12 @@ void WebHub::set_topic(std::uint64_t client, int topic, bool on) {
   const auto found = clients_.find(client);
   if (const std::shared_ptr<WebClient> known = found == clients_.end() ? nullptr : found->second.lock()) {
     known->set_topic(topic, on);
+    const std::lock_guard lock(mutex_);
+    if (on) {
+      turned_off_[client].erase(topic);
+    } else {
+      turned_off_[client].insert(topic);
+    }
   }
 }
 

@@ -9,10 +9,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "telemime/network/web_door.h"
 #include "telemime/network/web_origin.h"
 #include "telemime/network/web_queue.h"
 #include "telemime/network/web_server.h"
@@ -25,14 +27,21 @@ class WebClient;
 class WebHub {
  public:
   /// `names`: under which the server may be called, with the port that it got.
-  WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names);
+  WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names,
+         std::shared_ptr<WebDoor> door);
 
   const WebServerOptions& options() const { return options_; }
   const WebHandlers& handlers() const { return handlers_; }
   const WebNames& names() const { return names_; }
+  const std::shared_ptr<WebDoor>& door() const { return door_; }
 
   /// To be kept by a connection as long as it is open; nothing when too many are.
   std::shared_ptr<void> ticket();
+
+  /// Keeps a connection that waits for other threads, until it is let go or the server ends.
+  void hold(const std::shared_ptr<void>& connection) { held_.insert(connection); }
+  /// False: it is not held.
+  bool let_go(const std::shared_ptr<void>& connection) { return held_.erase(connection) > 0; }
 
   /// A number for the client, which takes part from now on; nothing when too many do.
   std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client);
@@ -52,17 +61,21 @@ class WebHub {
   void set_topic(std::uint64_t client, int topic, bool on);
 
   std::size_t clients() const { return count_; }  ///< from any thread
+  bool wanted(int topic) const;                   ///< from any thread
 
  private:
   const WebServerOptions options_;
   const WebHandlers handlers_;
   const WebNames names_;
+  const std::shared_ptr<WebDoor> door_;
+  std::set<std::shared_ptr<void>> held_;
   std::map<std::uint64_t, std::weak_ptr<WebClient>> clients_;
   std::uint64_t last_id_ = 0;
   std::atomic<std::size_t> count_ = 0;
   std::shared_ptr<std::size_t> connections_ = std::make_shared<std::size_t>(0);
 
-  std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;                           ///< of what follows
+  std::map<std::uint64_t, std::set<int>> turned_off_;  ///< topics, of each client
   WebQueue inbox_{std::numeric_limits<std::size_t>::max()};
   bool drain_is_due_ = false;
 };

@@ -18,7 +18,8 @@ struct WebServer::State {
   State(const WebServerOptions& options, WebHandlers handlers) {
     std::vector<boost::asio::ip::tcp::acceptor> acceptors = listen_at(io, options.address, options.port);
     port = acceptors.front().local_endpoint().port();
-    hub = std::make_shared<WebHub>(options, std::move(handlers), WebNames(port, options.hosts));
+    hub = std::make_shared<WebHub>(options, std::move(handlers), WebNames(port, options.hosts),
+                                   std::make_shared<WebDoor>(io));
     for (boost::asio::ip::tcp::acceptor& acceptor : acceptors) {
       listeners.emplace_back(hub, std::move(acceptor)).accept();
     }
@@ -59,6 +60,7 @@ WebServer::~WebServer() {
     state->io.stop();
   });
   state_->thread.join();
+  state_->hub->door()->close();
 }
 
 std::uint16_t WebServer::port() const {
@@ -67,6 +69,10 @@ std::uint16_t WebServer::port() const {
 
 std::size_t WebServer::clients() const {
   return state_->hub->clients();
+}
+
+bool WebServer::wanted(int topic) const {
+  return state_->hub->wanted(topic);
 }
 
 void WebServer::send_text(int topic, std::shared_ptr<const std::string> text) {

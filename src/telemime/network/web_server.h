@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,12 +13,21 @@
 
 namespace telemime {
 
+using WebBytes = std::shared_ptr<const std::string>;
+
 /// What a GET is answered with.
 struct WebContent {
-  std::shared_ptr<const std::string> bytes;
+  WebBytes bytes;
   std::string type;        ///< MIME type
   std::string file_name;   ///< not empty: to be saved under this name
   bool immutable = false;  ///< may be cached for ever (its name has a hash in it)
+  /// Not empty: a file instead of `bytes`. It is read bit by bit as it is sent, and parts of it may be asked
+  /// for (Range). A file that cannot be read is answered 404.
+  std::filesystem::path file = {};
+  /// Not empty: bytes that are still being made. It is called at once, in the server's thread, and calls
+  /// `ready` once, from any thread and at any time, also when the server is gone; null means that they could
+  /// not be made (500).
+  std::function<void(std::function<void(WebBytes)> ready)> later = {};
 };
 
 struct WebServerOptions {
@@ -61,6 +71,8 @@ class WebServer {
 
   std::uint16_t port() const;
   std::size_t clients() const;
+  /// Whether there is a client that gets messages of this topic: what nobody gets need not be made.
+  bool wanted(int topic) const;
 
   /// To all clients; from any thread, never blocks. `topic` is any small number: a message of a topic
   /// replaces one of the same topic that still waits. Topic 0 is never replaced (few, important ones; a

@@ -21,7 +21,6 @@ namespace beast = boost::beast;
 
 constexpr std::chrono::milliseconds kLongestHandshake{5000};
 constexpr std::size_t kLongestIncoming = 64 * 1024;  // bytes of a message; all are thrown away
-constexpr std::uint16_t kHttpPort = 80;
 
 /// Path and query as the receiver shall see them.
 std::string target_of(const SendUrl& url) {
@@ -68,8 +67,8 @@ class WebSocketLink final : public Link {
     write(messages_->body());
   }
 
-  bool frame(const MotionFrame& frame, double stamp) override {
-    write(messages_->pose(frame, stamp));
+  bool frame(const MotionFrame& frame, double taken) override {
+    write(messages_->pose(frame, taken));
     return true;
   }
 

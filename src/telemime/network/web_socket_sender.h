@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "telemime/network/sender.h"
 #include "telemime/network/url.h"
 
 namespace telemime {
+
+inline constexpr std::uint16_t kHttpPort = 80;
 
 /// ws://host[:80][/path][?...]: connects as a WebSocket client and sends the messages `body` and `pose` of
 /// docs/live-protocol.md as text. `mirror` is an option of ours; the rest of what stands behind "?" goes to

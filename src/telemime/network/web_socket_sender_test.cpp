@@ -24,6 +24,7 @@ namespace beast = boost::beast;
 using nlohmann::json;
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
+using testing_receivers::kTaken;
 
 /// A WebSocket server for one client at a time.
 class Server {
@@ -69,14 +70,13 @@ TEST_F(WebSocketSender, SendsThePersonAndTheFrames) {
   EXPECT_EQ(server_.accept(), "/room/1?key=a1 127.0.0.1:" + std::to_string(server_.port()));
   sender->begin(header_);
   EXPECT_EQ(server_.read()["type"], "body");
-  double last = 0.0;
+  double taken = 5000.25;
   for (const MotionFrame& frame : frames_) {
-    sender->send(frame);
+    sender->send(frame, taken += 40.0);
     const json message = server_.read();
     EXPECT_EQ(message["type"], "pose");
     EXPECT_EQ(message["frame"], frame.frame);
-    EXPECT_GE(message["stamp"].get<double>(), last);
-    last = message["stamp"];
+    EXPECT_EQ(message["stamp"].get<double>(), taken) << "when the picture was taken, not when it was sent";
   }
   EXPECT_EQ(sender->status().state, SenderState::sending);
 }
@@ -86,14 +86,14 @@ TEST_F(WebSocketSender, ThePersonComesFirstAlsoAfterABreakAndAnew) {
   server_.accept();
   sender->begin(header_);
   EXPECT_EQ(server_.read()["type"], "body");
-  sender->send(frames_[0]);
+  sender->send(frames_[0], kTaken);
   const json first = server_.read();
   server_.close();
   server_.accept();
   EXPECT_EQ(server_.read()["type"], "body");
   MotionFrame moved = frames_[0];
   moved.pose.root.x() += 0.1;
-  sender->send(moved);
+  sender->send(moved, kTaken);
   EXPECT_NEAR(server_.read()["hips"][0].get<double>() - first["hips"][0].get<double>(), 0.1, 1e-4)
       << "hips are where they were before the break";
   header_.body = make_body(Shape{1.5, {}, 0.5});
@@ -111,7 +111,7 @@ TEST_F(WebSocketSender, WhatTheReceiverSaysIsReadAndForgotten) {
   for (int n = 0; n < 300; ++n) {
     server_.write(std::string(1000, 'x'));
   }
-  sender->send(frames_[0]);
+  sender->send(frames_[0], kTaken);
   EXPECT_EQ(server_.read()["type"], "pose");
   server_.write(std::string(100000, 'x'));  // too much: begins anew
   server_.accept();

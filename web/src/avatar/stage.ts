@@ -59,7 +59,7 @@ export class Stage {
   private lastDraw = 0;
   private draws = 0;
   private contextLost = false;
-  private fence: WebGLSync | null = null;
+  private readonly pixel = new Uint8Array(4);
 
   /** Throws when the browser has no WebGL. */
   constructor(
@@ -210,14 +210,14 @@ export class Stage {
     this.dirty = true;
   }
 
-  /** The last picture is still being drawn: another one would only queue up behind it. */
-  get busy(): boolean {
-    const gl = this.renderer.getContext() as WebGL2RenderingContext;
-    if (this.fence && (this.contextLost || gl.getSyncParameter(this.fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
-      gl.deleteSync(this.fence);
-      this.fence = null;
-    }
-    return this.fence !== null;
+  /**
+   * Waits until the last picture is drawn, where the browser draws in software: else pictures would queue up. With a
+   * graphics card that takes few milliseconds, and nobody waits.
+   */
+  settle(): void {
+    if (!this.software || this.contextLost) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.pixel);
   }
 
   /** Shows this; true when a picture was drawn (nothing is drawn when nothing moved). `now` in seconds. */
@@ -244,9 +244,6 @@ export class Stage {
       this.renderer.render(this.scene, this.camera);
       this.dirty = false;
     }
-    const gl = this.renderer.getContext() as WebGL2RenderingContext;
-    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
     return true;
   }
 }

@@ -9,15 +9,13 @@ import { byId } from "../ui/dom";
 import type { CameraView } from "../views/camera";
 import type { TopView } from "../views/top";
 
-const ASK_AGAIN = 2; // ms
-
 export class Loop {
   private stage: Stage | null = null;
   private rest = 1;
   private lastShown = -1;
   private ticks = 0;
   private drawnSent = 0;
-  private readonly told: () => void;
+  private readonly after = new MessageChannel();
   private drawn: { frame: number; stamp: number } | null = null;
 
   constructor(
@@ -27,12 +25,9 @@ export class Loop {
     send: (c: Command) => boolean,
     private readonly complain: (words: string) => void,
   ) {
-    // Told when the graphics card, or what stands in for it, has drawn the picture.
-    this.told = () => {
-      if (this.stage?.busy) {
-        window.setTimeout(this.told, ASK_AGAIN);
-        return;
-      }
+    // A task of its own, after the picture has been handed over.
+    this.after.port1.onmessage = () => {
+      this.stage?.settle();
       const d = this.drawn;
       this.drawn = null;
       if (d && send({ type: "drawn", ...d })) this.drawnSent++;
@@ -83,7 +78,7 @@ export class Loop {
     const tick = (): void => {
       requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
       this.ticks++;
-      if (!this.stage?.busy) this.showAvatar();
+      this.showAvatar();
       this.camera.draw();
       this.top.draw();
     };
@@ -97,7 +92,7 @@ export class Loop {
     const rendered = this.stage?.draw(shown, now) ?? false;
     if (!rendered || !shown.fresh) return;
     this.lastShown = shown.fresh.frame;
-    if (!this.drawn) window.setTimeout(this.told, 0);
     this.drawn = { frame: shown.fresh.frame, stamp: shown.fresh.stamp };
+    this.after.port2.postMessage(null);
   }
 }

@@ -140,7 +140,7 @@ const connection: Connection = new Connection(address, {
   },
   state: (s) => {
     banner.setState(s);
-    if (s.kind === "open" && document.hidden) send({ type: "pictures", on: false });
+    if (s.kind === "open" && document.hidden) look(false);
     if (s.kind !== "lost") return;
     phase = "disconnected";
     driver.setLost();
@@ -152,7 +152,12 @@ const connection: Connection = new Connection(address, {
   },
 });
 
-document.addEventListener("visibilitychange", () => send({ type: "pictures", on: !document.hidden }));
+/** Nothing is made for pages that nobody sees. */
+function look(on: boolean): void {
+  send({ type: "pictures", on });
+  send({ type: "poses", on });
+}
+document.addEventListener("visibilitychange", () => look(!document.hidden));
 
 // Controls.
 type Switch = "mirrorPicture" | "mirrorAvatar" | "overlay" | "closeUp";

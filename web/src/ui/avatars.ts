@@ -4,6 +4,7 @@
 import { AvatarError, checkSize } from "../avatar/inspect";
 import type { Avatar } from "../avatar/load";
 import { getAvatar, listAvatars, putAvatar, removeAvatar, type StoredEntry } from "../avatar/store";
+import { drawsInSoftware } from "../graphics";
 import { button, byId, h, icon, megabytes } from "./dom";
 
 export interface AvatarInfo {
@@ -114,7 +115,8 @@ export class Avatars {
   }
 
   private async fromProgram(look: string): Promise<{ name: string; data: ArrayBuffer }> {
-    const answer = await fetch(`/avatars/${encodeURIComponent(look)}.vrm`);
+    const light = drawsInSoftware() ? "-light" : "";
+    const answer = await fetch(`/avatars/${encodeURIComponent(look + light)}.vrm`);
     if (!answer.ok) throw new AvatarError(`Telemime does not have the avatar "${lookName(look)}".`);
     return { name: lookName(look), data: await answer.arrayBuffer() };
   }

@@ -72,6 +72,19 @@ export class OutputList {
           icon("trash"),
         );
         remove.addEventListener("click", () => this.send({ type: "output", remove: o.url }));
+        const off = o.state === "off";
+        const flip = h(
+          "button",
+          {
+            class: "small",
+            "aria-label": `${off ? "Send again" : "Stop sending"} to ${o.url}`,
+            "data-focus": `flip ${o.url}`,
+          },
+          off ? "Switch on" : "Switch off",
+        );
+        flip.addEventListener("click", () =>
+          this.send(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
+        );
         return h(
           "li",
           { class: "row" },
@@ -83,6 +96,7 @@ export class OutputList {
             h("span", { class: "state-words" }, [o.state, o.words].filter(Boolean).join(": ")),
             h("span", { class: "soft", "data-facts": "" }, ""),
           ),
+          flip,
           remove,
         );
       }),

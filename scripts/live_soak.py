@@ -1,0 +1,398 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs `telemime live demo` for an hour among pages and receivers that behave badly, and watches its memory.
+
+    scripts/live_soak.py build/release/telemime                   an hour
+    scripts/live_soak.py build/release/telemime --seconds 180     a try
+
+Around the program: a page that reads, a page that never reads, pages that come and go, pages that are hidden,
+a page that says nonsense; a VMC receiver and a BAP receiver that die and come back; a recording in part of the time,
+which is downloaded and deleted. Fails (exit code 1) when the memory after the warm-up (five minutes, or a third of a
+shorter run) grows by more than --bound MB, when the program ends, complains or leaves file descriptors open, or when
+the page that reads hears nothing for 20 s. Everything stays on this machine; Python's own library is all it needs.
+"""
+
+import argparse
+import asyncio
+import base64
+import json
+import os
+import random
+import re
+import signal
+import struct
+import sys
+import tempfile
+import time
+
+
+class WebSocket:
+    """The client's side of RFC 6455, as far as the live page needs it."""
+
+    def __init__(self, reader, writer):
+        self.reader, self.writer = reader, writer
+
+    @staticmethod
+    async def open(port, limit=2**20):
+        reader, writer = await asyncio.open_connection("127.0.0.1", port, limit=limit)
+        key = base64.b64encode(random.randbytes(16)).decode()
+        writer.write(
+            f"GET /ws HTTP/1.1\r\nHost: localhost:{port}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+            f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n".encode()
+        )
+        head = await reader.readuntil(b"\r\n\r\n")
+        if b" 101 " not in head.split(b"\r\n")[0]:
+            raise ConnectionError("no WebSocket: " + head.decode(errors="replace"))
+        return WebSocket(reader, writer)
+
+    def frame(self, opcode, payload):
+        mask = random.randbytes(4)
+        size = len(payload)
+        head = bytes([0x80 | opcode, 0x80 | (size if size < 126 else 126)])
+        if size >= 126:
+            head += struct.pack(">H", size)
+        self.writer.write(head + mask + bytes(b ^ mask[i % 4] for i, b in enumerate(payload)))
+
+    def say(self, message):
+        text = message if isinstance(message, str) else json.dumps(message)
+        self.frame(1, text.encode())
+
+    async def hear(self):
+        """The next message: a dict, or bytes for a picture."""
+        whole, kind = b"", 0
+        while True:
+            first, second = await self.reader.readexactly(2)
+            size = second & 0x7F
+            if size > 125:
+                size = int.from_bytes(await self.reader.readexactly(2 if size == 126 else 8), "big")
+            payload = await self.reader.readexactly(size)
+            opcode = first & 0x0F
+            if opcode == 9:
+                self.frame(10, payload)
+            elif opcode == 8:
+                raise ConnectionError("the program has closed the page")
+            elif opcode != 10:
+                kind = kind or opcode
+                whole += payload
+                if first & 0x80:
+                    return json.loads(whole) if kind == 1 else whole
+
+    async def close(self):
+        self.writer.transport.abort()
+
+
+class Soak:
+    def __init__(self, options):
+        self.options = options
+        self.port = 0
+        self.process = None
+        self.counts = {}
+        self.failures = []
+        self.heard_at = time.monotonic()
+        self.begun = time.monotonic()
+        self.samples = []
+        self.status = {}
+        self.over = False
+
+    def count(self, what, by=1):
+        self.counts[what] = self.counts.get(what, 0) + by
+
+    def fail(self, words):
+        print("FAILED:", words, flush=True)
+        self.failures.append(words)
+
+    # -- the program
+
+    async def start(self, folder, vmc, bap):
+        self.process = await asyncio.create_subprocess_exec(
+            self.options.program, "live", self.options.input, "--port", "0", "--no-settings",
+            "--recordings", os.path.join(folder, "recordings"),
+            "--send", f"vmc://127.0.0.1:{vmc}", "--send", f"bap+tcp://127.0.0.1:{bap}",
+            "--seconds", str(self.options.seconds + 60),
+            stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE,
+        )  # fmt: skip
+        line = ""
+        while not (found := re.search(r"localhost:(\d+)", line)):
+            line = (await self.process.stdout.readline()).decode()
+            if not line:
+                raise SystemExit("the program does not start: " + (await self.process.stderr.read()).decode())
+        self.port = int(found.group(1))
+        self.words = asyncio.create_task(self.listen())
+
+    async def listen(self):
+        while line := await self.process.stderr.readline():
+            print("program:", line.decode(errors="replace").rstrip(), flush=True)
+
+    def memory(self):
+        """MB that the program holds; descriptors that it has open."""
+        with open(f"/proc/{self.process.pid}/status", encoding="ascii") as status:
+            kb = int(re.search(r"VmRSS:\s+(\d+)", status.read()).group(1))
+        return kb / 1024, len(os.listdir(f"/proc/{self.process.pid}/fd"))
+
+    # -- pages
+
+    async def reads(self):
+        """A page as it should be; it also reports what it drew."""
+        page = await WebSocket.open(self.port)
+        asked = 0.0
+        while not self.over:
+            message = await page.hear()
+            self.heard_at = time.monotonic()
+            if isinstance(message, bytes):
+                self.count("pictures")
+                continue
+            self.count(message["type"])
+            if message["type"] == "pose":
+                page.say({"type": "drawn", "frame": message["frame"], "stamp": message["stamp"]})
+            elif message["type"] == "status":
+                self.status = message
+            elif message["type"] == "message" and message["level"] == "error":
+                self.fail("the page is told: " + message["words"])
+            if time.monotonic() - asked > 4:
+                asked = time.monotonic()
+                page.say({"type": "ping", "id": int(asked)})
+            await page.writer.drain()
+
+    async def never_reads(self):
+        """Stalls until the program closes it, and comes again."""
+        while not self.over:
+            # A small limit: asyncio stops taking bytes off the socket when twice as many wait.
+            page = await WebSocket.open(self.port, limit=2**10)
+            self.count("pages that never read")
+            await asyncio.sleep(90)
+            await page.close()
+
+    async def come_and_go(self):
+        while not self.over:
+            pages = [await WebSocket.open(self.port) for _ in range(random.randint(1, 8))]
+            self.count("pages that came and went", len(pages))
+            for page in pages:
+                kind = random.randrange(4)
+                if kind == 0:
+                    page.say({"type": "pictures", "on": False})
+                    page.say({"type": "poses", "on": False})
+                elif kind == 1:
+                    for _ in range(20):
+                        page.say(random.choice(["{{{", "[]", '{"type":"dance"}', "\x01", '{"type":"drawn"}']))
+            until = time.monotonic() + random.uniform(0.0, 10.0)
+            while time.monotonic() < until:
+                for page in pages:
+                    try:
+                        await asyncio.wait_for(page.hear(), 0.2)
+                    except asyncio.TimeoutError:
+                        # A message may have been cut in two: this page is not read on.
+                        pages.remove(page)
+                        await page.close()
+                        break
+                else:
+                    continue
+                if not pages:
+                    break
+            for page in pages:
+                await page.close()
+            await asyncio.sleep(random.uniform(0.0, 2.0))
+
+    async def get(self, path):
+        reader, writer = await asyncio.open_connection("127.0.0.1", self.port)
+        writer.write(f"GET {path} HTTP/1.1\r\nHost: localhost:{self.port}\r\nConnection: close\r\n\r\n".encode())
+        head = await reader.readuntil(b"\r\n\r\n")
+        size = 0
+        while part := await reader.read(2**16):
+            size += len(part)
+        writer.close()
+        if b" 200 " not in head.split(b"\r\n")[0]:
+            self.fail(f"{path} is answered {head.splitlines()[0]!r}")
+        stated = re.search(rb"Content-Length: (\d+)", head)
+        if not stated or int(stated.group(1)) != size:
+            self.fail(f"{path} has {size} bytes, not as stated")
+        self.count("downloads")
+
+    async def records(self):
+        """In a tenth of the time, from the middle of the warm-up on: recorded, downloaded, deleted."""
+        period = min(300.0, self.options.seconds / 6)
+        while not self.over:
+            await asyncio.sleep(0.45 * period)
+            page = await WebSocket.open(self.port)
+            page.say({"type": "pictures", "on": False})
+            page.say({"type": "record", "on": True})
+            await page.writer.drain()
+            await asyncio.sleep(0.1 * period)
+            page.say({"type": "record", "on": False})
+            await page.writer.drain()
+            await page.close()
+            until = time.monotonic() + 20
+            while not self.status.get("recordings") and time.monotonic() < until:
+                await asyncio.sleep(0.2)
+            if not self.status.get("recordings"):
+                self.fail("no recording has come of it")
+            for recording in self.status.get("recordings", []):
+                for file in recording["files"]:
+                    await self.get(f"/recordings/{recording['number']}/{file['name']}")
+                page = await WebSocket.open(self.port)
+                page.say({"type": "forget", "recording": recording["number"]})
+                await page.writer.drain()
+                await page.close()
+            self.count("recordings")
+            await self.get("/")
+            await self.get("/avatars/robot.vrm")
+            await asyncio.sleep(0.35 * period)
+
+    # -- receivers
+
+    async def receives_vmc(self, port):
+        """Datagrams, for some time; then the port is closed for some time."""
+        soak = self
+
+        class Receiver(asyncio.DatagramProtocol):
+            def datagram_received(self, data, addr):
+                soak.count("VMC datagrams")
+
+        loop = asyncio.get_running_loop()
+        while not self.over:
+            transport, _ = await loop.create_datagram_endpoint(Receiver, local_addr=("127.0.0.1", port))
+            await asyncio.sleep(random.uniform(10, 30))
+            transport.close()
+            await asyncio.sleep(random.uniform(2, 15))
+            self.count("VMC receivers")
+
+    async def receives_bap(self, port):
+        """Reads lines, or never reads, or dies with a reset; then it is gone for some time."""
+        while not self.over:
+            clients = []
+            server = await asyncio.start_server(lambda r, w: clients.append((r, w)), "127.0.0.1", port)
+            stalls = random.random() < 0.3
+            until = time.monotonic() + random.uniform(10, 30)
+            while time.monotonic() < until:
+                if not clients or stalls:
+                    await asyncio.sleep(0.2)
+                    continue
+                try:
+                    line = await asyncio.wait_for(clients[-1][0].readline(), 1)
+                    self.count("BAP lines", 1 if line else 0)
+                    if not line:
+                        await asyncio.sleep(0.2)
+                except (asyncio.TimeoutError, ConnectionError, ValueError):
+                    pass
+            server.close()
+            for _, writer in clients:
+                writer.transport.abort()
+            await asyncio.sleep(random.uniform(2, 15))
+            self.count("BAP receivers")
+
+    # -- the watch
+
+    def look(self):
+        seconds = time.monotonic() - self.begun
+        megabytes, descriptors = self.memory()
+        self.samples.append((seconds, megabytes, descriptors))
+        print(
+            f"{seconds / 60:6.1f} min  {megabytes:7.1f} MB  {descriptors:3d} descriptors  "
+            f"phase {self.status.get('phase')}  {self.status.get('fps', {}).get('tracked')} a second",
+            flush=True,
+        )
+        if time.monotonic() - self.heard_at > 20:
+            self.fail("the page that reads has heard nothing for 20 s")
+
+    async def watch(self):
+        step = min(60.0, self.options.seconds / 18)
+        while time.monotonic() - self.begun < self.options.seconds:
+            await asyncio.sleep(step)
+            if self.process.returncode is not None:
+                self.fail(f"the program ended by itself, with code {self.process.returncode}")
+                return
+            self.look()
+
+    def judge(self):
+        warm = min(300.0, self.options.seconds / 3)
+        base = [m for t, m, _ in self.samples if t <= warm]
+        later = [m for t, m, _ in self.samples if t > warm]
+        if not base or not later:
+            self.fail("too few looks at the memory")
+            return
+        growth = max(later) - max(base)
+        print(f"memory: at most {max(base):.1f} MB in the warm-up, {max(later):.1f} MB later: {growth:+.1f} MB")
+        if growth > self.options.bound:
+            self.fail(f"the memory grew by {growth:.1f} MB, more than {self.options.bound} MB")
+        if (last := self.samples[-1][2]) > 120:
+            self.fail(f"{last} file descriptors are open at the end")
+        for what in ("pose", "pictures", "VMC datagrams", "BAP lines", "recordings"):
+            if not self.counts.get(what):
+                self.fail(f"no {what} came at all")
+
+    async def guarded(self, what, work):
+        """What fails outside, for instance a page that the program has closed, begins again."""
+        while not self.over:
+            try:
+                await work()
+            except (ConnectionError, OSError, asyncio.IncompleteReadError) as error:
+                self.count(f"{what}: {type(error).__name__}")
+                await asyncio.sleep(1)
+
+    async def run(self):
+        vmc, bap = free_ports(2)
+        with tempfile.TemporaryDirectory(prefix="telemime-soak-") as folder:
+            await self.start(folder, vmc, bap)
+            self.begun = self.heard_at = time.monotonic()
+            helpers = [
+                asyncio.create_task(self.guarded(what, work))
+                for what, work in (
+                    ("the page that reads", self.reads),
+                    ("the page that never reads", self.never_reads),
+                    ("pages that come and go", self.come_and_go),
+                    ("recording", self.records),
+                    ("VMC", lambda: self.receives_vmc(vmc)),
+                    ("BAP", lambda: self.receives_bap(bap)),
+                )
+            ]
+            await self.watch()
+            self.over = True
+            for task in helpers:
+                task.cancel()
+            for result in await asyncio.gather(*helpers, return_exceptions=True):
+                if isinstance(result, Exception) and not isinstance(result, asyncio.CancelledError):
+                    self.fail(f"the soak itself failed: {result!r}")
+            if self.process.returncode is None:
+                self.process.send_signal(signal.SIGINT)
+                try:
+                    rest = await asyncio.wait_for(self.process.stdout.read(), 30)
+                    code = await asyncio.wait_for(self.process.wait(), 30)
+                    print(rest.decode())
+                    if code != 0:
+                        self.fail(f"exit code {code} after Ctrl-C")
+                except asyncio.TimeoutError:
+                    self.process.kill()
+                    self.fail("the program does not end within 30 s of Ctrl-C")
+            self.words.cancel()
+        self.judge()
+        print(", ".join(f"{what} {count}" for what, count in sorted(self.counts.items())))
+        return 1 if self.failures else 0
+
+
+def free_ports(count):
+    """Ports that nobody listens at, a moment ago."""
+    import socket
+
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="the program telemime")
+    parser.add_argument("--seconds", type=float, default=3600.0, help="how long [3600]")
+    parser.add_argument("--bound", type=float, default=30.0, help="MB of growth after the warm-up [30]")
+    parser.add_argument("--input", default="demo", help="of telemime live [demo]")
+    options = parser.parse_args()
+    soak = Soak(options)
+    code = asyncio.run(soak.run())
+    print("passed" if code == 0 else "failed: " + "; ".join(soak.failures))
+    sys.exit(code)
+
+
+if __name__ == "__main__":
+    main()

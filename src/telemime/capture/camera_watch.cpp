@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/camera_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "telemime/capture/picture.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kFew = 10.0;      // pictures a second
+constexpr double kEnough = 12.0;   // so that it does not change to and fro
+constexpr double kShortest = 2.0;  // s over which they are counted
+constexpr double kLongest = 3.0;
+constexpr double kSecond = 1.01;  // s, so that five a second are five intervals
+constexpr double kGap = 1.5;      // s without a picture: it stopped, and was not slow
+constexpr std::size_t kDamages = 3;
+constexpr double kDamageSpan = 2.0;  // s
+constexpr double kWhole = 3.0;       // s
+
+using Kind = SourceNews::Kind;
+
+std::string seconds(double s) {
+  std::ostringstream text;
+  text.precision(1);
+  text << std::fixed << s << " s";
+  return text.str();
+}
+
+}  // namespace
+
+std::optional<SourceNews> CameraWatch::back(double taken) {
+  const double away = taken - newest_;
+  newest_ = taken;
+  if (stopped_) {
+    outcome_ = "it was opened again";
+  }
+  const bool was_away = stopped_ || gone_;
+  stopped_ = false;
+  gone_ = false;
+  if (!was_away) {
+    return std::nullopt;
+  }
+  taken_.clear();
+  return SourceNews{Kind::better, "the camera is back after " + seconds(away)};
+}
+
+std::optional<SourceNews> CameraWatch::size(cv::Size size) {
+  if (size == last_) {
+    return std::nullopt;
+  }
+  last_ = size;
+  if (size == first_) {
+    return SourceNews{Kind::better, "the camera's pictures have " + in_words(first_) + " pixels again"};
+  }
+  const std::string change = "the camera's pictures now have " + in_words(size) + " pixels, not " +
+                             in_words(first_) + " as at first";
+  if (same_shape(size, first_)) {
+    return SourceNews{Kind::worse, change + "; they are resized, and tracking goes on"};
+  }
+  return SourceNews{Kind::worse, change +
+                                     ", which is another shape: they are fitted in with black bars, and "
+                                     "poses may be wrong. Set the camera back, or start again"};
+}
+
+std::optional<SourceNews> CameraWatch::rate(double taken) {
+  if (!taken_.empty() && taken - taken_.back() > kGap) {
+    taken_.clear();
+  }
+  taken_.push_back(taken);
+  while (taken - taken_.front() > kLongest) {
+    taken_.pop_front();
+  }
+  const double span = taken - taken_.front();
+  if (span < kShortest) {
+    return std::nullopt;
+  }
+  const double now = static_cast<double>(taken_.size() - 1) / span;
+  // In words only the last second: the rate may have changed within the span.
+  const auto recent =
+      std::find_if(taken_.begin(), taken_.end(), [taken](double time) { return taken - time < kSecond; });
+  const double words =
+      recent + 1 == taken_.end() ? now : static_cast<double>(taken_.end() - recent - 1) / (taken - *recent);
+  const std::string pictures = std::to_string(std::lround(words)) + " pictures a second";
+  if (!few_ && now < kFew) {
+    few_ = true;
+    return SourceNews{Kind::worse, "the camera gives only " + pictures +
+                                       ": fast motion is lost. Many cameras are slow in dim light"};
+  }
+  if (few_ && now > kEnough) {
+    few_ = false;
+    return SourceNews{Kind::better, "the camera gives " + pictures + " again"};
+  }
+  return std::nullopt;
+}
+
+std::optional<SourceNews> CameraWatch::damaged(double now) {
+  ++all_damaged_;
+  damages_.push_back(now);
+  while (damages_.size() > kDamages) {
+    damages_.pop_front();
+  }
+  if (damage_told_ || damages_.size() < kDamages || now - damages_.front() > kDamageSpan) {
+    return std::nullopt;
+  }
+  damage_told_ = true;
+  return SourceNews{Kind::worse,
+                    "pictures of the camera are damaged and are left out: a bad cable or network?"};
+}
+
+std::optional<SourceNews> CameraWatch::whole(double now) {
+  if (!damage_told_ || now - damages_.back() < kWhole) {
+    return std::nullopt;
+  }
+  damage_told_ = false;
+  damages_.clear();
+  return SourceNews{Kind::better, "the camera's pictures are whole again"};
+}
+
+std::optional<SourceNews> CameraWatch::stopped(double now) {
+  if (stopped_) {
+    return std::nullopt;  // it was opened and gave nothing
+  }
+  stopped_ = true;
+  ++interruptions_;
+  stopped_at_ = now - start_;
+  outcome_ = "it did not come back";
+  return SourceNews{Kind::worse, "the camera stopped; it is opened again"};
+}
+
+std::optional<SourceNews> CameraWatch::silent() {
+  if (gone_) {
+    return std::nullopt;
+  }
+  gone_ = true;
+  return SourceNews{Kind::gone, "the camera gives no pictures now; it is waited for"};
+}
+
+void CameraWatch::given_up(std::size_t attempts) {
+  outcome_ = "it did not come back in " + std::to_string(attempts) + " attempts";
+}
+
+std::string CameraWatch::summary() const {
+  Notes all;
+  if (interruptions_ > 0) {
+    all.add("it stopped " + (interruptions_ == 1 ? "once" : std::to_string(interruptions_) + " times") +
+            ", last after " + seconds(stopped_at_) + "; " + outcome_);
+  }
+  if (all_damaged_ > 0) {
+    all.add(std::to_string(all_damaged_) + " damaged pictures were left out");
+  }
+  return all.text();
+}
+
+}  // namespace telemime

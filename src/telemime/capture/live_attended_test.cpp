@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// Live sources that are followed for as long as it takes, and their time stamps.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <future>
+#include <limits>
+#include <mutex>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "telemime/capture/live.h"
+#include "telemime/capture/testing.h"
+
+namespace telemime {
+namespace {
+
+using Kind = SourceNews::Kind;
+
+bool whole_picture(cv::Mat& picture) {
+  picture = testing::numbered_picture(1);
+  return true;
+}
+
+LiveOptions quick() {
+  LiveOptions options;
+  options.pauses = {0.0};
+  options.silence = 0.01;
+  return options;
+}
+
+struct Told {
+  std::function<void(const SourceNews&)> listener() {
+    return [this](const SourceNews& news) { all.push_back(news); };
+  }
+  bool heard(Kind kind, const std::string& words) const {
+    return std::any_of(all.begin(), all.end(), [&](const SourceNews& n) {
+      return n.kind == kind && n.words.find(words) != std::string::npos;
+    });
+  }
+  std::vector<SourceNews> all;
+};
+
+TEST(LiveAttended, ACameraThatIsGoneIsTriedForEver) {
+  constexpr int kAttempts = 300;
+  std::atomic<int> openings = 0;
+  std::promise<void> attended;
+  const auto open = [&openings, begun = attended.get_future().share()]() -> LiveDevice {
+    const int opening = openings++;
+    if (opening > 0 && opening < kAttempts) {
+      return {};
+    }
+    // The first connection gives one picture, the last one many.
+    return {[begun, left = opening == 0 ? 1 : 1000000]() mutable {
+              if (left == 0) {
+                begun.wait();
+              }
+              return left-- > 0;
+            },
+            whole_picture,
+            {},
+            25.0};
+  };
+  Told told;
+  const auto source = live_source("0", open, quick());
+  source->attend(told.listener());
+  attended.set_value();
+  EXPECT_EQ(source->next()->index, 0);
+  ASSERT_TRUE(source->next());
+  EXPECT_EQ(openings, kAttempts + 1);
+  EXPECT_TRUE(told.heard(Kind::worse, "stopped"));
+  EXPECT_TRUE(told.heard(Kind::better, "is back"));
+}
+
+TEST(LiveAttended, PausesAreNeverLongerThanAsked) {
+  std::atomic<int> openings = 0;
+  const auto open = [&openings] {
+    return openings++ % 2 == 1
+               ? LiveDevice{}
+               : LiveDevice{[left = 1]() mutable { return left-- > 0; }, whole_picture, {}, 25.0};
+  };
+  LiveOptions options = quick();
+  options.pauses = {1e6};
+  options.longest_pause = 0.0;
+  Told told;
+  const auto source = live_source("0", open, options);
+  source->attend(told.listener());
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(source->next());
+  }
+}
+
+TEST(LiveAttended, StopsInTheMiddleOfALongPause) {
+  std::atomic<int> openings = 0;
+  const auto open = [&openings] {
+    return openings++ > 0 ? LiveDevice{}
+                          : LiveDevice{[left = 1]() mutable { return left-- > 0; }, whole_picture, {}, 25.0};
+  };
+  LiveOptions options = quick();
+  options.pauses = {1e6};
+  options.longest_pause = 1e6;
+  std::promise<void> gone;
+  const auto source = live_source("0", open, options);
+  source->attend([&gone](const SourceNews& news) {
+    if (news.kind == Kind::gone) {
+      gone.set_value();
+    }
+  });
+  EXPECT_TRUE(source->next());
+  auto next = std::async(std::launch::async, [&] { return source->next(); });
+  gone.get_future().wait();
+  source->stop();
+  EXPECT_FALSE(next.get());
+}
+
+// A driver that never answers, until the test lets it go.
+struct Hanging {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool hangs = false;
+  bool let_go = false;
+  bool gone = false;
+};
+
+TEST(LiveAttended, ADeviceThatHangsHoldsNobodyUp) {
+  const auto hanging = std::make_shared<Hanging>();
+  const auto open = [hanging] {
+    return LiveDevice{[hanging, left = 1]() mutable {
+                        if (left-- > 0) {
+                          return true;
+                        }
+                        std::unique_lock lock(hanging->mutex);
+                        hanging->hangs = true;
+                        hanging->changed.notify_all();
+                        hanging->changed.wait(lock, [&] { return hanging->let_go; });
+                        hanging->gone = true;
+                        hanging->changed.notify_all();
+                        return false;
+                      },
+                      whole_picture,
+                      {},
+                      25.0};
+  };
+  LiveOptions options = quick();
+  options.farewell = 0.01;
+  auto source = live_source("0", open, options);
+  std::unique_lock lock(hanging->mutex);
+  hanging->changed.wait(lock, [&] { return hanging->hangs; });
+  lock.unlock();
+  source.reset();  // would wait for ever
+  lock.lock();
+  EXPECT_FALSE(hanging->gone);
+  hanging->let_go = true;
+  hanging->changed.notify_all();
+  hanging->changed.wait(lock, [&] { return hanging->gone; });
+}
+
+TEST(LiveAttended, SilenceIsToldAndItsEnd) {
+  std::promise<void> go_on;
+  const auto open = [waited = go_on.get_future().share()] {
+    return LiveDevice{[waited, count = 0]() mutable {
+                        if (++count > 1) {
+                          waited.wait();
+                        }
+                        return true;
+                      },
+                      whole_picture,
+                      {},
+                      25.0};
+  };
+  Told told;
+  const auto source = live_source("0", open, quick());
+  source->attend([&](const SourceNews& news) {
+    told.all.push_back(news);
+    if (news.kind == Kind::gone) {
+      go_on.set_value();
+    }
+  });
+  EXPECT_TRUE(source->next());
+  EXPECT_TRUE(source->next());
+  EXPECT_TRUE(told.heard(Kind::gone, "no pictures"));
+  EXPECT_TRUE(told.heard(Kind::better, "is back"));
+}
+
+TEST(LiveAttended, DamageAndSizesAreTold) {
+  std::atomic<int> reads = 0;
+  std::promise<void> attended;
+  const auto open = [&reads, begun = attended.get_future().share()] {
+    return LiveDevice{[&reads, begun] {
+                        if (reads > 0) {
+                          begun.wait();
+                        }
+                        return true;
+                      },
+                      [&reads](cv::Mat& picture) {
+                        const int read = reads++;
+                        picture =
+                            testing::numbered_picture(1, read < 6 ? cv::Size(64, 48) : cv::Size(64, 36));
+                        return read < 1 || read > 4;
+                      },
+                      {},
+                      25.0};
+  };
+  Told told;
+  const auto source = live_source("0", open, quick());
+  source->attend(told.listener());
+  attended.set_value();
+  while (reads < 10 || told.all.size() < 2) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->image.size(), cv::Size(64, 48));
+  }
+  EXPECT_TRUE(told.heard(Kind::worse, "damaged"));
+  EXPECT_TRUE(told.heard(Kind::worse, "64x36"));
+}
+
+// Frame::taken of the pictures after the first, when the driver gives these stamps and the clock shows a
+// second more at each picture, from 100 on.
+std::vector<double> taken_with(const std::vector<double>& stamps) {
+  const auto now = std::make_shared<std::atomic<double>>(100.0);
+  const auto turn = std::make_shared<std::atomic<std::size_t>>(0);
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::size_t wanted = 0;
+  const auto open = [&] {
+    return LiveDevice{[&, count = std::size_t{0}]() mutable {
+                        std::unique_lock lock(mutex);
+                        changed.wait(lock, [&] { return wanted >= count || count > stamps.size(); });
+                        if (count > stamps.size()) {
+                          return false;
+                        }
+                        *turn = count++;
+                        *now = 100.0 + static_cast<double>(*turn);
+                        return true;
+                      },
+                      whole_picture, [&, turn] { return stamps[*turn - 1]; }, 25.0};
+  };
+  LiveOptions options;
+  options.pauses = {};
+  options.clock = {[now] { return now->load(); }, [](double) {}};
+  const auto source = live_source("0", open, options);
+  EXPECT_EQ(source->next()->taken, 100.0);
+  std::vector<double> taken;
+  for (std::size_t i = 0; i < stamps.size(); ++i) {
+    {
+      const std::lock_guard lock(mutex);
+      wanted = i + 1;
+    }
+    changed.notify_all();
+    const auto frame = source->next();
+    taken.push_back(frame->taken);
+    EXPECT_EQ(frame->time, frame->taken - 100.0);
+  }
+  {
+    const std::lock_guard lock(mutex);
+    wanted = stamps.size() + 1;
+  }
+  changed.notify_all();
+  EXPECT_FALSE(source->next());
+  return taken;
+}
+
+TEST(LiveAttended, TheDriversStampIsUsedWhereItCanBe) {
+  EXPECT_EQ(taken_with({100.9, 101.8, 102.5}), (std::vector<double>{100.9, 101.8, 102.5}));
+}
+
+TEST(LiveAttended, StampsOfOtherClocksAreNot) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(taken_with({0.0, 1.7e9, kNothing, -3.0}), (std::vector<double>{101.0, 102.0, 103.0, 104.0}));
+}
+
+TEST(LiveAttended, StampsNeverGoBack) {
+  EXPECT_EQ(taken_with({100.9, 100.9, 100.2, 103.9}), (std::vector<double>{100.9, 102.0, 103.0, 103.9}));
+}
+
+}  // namespace
+}  // namespace telemime

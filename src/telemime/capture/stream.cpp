@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/capture/stream.h"
+
+#include <cmath>
+
+#include "telemime/capture/jpeg.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kMostDamaged = 25;  // pictures in a row: then it has rather stopped
+
+// A container's tag, or the beginning of the codec's name where there is no container, as over HTTP.
+bool is_motion_jpeg(const cv::VideoCapture& connection) {
+  const auto code = static_cast<int>(connection.get(cv::CAP_PROP_FOURCC));
+  return code == cv::VideoWriter::fourcc('M', 'J', 'P', 'G') ||
+         code == cv::VideoWriter::fourcc('m', 'j', 'p', 'g') ||
+         code == cv::VideoWriter::fourcc('m', 'j', 'p', 'e');
+}
+
+}  // namespace
+
+cv::VideoCapture connect_to_stream(const std::string& url, double patience) {
+  const int ms = static_cast<int>(std::lround(1000.0 * patience));
+  cv::VideoCapture connection;
+  connection.open(url, cv::CAP_FFMPEG,
+                  {cv::CAP_PROP_OPEN_TIMEOUT_MSEC, ms, cv::CAP_PROP_READ_TIMEOUT_MSEC, ms});
+  return connection;
+}
+
+LiveDevice stream_device(const cv::VideoCapture& connection) {
+  if (!connection.isOpened()) {
+    return {};
+  }
+  // Copies of a VideoCapture share the same connection.
+  const double fps = connection.get(cv::CAP_PROP_FPS);
+  cv::VideoCapture video = connection;
+  constexpr double kUndecoded = -1.0;
+  if (is_motion_jpeg(video) && video.set(cv::CAP_PROP_FORMAT, kUndecoded)) {
+    return {[video]() mutable { return video.grab(); },
+            [video](cv::Mat& picture) mutable {
+              cv::Mat packet;
+              if (video.retrieve(packet) && !packet.empty()) {
+                picture = decode_jpeg({packet.ptr(), packet.total()});
+              }
+              return !picture.empty();
+            },
+            {},
+            fps};
+  }
+  return {[video]() mutable {
+            for (int attempt = 0; attempt < kMostDamaged; ++attempt) {
+              if (video.grab()) {
+                return true;
+              }
+            }
+            return false;
+          },
+          [video](cv::Mat& picture) mutable { return video.retrieve(picture); },
+          {},
+          fps};
+}
+
+}  // namespace telemime

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/live_settings.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Settings : public ::testing::Test {
+ protected:
+  void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
+  std::string refusal() const {
+    try {
+      load_settings(file_);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::config);
+      return e.what();
+    }
+    return "";
+  }
+
+  ScratchFolder folder_;
+  fs::path file_ = folder_.path() / "a" / "b" / "live.json";
+};
+
+TEST_F(Settings, ComeBackAsTheyWere) {
+  EXPECT_TRUE(load_settings(file_).outputs.empty()) << "there is no file at first";
+  const LiveSettings settings{{"vmc://localhost", "ws://h:1/\"\\x?\xFF"}};
+  save_settings(file_, settings);
+  const LiveSettings back = load_settings(file_);
+  ASSERT_EQ(back.outputs.size(), 2U);
+  EXPECT_EQ(back.outputs[0], settings.outputs[0]);
+  EXPECT_EQ(back.outputs[1], "ws://h:1/\"\\x?\xEF\xBF\xBD") << "what is not UTF-8 becomes a mark";
+  save_settings(file_, {});
+  EXPECT_TRUE(load_settings(file_).outputs.empty());
+  EXPECT_EQ(std::distance(fs::directory_iterator(file_.parent_path()), fs::directory_iterator()), 1)
+      << "nothing is left beside it";
+  struct stat facts {};
+  ASSERT_EQ(::stat(file_.c_str(), &facts), 0);
+  EXPECT_EQ(facts.st_mode & 0777, 0600) << "an address may hold a key";
+}
+
+TEST_F(Settings, AFileThatIsDamagedIsRefusedInWordsAndStays) {
+  save_settings(file_, {});
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[]"), std::string("{\"version\":1}"),
+        std::string(R"({"version":1,"outputs":"vmc://localhost"})"),
+        std::string(R"({"version":1,"outputs":[7]})"), std::string(R"({"version":2,"outputs":[]})"),
+        std::string(R"({"outputs":[]})"), std::string("\0\xFF", 2), std::string(200000, ' '),
+        std::string(90000, '[')}) {
+    write(text);
+    const std::string words = refusal();
+    EXPECT_NE(words.find(file_.string()), std::string::npos) << text.substr(0, 50);
+    EXPECT_EQ(fs::file_size(file_), text.size());
+  }
+  write(R"({"version":1,"outputs":["vmc://a"],"more":{"of":"a later version"}})");
+  EXPECT_EQ(load_settings(file_).outputs.size(), 1U);
+  fs::remove(file_);
+  fs::create_directory(file_);
+  EXPECT_NE(refusal(), "") << "a folder of that name";
+}
+
+TEST_F(Settings, WhatCannotBeWrittenIsAnErrorAndTheOldFileStays) {
+  save_settings(file_, {{"vmc://a"}});
+  const LiveSettings next{{"vmc://b"}};
+  EXPECT_THROW(save_settings(file_ / "below-a-file", next), Error);
+  fs::create_directory(file_.parent_path() / "folder");
+  EXPECT_THROW(save_settings(file_.parent_path() / "folder", next), Error);
+  EXPECT_EQ(load_settings(file_).outputs.front(), "vmc://a");
+  EXPECT_EQ(std::distance(fs::directory_iterator(file_.parent_path()), fs::directory_iterator()), 2);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/live/recorder.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "telemime/core/scratch_folder.h"
+#include "telemime/network/testing_web.h"
+#include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Records : public ::testing::Test {
+ protected:
+  std::unique_ptr<Recorder> recorder(std::int64_t most_frames = kMostRecordedFrames) {
+    return std::make_unique<Recorder>(
+        folder_.path() / "r", OutputOptions(),
+        [this](MessageLevel level, const std::string& words) {
+          const std::lock_guard lock(mutex_);
+          (level == MessageLevel::info      ? infos_
+           : level == MessageLevel::warning ? warnings_
+                                            : errors_) += words + "\n";
+        },
+        most_frames);
+  }
+  std::string errors() {
+    const std::lock_guard lock(mutex_);
+    return errors_;
+  }
+  // So many frames, none of which is lost because too many wait.
+  void write(Recorder& recorder, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i, ++written_) {
+      recorder.write(testing_motion::frame_of(header_.body, header_.camera, Pose{}, written_, header_.fps));
+      if (written_ % 100 == 99) {
+        taken(recorder);
+      }
+    }
+  }
+  // Until the recorder's thread has written all frames, or cannot.
+  void taken(Recorder& recorder) {
+    const auto frames = [&] {
+      std::int64_t all = recorder.current() ? recorder.current()->frames : 0;
+      for (const Recording& r : recorder.ended()) {
+        all += r.frames;
+      }
+      return all;
+    };
+    EXPECT_TRUE(comes_true([&] { return frames() > written_ || !errors().empty(); }));
+  }
+  static std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  }
+  // How many keys the animation in a GLB file has.
+  static std::size_t keys(const fs::path& file) {
+    const std::string bytes = text_of(file);
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    std::uint32_t length = 0;
+    std::copy_n(bytes.begin() + 12, sizeof length, reinterpret_cast<char*>(&length));
+    const auto json = nlohmann::json::parse(bytes.substr(20, length));
+    const std::size_t input = json.at("animations").at(0).at("samplers").at(0).at("input");
+    return json.at("accessors").at(input).at("count");
+  }
+
+  ScratchFolder folder_;
+  StreamHeader header_ = testing_motion::header();
+  std::int64_t written_ = 0;
+  std::mutex mutex_;
+  std::string infos_;
+  std::string warnings_;
+  std::string errors_;
+};
+
+TEST_F(Records, EveryFormatFromStartToStop) {
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  write(*r, 50);
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 1; }));
+  const Recording recording = r->ended().front();
+  EXPECT_EQ(recording.frames, 50);
+  EXPECT_EQ(recording.files.size(), kOutputFormats.size());
+  EXPECT_EQ(read_pose_jsonl(recording.folder / "pose.jsonl").frames.size(), 50U);
+  EXPECT_EQ(keys(recording.folder / "motion.glb"), 50U);
+  EXPECT_EQ(r->file(1, "motion.bvh"), recording.folder / "motion.bvh");
+  EXPECT_EQ(r->file(2, "motion.bvh"), std::nullopt);
+  EXPECT_EQ(r->file(1, "../../x"), std::nullopt);
+  EXPECT_TRUE(r->forget(1));
+  EXPECT_FALSE(r->forget(1));
+  EXPECT_TRUE(comes_true([&] { return !fs::exists(recording.folder); }));
+  EXPECT_EQ(errors(), "");
+}
+
+TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
+  const auto r = recorder(40);
+  r->person(header_);
+  r->start();
+  write(*r, 100);
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 3; }));
+  EXPECT_EQ(r->ended()[0].frames, 40);
+  EXPECT_EQ(r->ended()[1].frames, 40);
+  EXPECT_EQ(r->ended()[2].frames, 20);
+  const std::lock_guard lock(mutex_);
+  EXPECT_NE(infos_.find("recording 1 is full"), std::string::npos) << infos_;
+  EXPECT_EQ(warnings_ + errors_, "");
+}
+
+TEST_F(Records, AFolderThatCannotBeMadeIsAnErrorInWords) {
+  std::ofstream(folder_.path() / "r") << "a file";
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  write(*r, 1);
+  ASSERT_TRUE(comes_true([&] { return !errors().empty(); }));
+  EXPECT_NE(errors().find("--recordings"), std::string::npos) << errors();
+  EXPECT_FALSE(r->current());
+}
+
+// A limit to the size of files stands for the full disk: the system refuses to write in the same way.
+TEST_F(Records, AFullDiskIsAnErrorInWordsAndWhatWasWrittenIsKept) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const auto r = recorder();
+  r->person(header_);
+  const rlimit small{300'000, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  r->start();
+  for (int i = 0; i < 2000 && errors().empty(); ++i) {
+    write(*r, 1);
+  }
+  const bool ended = comes_true([&] { return r->ended().size() == 1; });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_TRUE(ended);
+
+  EXPECT_NE(errors().find("the recording was ended: cannot write"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("pose.jsonl"), std::string::npos) << errors();
+  EXPECT_FALSE(r->current());
+  const Recording recording = r->ended().front();
+  const PoseFile poses = read_pose_jsonl(recording.folder / "pose.jsonl");
+  EXPECT_GT(poses.frames.size(), 50U);
+  EXPECT_EQ(poses.complaint, "") << "no half line is left";
+  EXPECT_GE(keys(recording.folder / "motion.glb"), poses.frames.size());
+  EXPECT_GE(keys(recording.folder / "motion.vrma"), poses.frames.size());
+  EXPECT_EQ(recording.files.size(), kOutputFormats.size());
+
+  r->start();  // there is room again
+  write(*r, 30);
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 2; }));
+  EXPECT_GT(r->ended()[1].frames, 0);
+}
+
+}  // namespace
+}  // namespace telemime

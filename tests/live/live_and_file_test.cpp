@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same clip as a file and as if it were a camera.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <memory>
+
+#include "live/heard.h"
+#include "telemime/capture/paced.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/outputs/all.h"
+#include "telemime/outputs/readers/jsonl.h"
+#include "telemime/pipeline/run.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::int64_t kFrames = 20;
+
+// The beginning of a file.
+class FirstFrames final : public Source {
+ public:
+  explicit FirstFrames(std::unique_ptr<Source> file) : file_(std::move(file)) {}
+  const SourceInfo& info() const override { return file_->info(); }
+  std::string complaint() const override { return file_->complaint(); }
+  std::optional<Frame> next() override { return left_-- > 0 ? file_->next() : std::nullopt; }
+
+ private:
+  std::unique_ptr<Source> file_;
+  std::int64_t left_ = kFrames;
+};
+
+// A clock that is always where it is waited for: a tracker of any speed is in time, and no frame is dropped.
+Clock patient_clock() {
+  const auto now = std::make_shared<std::atomic<double>>(50.0);
+  return {[now] { return now->load(); }, [now](double time) { now->store(time); }};
+}
+
+// What is equal: one background, no look-ahead, no future in the smoothing.
+TrackRequest demo() {
+  TrackRequest request;
+  const std::filesystem::path folder = TELEMIME_SOURCE_DIR "/data/demo";
+  request.input = (folder / "video.mp4").string();
+  request.background = (folder / "background.mp4").string();
+  request.overlay = false;
+  request.formats = {"jsonl"};
+  request.most_frames = kFrames;
+  request.config.image.width = 160;
+  request.config.image.height = 120;
+  request.config.filter.particles = 300;
+  request.config.calibration.look_ahead = 0;
+  request.config.smoothing.look_ahead = 0;
+  return request;
+}
+
+TEST(LiveAndFile, APacedFileGivesThePosesOfFileMode) {
+  const ScratchFolder folder;
+  TrackRequest request = demo();
+  request.config.smoothing.name = "none";
+  request.out = folder.file("out");
+  std::vector<MotionFrame> file;
+  RunHooks hooks;
+  hooks.progress = [&](const Progress& progress) {
+    file.push_back(progress.frame->motion);
+    return Wish::go_on;
+  };
+  run_track(request, hooks);
+
+  live_testing::Heard heard;
+  std::int64_t dropped = -1;
+  {
+    LiveSession session(request, false,
+                        pace(std::make_unique<FirstFrames>(open_source(request.input)), patient_clock()),
+                        heard.hooks());
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+    dropped = session.state().rates.dropped;
+  }
+  ASSERT_EQ(dropped, 0);
+  ASSERT_EQ(file.size(), static_cast<std::size_t>(kFrames));
+  ASSERT_GT(heard.motion.size(), 10U);
+  heard.motion.pop_back();  // at the end the person is gone
+  int tracked = 0;
+  for (const MotionFrame& live : heard.motion) {
+    const MotionFrame& same = file.at(static_cast<std::size_t>(live.frame));
+    EXPECT_EQ(live.state, same.state) << live.frame;
+    EXPECT_EQ(live.pose.vector(), same.pose.vector()) << live.frame;
+    EXPECT_EQ(live.pixels, same.pixels) << live.frame;
+    tracked += live.state == TrackState::tracking ? 1 : 0;
+  }
+  EXPECT_GT(tracked, 10);
+  for (std::int64_t frame = 0; frame < heard.motion.front().frame; ++frame) {
+    EXPECT_EQ(file.at(static_cast<std::size_t>(frame)).state, TrackState::lost) << "before there is a person";
+  }
+}
+
+TEST(LiveAndFile, WithTheSameSmoothingTheFilesAreEqual) {
+  const ScratchFolder folder;
+  TrackRequest request = demo();
+  request.out = folder.file("out");
+  run_track(request, {});
+  const PoseFile file = read_pose_jsonl(request.out / "pose.jsonl");
+
+  live_testing::Heard heard;
+  StreamHeader header;
+  LiveHooks hooks = heard.hooks();
+  hooks.person = [&](const StreamHeader& person) { header = person; };
+  {
+    LiveSession session(request, false,
+                        pace(std::make_unique<FirstFrames>(open_source(request.input)), patient_clock()),
+                        hooks);
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  }
+  heard.motion.pop_back();
+  const auto* const format = std::find_if(kOutputFormats.begin(), kOutputFormats.end(),
+                                          [](const OutputFormat& f) { return f.name == "jsonl"; });
+  ASSERT_NE(format, kOutputFormats.end());
+  const auto encoder = format->make({});
+  std::string text = encoder->begin(header);
+  for (const MotionFrame& motion : heard.motion) {
+    text += encoder->frame(motion);
+  }
+  const PoseFile live = parse_pose_jsonl(text + encoder->end(), "live");
+  ASSERT_GT(live.frames.size(), 10U);
+  EXPECT_EQ(live.shape.stature, file.shape.stature);
+  for (const MotionFrame& motion : live.frames) {
+    const MotionFrame& same = file.frames.at(static_cast<std::size_t>(motion.frame));
+    EXPECT_EQ(motion.state, same.state) << motion.frame;
+    EXPECT_EQ(motion.pose.vector(), same.pose.vector()) << motion.frame;
+  }
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras in the network with their whims: a real Motion JPEG stream over HTTP, opened by its URL.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <future>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "live/mjpeg_server.h"
+#include "telemime/capture/live.h"
+
+namespace telemime {
+namespace {
+
+using live_testing::jpegs;
+using live_testing::MjpegServer;
+using Kind = SourceNews::Kind;
+using Steady = std::chrono::steady_clock;
+
+// Its grey level tells the picture's number apart; the dot keeps codecs honest.
+cv::Mat numbered(int number, cv::Size size = {160, 120}) {
+  cv::Mat made(size, CV_8UC3, cv::Scalar::all(40 + 30 * number));
+  cv::circle(made, {size.width / 2, size.height / 2}, size.height / 8, {30, 60, 90}, cv::FILLED);
+  return made;
+}
+
+std::vector<std::string> six(cv::Size size = {160, 120}) {
+  std::vector<cv::Mat> pictures;
+  for (int i = 0; i < 6; ++i) {
+    pictures.push_back(numbered(i, size));
+  }
+  return jpegs(pictures);
+}
+
+int level(const cv::Mat& image) {
+  return image.at<cv::Vec3b>(image.rows / 2, image.cols / 8)[1];
+}
+
+class Stream : public ::testing::Test {
+ protected:
+  // Waits are short, so that the tests are.
+  void open(std::vector<std::string> parts = six(), double rate = 100.0) {
+    LiveOptions options;
+    options.pauses = {0.01};
+    options.longest_pause = 0.01;
+    options.silence = 0.5;  // longer than between two of five pictures a second
+    options.patience = 1.0;
+    server_.show(std::move(parts), rate);
+    source_ = open_source(server_.url(), options);
+    source_->attend([this](const SourceNews& news) {
+      told_.push_back(news);
+      if (on_news_) {
+        on_news_(news);
+      }
+    });
+  }
+  bool heard(Kind kind, const std::string& words) const {
+    return std::any_of(told_.begin(), told_.end(), [&](const SourceNews& n) {
+      return n.kind == kind && n.words.find(words) != std::string::npos;
+    });
+  }
+  // Reads frames until `done` of a frame holds; false at the end of the source, or after a minute.
+  template <typename Done>
+  bool read_until(const Done& done) {
+    const auto deadline = Steady::now() + std::chrono::minutes(1);
+    while (Steady::now() < deadline) {
+      const auto frame = source_->next();
+      if (!frame) {
+        return false;
+      }
+      EXPECT_EQ(frame->image.size(), cv::Size(160, 120));
+      if (done(*frame)) {
+        return true;
+      }
+    }
+    return false;
+  }
+  ::testing::AssertionResult read_until_heard(Kind kind, const std::string& words) {
+    if (read_until([&](const Frame&) { return heard(kind, words); })) {
+      return ::testing::AssertionSuccess();
+    }
+    auto failure = ::testing::AssertionFailure() << "\"" << words << "\" was not said, but:";
+    for (const SourceNews& news : told_) {
+      failure << "\n" << news.words;
+    }
+    return failure;
+  }
+
+  MjpegServer server_;
+  std::unique_ptr<Source> source_;
+  std::vector<SourceNews> told_;
+  std::function<void(const SourceNews&)> on_news_;
+};
+
+TEST_F(Stream, PicturesComeInTheirOrderWithTheTimeOfThisComputer) {
+  const auto seconds = [] { return std::chrono::duration<double>(Steady::now().time_since_epoch()).count(); };
+  const double before = seconds();
+  open();
+  EXPECT_TRUE(source_->info().live);
+  double last = before;
+  std::int64_t index = -1;
+  int count = 0;
+  ASSERT_TRUE(read_until([&](const Frame& frame) {
+    EXPECT_GE(frame.taken, last);
+    EXPECT_GT(frame.index, index);
+    last = frame.taken;
+    index = frame.index;
+    const int grey = level(frame.image);
+    EXPECT_NEAR(grey, 40 + 30 * ((grey - 25) / 30), 4) << "none of the six pictures";
+    return ++count == 30;
+  }));
+  EXPECT_LE(last, seconds());
+  EXPECT_EQ(source_->complaint(), "");
+}
+
+TEST_F(Stream, AServerThatHangsUpIsCalledAgain) {
+  open();
+  for (int time = 0; time < 3; ++time) {
+    ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+    told_.clear();
+    server_.hang_up();
+    ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
+    EXPECT_TRUE(heard(Kind::worse, "stopped"));
+  }
+  EXPECT_NE(source_->complaint().find("stopped 3 times"), std::string::npos) << source_->complaint();
+}
+
+TEST_F(Stream, ASilentServerIsWaitedForAndCalledAgain) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  const int connections = server_.connections();
+  server_.fall_silent();
+  // Silent for longer than the patience with a connection.
+  auto resumed = std::async(std::launch::async, [&] {
+    server_.wait_for_connection(connections + 1);
+    server_.show(six(), 100.0);
+  });
+  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
+  EXPECT_TRUE(heard(Kind::gone, "no pictures"));
+}
+
+TEST_F(Stream, ACameraWithoutPowerIsTriedUntilItComesBack) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  server_.unplug();
+  on_news_ = [this](const SourceNews& news) {
+    if (news.kind == Kind::gone) {
+      server_.plug_in();
+    }
+  };
+  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
+  EXPECT_TRUE(heard(Kind::gone, "no pictures"));
+}
+
+TEST_F(Stream, StopsAtOnceWhileNobodyAnswers) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  server_.unplug();
+  auto next = std::async(std::launch::async, [&] { return source_->next(); });
+  source_->stop();
+  next.wait();
+  EXPECT_FALSE(source_->next());
+}
+
+TEST_F(Stream, AnotherSizeIsSeenAndTold) {
+  open();
+  server_.show(six({320, 240}), 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::worse, "320x240"));
+  server_.show(jpegs({numbered(4, {320, 180})}), 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::worse, "another shape"));
+  // The picture is what the camera shows, with bars; not a part of it, not an old one.
+  ASSERT_TRUE(read_until([](const Frame& f) {
+    return std::abs(level(f.image) - 160) < 5 && f.image.at<cv::Vec3b>(2, 80)[1] < 5 &&
+           f.image.at<cv::Vec3b>(117, 80)[1] < 5;
+  }));
+  server_.show(six(), 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::better, "160x120"));
+}
+
+TEST_F(Stream, FivePicturesASecondAreTold) {
+  open();
+  server_.show(six(), 5.0);
+  ASSERT_TRUE(read_until_heard(Kind::worse, "only 5 pictures a second"));
+  server_.show(six(), 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::better, "a second again"));
+}
+
+TEST_F(Stream, GarbageIsLeftOutAndTold) {
+  open();
+  auto parts = six();
+  std::mt19937 random(1);
+  parts[1] = std::string(5000, 'x');
+  for (std::size_t i = 2; i < parts[3].size(); ++i) {
+    parts[3][i] = static_cast<char>(random());
+  }
+  parts[4].resize(parts[4].size() / 2);
+  parts[5].clear();
+  server_.show(parts, 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::worse, "damaged"));
+  int count = 0;
+  ASSERT_TRUE(read_until([&](const Frame& frame) {
+    const int grey = level(frame.image);
+    EXPECT_TRUE(std::abs(grey - 40) < 5 || std::abs(grey - 100) < 5 || count < 6) << grey;
+    return ++count == 50;
+  }));
+  server_.show(six(), 100.0);
+  ASSERT_TRUE(read_until_heard(Kind::better, "whole again"));
+  EXPECT_NE(source_->complaint().find("damaged pictures were left out"), std::string::npos);
+}
+
+TEST_F(Stream, NothingButGarbageIsACameraThatIsGone) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  const int connections = server_.connections();
+  server_.show({std::string(3000, 'x')}, 100.0);
+  auto resumed = std::async(std::launch::async, [&] {
+    server_.wait_for_connection(connections + 1);
+    server_.show(six(), 100.0);
+  });
+  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
+  EXPECT_TRUE(heard(Kind::worse, "damaged"));
+}
+
+}  // namespace
+}  // namespace telemime

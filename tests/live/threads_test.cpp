@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The session's threads when the camera ends, falls silent, or has odd stamps: quick, for the sanitizers as
+// well.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <limits>
+
+#include "live/heard.h"
+#include "live/scripted_source.h"
+#include "telemime/live/live_session.h"
+
+namespace telemime {
+namespace {
+
+using live_testing::camera_of;
+using live_testing::Heard;
+using live_testing::person;
+using live_testing::quick_request;
+using live_testing::Scene;
+
+TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  {
+    const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+    ASSERT_TRUE(heard.wait([&] { return heard.pictures > 0; }));
+    scene->show({});
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
+    scene->show(person());
+    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
+        << "it goes on by itself";
+    scene->show({});
+  }
+}
+
+TEST(LiveThreads, TheEndOfTheCameraIsTold) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+  ASSERT_TRUE(heard.wait([&] { return !heard.motion.empty(); }));
+  scene->end();
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  EXPECT_EQ(session.state().words, "the cable is out");
+}
+
+TEST(LiveThreads, IsOpeningUntilThereIsAPicture) {
+  EXPECT_EQ(LiveState().phase, LivePhase::opening) << "before there is a session";
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  scene->show({});
+  Heard heard;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+  EXPECT_EQ(session.state().phase, LivePhase::opening);
+  EXPECT_NE(session.state().words, "");
+  scene->show(person());
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }));
+}
+
+// The same pictures with stamps of a clock that has gone mad.
+class OddStamps final : public Source {
+ public:
+  explicit OddStamps(std::unique_ptr<Source> camera) : camera_(std::move(camera)) {}
+  const SourceInfo& info() const override { return camera_->info(); }
+  std::string complaint() const override { return camera_->complaint(); }
+  void stop() override { camera_->stop(); }
+  std::optional<Frame> next() override {
+    auto frame = camera_->next();
+    if (frame) {
+      constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+      const std::array<double, 6> odd = {0.0, 1.7e9, kNothing, -1e9, 1000.0, 1000.0};
+      frame->taken = odd.at(static_cast<std::size_t>(frame->index) % odd.size());
+    }
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<Source> camera_;
+};
+
+TEST(LiveThreads, OddStampsDoNoHarm) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  std::atomic<int> looks = 0;
+  const Clock clock = {[&looks] { return 1000.0 + 0.001 * looks++; }, [](double) {}};
+  LiveSession session(quick_request(folder), true, std::make_unique<OddStamps>(camera_of(scene)),
+                      heard.hooks(), clock);
+  ASSERT_TRUE(heard.wait([&] { return heard.motion.size() > 30; }));
+  const LiveRates rates = session.state().rates;
+  session.stop();
+  double last = 1000.0;
+  for (const double taken : heard.taken) {
+    EXPECT_GE(taken, last);
+    EXPECT_LE(taken, clock.now());
+    last = taken;
+  }
+  EXPECT_GT(rates.tracked, 0.0);
+  EXPECT_LE(rates.tracked, 1000.0) << "the clock shows a thousandth more at each look";
+  EXPECT_GE(rates.ms.wait, 0.0);
+  EXPECT_GT(rates.ms.total, 0.0);
+  EXPECT_LT(rates.ms.total_p95, 1e4);
+  EXPECT_EQ(heard.motion.front().state, TrackState::tracking);
+}
+
+TEST(LiveThreads, SilenceIsMeasuredByItsOwnClock) {
+  const ScratchFolder folder;
+  const auto scene = std::make_shared<Scene>();
+  scene->show(person());
+  Heard heard;
+  std::atomic<double> now = 0.0;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks(),
+                            {[&now] { return now.load(); }, [](double) {}});
+  ASSERT_TRUE(heard.wait([&] { return heard.motion.size() > 2; }));
+  scene->show({});
+  ASSERT_TRUE(heard.wait([&] {
+    now = now + 3.0;
+    return session.state().phase == LivePhase::stopped;
+  }));
+  EXPECT_EQ(session.state().rates.input, 0.0);
+}
+
+}  // namespace
+}  // namespace telemime

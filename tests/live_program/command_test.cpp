@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// `telemime live` as a user starts it: what it says, what it opens, how it ends.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "e2e/run_program.h"
+#include "telemime/live/live_settings.h"
+#include "telemime/network/testing_receivers.h"
+#include "telemime/network/web_server.h"
+
+namespace telemime {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// A variable of the environment, for as long as it lives.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* const old = std::getenv(name)) {
+      old_ = old;
+    }
+    value == nullptr ? ::unsetenv(name) : ::setenv(name, value, 1);
+  }
+  ~Variable() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+class LiveCommand : public ::testing::Test {
+ protected:
+  // The clip of a person, over and over, at any free port or the given one.
+  Words live(const Words& more, std::uint16_t port = 0) const {
+    Words all = {"live",   e2e::person_clip(),   "--background", e2e::wall_clip(),      "--loop",
+                 "--port", std::to_string(port), "--recordings", folder_ / "recordings"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static bool has(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+  }
+
+  e2e::Folder folder_;
+  Variable config_{"XDG_CONFIG_HOME", folder_.path().c_str()};
+  Variable display_{"DISPLAY", nullptr};
+  Variable wayland_{"WAYLAND_DISPLAY", nullptr};
+};
+
+TEST_F(LiveCommand, EndsWithZeroWhenItsTimeIsOverAndWhenItIsInterrupted) {
+  const e2e::Ended over = e2e::run(live({"--seconds", "1"}));
+  EXPECT_EQ(over.code, 0) << over.words;
+  EXPECT_TRUE(has(over.output, "the page: http://localhost:")) << over.output;
+  EXPECT_TRUE(has(over.output, "processor: ")) << over.output;
+
+  const std::uint16_t port = testing_receivers::free_port();
+  e2e::Program program(live({}, port));
+  EXPECT_TRUE(testing_receivers::comes_true([&] {
+    const testing_receivers::Fd fd(::socket(AF_INET, SOCK_STREAM, 0));
+    const sockaddr_in where = testing_receivers::loopback(port);
+    return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
+  }));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().code, 0);
+}
+
+TEST_F(LiveCommand, WhatCannotBeDoneHasItsExitCode) {
+  EXPECT_EQ(e2e::run({"live", "/nothing/here.mp4"}).code, 4);
+  EXPECT_EQ(e2e::run(live({"--send", "vmc://"})).code, 2);
+  const WebServer other(
+      [] {
+        WebServerOptions options;
+        options.port = 0;
+        return options;
+      }(),
+      {});
+  const e2e::Ended taken = e2e::run(live({"--quiet"}, other.port()));
+  EXPECT_EQ(taken.code, 5);
+  EXPECT_TRUE(has(taken.words, std::to_string(other.port()))) << "also with --quiet: " << taken.words;
+}
+
+TEST_F(LiveCommand, QuietHidesWhatCanBeLeftUnreadAndNothingElse) {
+  save_settings(folder_.path() / "telemime" / "live.json", {{"vmc://localhost:39539"}});
+  const e2e::Ended loud = e2e::run(live({"--seconds", "1"}));
+  EXPECT_TRUE(has(loud.words, "outputs of earlier runs, off now: vmc://localhost:39539")) << loud.words;
+  const e2e::Ended quiet = e2e::run(live({"--seconds", "1", "--quiet"}));
+  EXPECT_EQ(quiet.words, "");
+  const e2e::Ended unknown = e2e::run(live({"--seconds", "1", "--no-settings"}));
+  EXPECT_FALSE(has(unknown.words, "vmc://")) << unknown.words;
+  EXPECT_FALSE(has(unknown.output, "vmc://")) << unknown.output;
+  e2e::write_bytes(folder_.path() / "telemime" / "live.json", "{{{");
+  const e2e::Ended damaged = e2e::run(live({"--seconds", "1", "--quiet"}));
+  EXPECT_EQ(damaged.code, 0);
+  EXPECT_TRUE(has(damaged.words, "live.json")) << damaged.words;
+}
+
+TEST_F(LiveCommand, OpensThePageWithoutAShell) {
+  const std::string note = folder_ / "note";
+  e2e::write_bytes(folder_ / "xdg-open",
+                   "#!/bin/sh\necho \"$# $1\" > " + note + ".part\nmv " + note + ".part " + note + "\n");
+  std::filesystem::permissions(folder_ / "xdg-open", std::filesystem::perms::owner_all);
+  const std::string path = folder_.path().string() + ":" + std::getenv("PATH");
+  const Variable opener("PATH", path.c_str());
+  const Variable display("DISPLAY", ":77");
+  EXPECT_EQ(e2e::run(live({"--seconds", "1"})).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(note)) << "not without being asked";
+
+  const e2e::Ended ended = e2e::run(live({"--seconds", "1", "--open"}));
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  ASSERT_TRUE(testing_receivers::comes_true([&] { return std::filesystem::exists(note); }));
+  const std::string start = "the page: ";
+  const std::size_t at = ended.output.find(start) + start.size();
+  EXPECT_EQ(e2e::bytes_of(note), "1 " + ended.output.substr(at, ended.output.find(' ', at) - at) + "\n");
+}
+
+TEST_F(LiveCommand, WhereNothingCanBeOpenedItSaysWhatToDo) {
+  const e2e::Ended blind = e2e::run(live({"--seconds", "1", "--open"}));
+  EXPECT_EQ(blind.code, 0);
+  EXPECT_TRUE(has(blind.words, "no display") && has(blind.words, "http://localhost:")) << blind.words;
+  const Variable display("DISPLAY", ":77");
+  const Variable path("PATH", folder_.path().c_str());
+  const e2e::Ended bare = e2e::run(live({"--seconds", "1", "--open"}));
+  EXPECT_EQ(bare.code, 0);
+  EXPECT_TRUE(has(bare.words, "xdg-open") && has(bare.words, "http://localhost:")) << bare.words;
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <future>
+#include <mutex>
+
+#include "live/page.h"
+#include "live/scripted_source.h"
+#include "telemime/core/errors.h"
+#include "telemime/live/live_program.h"
+#include "telemime/network/testing_receivers.h"
+
+namespace telemime {
+namespace {
+
+using live_testing::camera_of;
+using live_testing::empty_room;
+using live_testing::hear;
+using live_testing::Json;
+using live_testing::person;
+using live_testing::quick_request;
+using live_testing::Scene;
+
+class LiveRun : public ::testing::Test {
+ protected:
+  LiveRequest options() const {
+    LiveRequest options;
+    options.request = quick_request(folder_);
+    options.request.input = "0";  // so it is a camera for whoever asks
+    options.web.port = 0;
+    options.recordings = folder_.file("recordings");
+    options.settings = folder_.path() / "config" / "live.json";
+    return options;
+  }
+  LiveProgram::Message console() {
+    return [this](MessageLevel level, const std::string& words) {
+      const std::lock_guard lock(mutex_);
+      (level == MessageLevel::error     ? errors_
+       : level == MessageLevel::warning ? warnings_
+                                        : infos_) += words + "\n";
+    };
+  }
+  bool says(const std::string& heard, const std::string& words) {
+    const std::lock_guard lock(mutex_);
+    return heard.find(words) != std::string::npos;
+  }
+  // Until the program has looked at so many more frames.
+  static void pass(const LiveProgram& program, std::int64_t frames) {
+    const std::int64_t before = program.report().state.rates.frames;
+    ASSERT_TRUE(comes_true([&] { return program.report().state.rates.frames >= before + frames; }));
+  }
+
+  std::shared_ptr<Scene> scene_ = [] {
+    auto scene = std::make_shared<Scene>();
+    scene->show(person());
+    return scene;
+  }();
+  ScratchFolder folder_;
+  std::mutex mutex_;
+  std::string infos_;
+  std::string warnings_;
+  std::string errors_;
+};
+
+TEST_F(LiveRun, NothingIsMadeForNobody) {
+  const LiveProgram program(options(), camera_of(scene_), {});
+  pass(program, 30);
+  EXPECT_EQ(program.report().pictures, 0);
+  EXPECT_EQ(program.report().poses, 0);
+  {
+    SocketClient page(program.port());
+    hear(page, "pose");
+    EXPECT_TRUE(comes_true([&] { return program.report().pictures > 0; }));
+    page.say(R"({"type":"pictures","on":false})");
+    page.say(R"({"type":"ping","id":1})");
+    hear(page, "pong");
+    const LiveReport hidden = program.report();
+    pass(program, 30);
+    EXPECT_LE(program.report().pictures, hidden.pictures + 2) << "but for those under way";
+    EXPECT_GT(program.report().poses, hidden.poses + 10) << "which it still gets";
+    page.say(R"({"type":"poses","on":false})");
+    page.say(R"({"type":"ping","id":2})");
+    hear(page, "pong");
+    const LiveReport asleep = program.report();
+    pass(program, 30);
+    EXPECT_LE(program.report().poses, asleep.poses + 2);
+    page.say(R"({"type":"poses","on":true})");
+    hear(page, "pose");
+  }
+  ASSERT_TRUE(comes_true([&] { return program.report().pages == 0; }));
+  const LiveReport alone = program.report();
+  pass(program, 30);
+  EXPECT_LE(program.report().poses, alone.poses + 2);
+}
+
+// A camera that takes its time to say what it is.
+class SlowCamera final : public Source {
+ public:
+  SlowCamera(std::unique_ptr<Source> camera, std::shared_future<void> ready)
+      : camera_(std::move(camera)), ready_(std::move(ready)) {}
+  const SourceInfo& info() const override {
+    ready_.wait();
+    return camera_->info();
+  }
+  std::optional<Frame> next() override { return camera_->next(); }
+  void stop() override { camera_->stop(); }
+  std::string complaint() const override { return camera_->complaint(); }
+
+ private:
+  std::unique_ptr<Source> camera_;
+  std::shared_future<void> ready_;
+};
+
+TEST_F(LiveRun, APageThatComesTooEarlyIsToldSoAndThenGreeted) {
+  LiveRequest request = options();
+  request.web.port = testing_receivers::free_port();
+  std::promise<void> ready;
+  auto camera = std::make_unique<SlowCamera>(camera_of(scene_), ready.get_future().share());
+  auto program = std::async(std::launch::async, [&] {
+    return std::make_unique<LiveProgram>(request, std::move(camera), LiveProgram::Message());
+  });
+  std::unique_ptr<SocketClient> page;
+  ASSERT_TRUE(comes_true([&] {
+    try {
+      page = std::make_unique<SocketClient>(request.web.port);
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  }));
+  const Json first = Json::parse(page->heard());
+  EXPECT_EQ(first.at("type"), "status");
+  EXPECT_EQ(first.at("phase"), "opening");
+  EXPECT_NE(first.at("words"), "");
+  page->say(R"({"type":"ping","id":3})");
+  EXPECT_EQ(hear(*page, "pong").at("id"), 3) << "the page knows that the program lives";
+  page->say(R"({"type":"recalibrate"})");
+  EXPECT_EQ(hear(*page, "message").at("level"), "error");
+  page->say(R"({"type":"output","add":"vmc://localhost"})");
+  EXPECT_EQ(hear(*page, "status", [](const Json& j) { return !j.at("outputs").empty(); }).at("phase"),
+            "opening");
+  ready.set_value();
+  hear(*page, "hello");
+  hear(*page, "status", [](const Json& j) { return j.at("phase") == "tracking"; });
+  program.get();
+}
+
+TEST_F(LiveRun, OutputsOfThePageAreOfferedToTheNextRunAndSentToWhenItAsks) {
+  testing_receivers::UdpReceiver receiver;
+  const std::string url = "vmc://127.0.0.1:" + std::to_string(receiver.port());
+  const std::string add = Json{{"type", "output"}, {"add", url}}.dump();
+  const auto is = [&](const std::string& state) {
+    return [url, state](const Json& j) {
+      return j.at("outputs").size() == 1 && j.at("outputs").at(0).at("url") == url &&
+             j.at("outputs").at(0).at("state") == state;
+    };
+  };
+  {
+    const LiveProgram program(options(), camera_of(scene_), console());
+    SocketClient page(program.port());
+    page.say(add);
+    hear(page, "status", is("sending"));
+  }
+  scene_ = std::make_shared<Scene>();
+  scene_->show(person());
+  while (receiver.receive(0)) {
+  }
+  {
+    const LiveProgram program(options(), camera_of(scene_), console());
+    EXPECT_TRUE(says(infos_, url)) << infos_;
+    SocketClient page(program.port());
+    hear(page, "status", is("off"));
+    pass(program, 30);
+    EXPECT_FALSE(receiver.receive(0)) << "nobody asked for it in this run";
+    page.say(add);
+    hear(page, "status", is("sending"));
+    EXPECT_TRUE(receiver.receive());
+    page.say(Json{{"type", "output"}, {"off", url}}.dump());
+    hear(page, "status", is("off"));
+  }
+  scene_ = std::make_shared<Scene>();
+  scene_->show(person());
+  while (receiver.receive(0)) {
+  }
+  LiveRequest resumed = options();
+  resumed.resume_outputs = true;
+  const LiveProgram program(resumed, camera_of(scene_), console());
+  EXPECT_TRUE(receiver.receive());
+  SocketClient page(program.port());
+  page.say(Json{{"type", "output"}, {"remove", url}}.dump());
+  hear(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
+  EXPECT_EQ(warnings_ + errors_, "");
+}
+
+TEST_F(LiveRun, ACameraThatIsGoneForGoodIsAFailureInWords) {
+  const LiveProgram program(options(), camera_of(scene_), console());
+  SocketClient page(program.port());
+  hear(page, "pose");
+  EXPECT_FALSE(program.report().failure);
+  scene_->end();
+  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; }).at("words"),
+            "the cable is out");
+  ASSERT_TRUE(program.report().failure);
+  EXPECT_TRUE(program.report().failure->input);
+  EXPECT_EQ(program.report().failure->words, "the cable is out");
+  EXPECT_TRUE(says(errors_, "the cable is out"));
+}
+
+TEST_F(LiveRun, TheEndOfAFileIsNoFailure) {
+  LiveRequest request = options();
+  request.request.input = "talk.mp4";
+  const LiveProgram program(request, camera_of(scene_), console());
+  pass(program, 1);
+  scene_->end();
+  EXPECT_TRUE(comes_true([&] { return says(warnings_, "the cable is out"); }))
+      << "what went wrong in it is told";
+  EXPECT_EQ(program.report().state.phase, LivePhase::ended);
+  EXPECT_FALSE(program.report().failure);
+  EXPECT_TRUE(says(errors_, ""));
+}
+
+TEST_F(LiveRun, TheGuideWaitsForAPageAndSaysSo) {
+  LiveRequest request = options();
+  request.request.background.clear();
+  request.page_wait = 2.0;
+  scene_->show(empty_room());
+  const LiveProgram program(request, camera_of(scene_), console());
+  const std::string url = "http://localhost:" + std::to_string(program.port());
+  EXPECT_TRUE(comes_true([&] { return says(warnings_, "waiting for the page"); }));
+  EXPECT_TRUE(says(warnings_, url) && says(warnings_, "--no-guide")) << warnings_;
+  EXPECT_FALSE(says(warnings_, "going on without"));
+  EXPECT_TRUE(comes_true([&] { return says(warnings_, "going on without"); }));
+  EXPECT_TRUE(comes_true([&] { return program.report().state.phase == LivePhase::person; }));
+}
+
+TEST_F(LiveRun, ARecordingIsServedInParts) {
+  const LiveProgram program(options(), camera_of(scene_), {});
+  SocketClient page(program.port());
+  page.say(R"({"type":"record","on":true})");
+  hear(page, "status",
+       [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 5; });
+  page.say(R"({"type":"record","on":false})");
+  hear(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
+  const std::uint16_t port = program.port();
+  const WebReply whole = ask(port, "/recordings/1/motion.bvh");
+  const WebReply part = ask(port, "/recordings/1/motion.bvh", "Range: bytes=3-8\r\n");
+  EXPECT_EQ(whole.body.substr(0, 9), "HIERARCHY");
+  EXPECT_EQ(part.status, 206);
+  EXPECT_EQ(part.body, "RARCHY");
+  EXPECT_EQ(whole.header("Content-Disposition"), "attachment; filename=\"telemime-1-motion.bvh\"");
+  const WebReply head = ask(port, "/recordings/1/motion.bvh", "", "HEAD");
+  EXPECT_EQ(head.header("Content-Length"), std::to_string(whole.body.size()));
+}
+
+TEST(PageUrl, IsWhereABrowserHereFindsIt) {
+  WebServerOptions web;
+  EXPECT_EQ(page_url(web, 7070), "http://localhost:7070");
+  web.address = "0.0.0.0";
+  EXPECT_EQ(page_url(web, 1), "http://localhost:1");
+  web.address = "192.168.1.5";
+  EXPECT_EQ(page_url(web, 2), "http://192.168.1.5:2");
+  web.address = "fd00::1";
+  EXPECT_EQ(page_url(web, 3), "http://[fd00::1]:3");
+}
+
+}  // namespace
+}  // namespace telemime
