@@ -76,9 +76,11 @@ Config with_budget(const Config& config, const Camera& camera) {
     return static_cast<int>(std::clamp<std::int64_t>(number, 1, std::max<std::int64_t>(1, most)));
   };
   FilterConfig& filter = fixed.filter;
-  filter.mode_most = at_most(filter.mode_most, threads > 1 ? 2 * total / 3 : total / 3);
-  filter.mode_least = at_most(filter.mode_least, std::min<std::int64_t>(filter.mode_most, total / 10));
-  filter.turn_evaluations = at_most(filter.turn_evaluations, total / 10);
+  constexpr std::int64_t kLeast = 10;  // that a configuration may ask for, of a search
+  filter.mode_most = at_most(filter.mode_most, std::max(kLeast, threads > 1 ? 2 * total / 3 : total / 3));
+  filter.mode_least =
+      at_most(filter.mode_least, std::clamp<std::int64_t>(total / 10, kLeast, filter.mode_most));
+  filter.turn_evaluations = at_most(filter.turn_evaluations, std::max(kLeast, total / 10));
   filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();
