@@ -34,7 +34,7 @@ struct AvatarLook {
 
 /// The same with less than half of the triangles: where each costs much, as without a graphics card.
 inline AvatarLook light(AvatarLook look) {
-  look.coarse = 0.25;
+  look.coarse = 0.17;
   return look;
 }
 
