@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "support/synthetic_clip.h"
+#include "telemime/pipeline/tracker.h"
+
+/// A tracker with little work to do, and a clip of a few frames for it.
+namespace telemime {
+
+inline constexpr int kPersonFrames = 6;
+
+// Rendered once for all tests of this program.
+inline const support::SyntheticClip& clip() {
+  static const support::SyntheticClip the_clip = support::synthetic_clip(12, kPersonFrames);
+  return the_clip;
+}
+
+inline Config quick_config() {
+  Config config;
+  config.image.width = 160;
+  config.image.height = 120;
+  config.registration.iterations = 300;
+  config.calibration.pose_iterations = 300;
+  config.calibration.arms.samples = 150;
+  config.calibration.shape.iterations = 120;
+  config.calibration.rounds = 1;
+  config.tracking.calibration_patience = 0;
+  config.tracking.patience = 2;
+  config.tracking.retry_every = 1;
+  config.tracking.lost_region = 0.6;
+  return config;
+}
+
+inline Tracker make_tracker(const Config& config) {
+  return {config, clip().camera};
+}
+
+}  // namespace telemime
