@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "support/quick_config.h"
 #include "support/synthetic_clip.h"
 
 namespace telemime::live_testing {
@@ -84,16 +85,8 @@ TrackRequest quick_request(const ScratchFolder& folder) {
   for (std::size_t i = 0; i < empty_room().size(); ++i) {
     cv::imwrite(request.background + "/" + std::to_string(1000 + i) + ".png", empty_room()[i].image);
   }
-  Config& config = request.config;
-  config.image.width = 160;
-  config.image.height = 120;
-  config.filter.particles = 300;
-  config.calibration.pose_iterations = 300;
-  config.calibration.arms.samples = 150;
-  config.calibration.shape.iterations = 120;
-  config.calibration.rounds = 1;
-  config.tracking.calibration_patience = 0;
-  config.tracking.lost_region = 0.6;
+  request.config = support::quick_config();
+  request.config.filter.particles = 300;
   return request;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "support/quick_config.h"
 #include "support/synthetic_clip.h"
 #include "telemime/pipeline/tracker.h"
 
@@ -16,18 +17,10 @@ inline const support::SyntheticClip& clip() {
 }
 
 inline Config quick_config() {
-  Config config;
-  config.image.width = 160;
-  config.image.height = 120;
+  Config config = support::quick_config();
   config.registration.iterations = 300;
-  config.calibration.pose_iterations = 300;
-  config.calibration.arms.samples = 150;
-  config.calibration.shape.iterations = 120;
-  config.calibration.rounds = 1;
-  config.tracking.calibration_patience = 0;
   config.tracking.patience = 2;
   config.tracking.retry_every = 1;
-  config.tracking.lost_region = 0.6;
   return config;
 }
 
