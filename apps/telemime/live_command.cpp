@@ -19,6 +19,7 @@
 #include "data_folder.h"
 #include "open_page.h"
 #include "telemime/capture/input_kind.h"
+#include "telemime/capture/live.h"
 #include "telemime/capture/loop.h"
 #include "telemime/capture/paced.h"
 #include "telemime/core/errors.h"
@@ -30,10 +31,12 @@ namespace {
 
 // Without a page for so long, none is being loaded anew.
 constexpr std::chrono::seconds kReload{3};
+// That a browser may take to start and to show the page, when it was asked for.
+constexpr std::chrono::seconds kFirstPage{30};
 
 volatile std::sig_atomic_t interrupt_requested = 0;
 
-// The second time it ends at once: a camera that hangs is waited for else.
+// The second time it ends at once: whatever hangs would be waited for else.
 void on_interrupt(int) {
   if (interrupt_requested != 0) {
     ::_exit(128 + SIGINT);
@@ -57,11 +60,18 @@ bool is_file(const std::string& input) {
   return kind != InputKind::camera && kind != InputKind::device && kind != InputKind::stream;
 }
 
-std::unique_ptr<Source> open_live(const LiveCommand& command, const std::string& input) {
+// The input as a camera. Notes whether it has an end: then nobody can be asked to step out of it, either.
+std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_behind) {
+  const std::string input = command.live.request.input;
+  command.live.guided = false;
   if (command.loop) {
     return pace(loop([input] { return open_source(input); }));
   }
-  auto source = open_source(input);
+  LiveOptions options;
+  options.left_behind = [left_behind] { *left_behind = true; };
+  auto source = open_source(input, options);
+  command.live.ends = !source->info().live;
+  command.live.guided = source->info().live && !command.unguided;
   return source->info().live ? std::move(source) : pace(std::move(source));  // a clip on a web server, too
 }
 
@@ -83,12 +93,14 @@ void print_report(const LiveReport& report) {
   }
 }
 
-// Until the user stops it or the time is over, or nothing can be tracked any more. Who looks at the page may
-// still want its recordings: as long as one is open, the program stays.
+// Until the user stops it or the time is over, or nothing can be tracked any more: the input has ended, or
+// something has failed. Who looks at the page may still want its recordings: as long as one is open, the
+// program stays.
 void wait_for_end(const LiveCommand& command, const LiveProgram& program, const LiveProgram::Message& say) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  auto last_page = start;
+  auto last_use = start;
+  bool expected = command.open;  // a page that has not come yet
   bool told = false;
   while (interrupt_requested == 0) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -97,16 +109,21 @@ void wait_for_end(const LiveCommand& command, const LiveProgram& program, const 
       return;
     }
     const LiveReport report = program.report();
-    if (report.pages > 0) {
-      last_page = now;
-    }
-    if (report.failure && now - last_page > kReload) {
+    const bool ended = report.state.phase == LivePhase::ended;
+    expected = expected && report.pages == 0;
+    if (!ended || report.pages > 0) {
+      last_use = now;
+    } else if (now - last_use > (expected ? kFirstPage : kReload)) {
       return;
     }
-    if (report.state.phase == LivePhase::ended && !told) {
-      told = true;
-      say(MessageLevel::info, report.failure ? "the page stays as long as it is open"
-                                             : "the input has ended; the page stays until Ctrl-C");
+    if (ended && !std::exchange(told, true)) {
+      const std::string stays = report.pages > 0 ? "the program stays as long as a page is open" : "";
+      const std::string words = report.failure  ? stays
+                                : stays.empty() ? "the input has ended"
+                                                : "the input has ended; " + stays;
+      if (!words.empty()) {
+        say(MessageLevel::info, words);
+      }
     }
   }
 }
@@ -133,7 +150,7 @@ void fail(const LiveFailure& failure) {
   throw std::runtime_error(failure.words);
 }
 
-void run(LiveCommand command) {
+void run(LiveCommand command, const LeftBehind& left_behind) {
   if (command.track.request.input == "demo") {
     const auto demo = data_folder() / "demo";
     command.track.request.input = (demo / "video.mp4").string();
@@ -150,7 +167,6 @@ void run(LiveCommand command) {
     throw Error(ErrorKind::usage, input + " is no file: it cannot be paced or looped",
                 "Leave --paced and --loop out.");
   }
-  command.live.guided = !command.unguided && !is_file(input);
   command.live.version = TELEMIME_VERSION;
   command.live.settings = command.no_settings ? std::filesystem::path() : settings_file();
   std::mutex mutex;
@@ -160,9 +176,11 @@ void run(LiveCommand command) {
       std::cerr << words << '\n';
     }
   };
+  // Until the input is open nothing is lost, and Ctrl-C need not wait for a camera or a network.
+  auto source = open_live(command, left_behind);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  LiveProgram program(command.live, open_live(command, input), say);
+  LiveProgram program(command.live, std::move(source), say);
   const std::string url = page_url(command.live.web, program.port());
   std::cout << "the page: " << url << "   Ctrl-C ends" << std::endl;
   if (command.open) {
@@ -182,7 +200,7 @@ void run(LiveCommand command) {
 
 }  // namespace
 
-void add_live_command(CLI::App& app) {
+void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   const auto options = std::make_shared<LiveCommand>();
   CLI::App* command =
       app.add_subcommand("live", "From the webcam to an avatar, on a page and in other programs");
@@ -209,7 +227,7 @@ void add_live_command(CLI::App& app) {
   command->add_option("--allow-host", live.web.hosts, "another name under which the page may be opened");
   command->add_option("--recordings", live.recordings, "folder of recordings [telemime-recordings]");
   command->add_option("--seconds", options->seconds, "end after so many seconds [0: never]");
-  command->callback([options] { run(*options); });
+  command->callback([options, left_behind] { run(*options, left_behind); });
 }
 
 }  // namespace telemime

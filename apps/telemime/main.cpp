@@ -3,8 +3,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <memory>
 
 #include "avatar_command.h"
 #include "bench_command.h"
@@ -20,35 +24,54 @@
 #include "track_command.h"
 #include "tune_command.h"
 
-int main(int argc, char** argv) {
-  telemime::quiet_opencv();
+namespace telemime {
+namespace {
+
+int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   CLI::App app("Telemime: 3-D motion capture of the upper body from one camera", "telemime");
   app.require_subcommand(1);
   app.set_version_flag("--version", TELEMIME_VERSION);
-  telemime::add_live_command(app);
-  telemime::add_track_command(app);
-  telemime::add_calibrate_command(app);
-  telemime::add_evaluate_command(app);
-  telemime::add_synth_command(app);
-  telemime::add_tune_command(app);
-  telemime::add_learn_command(app);
-  telemime::add_bench_command(app);
-  telemime::add_experiments_command(app);
-  telemime::add_avatar_command(app);
-  telemime::add_config_command(app);
+  add_live_command(app, left_behind);
+  add_track_command(app);
+  add_calibrate_command(app);
+  add_evaluate_command(app);
+  add_synth_command(app);
+  add_tune_command(app);
+  add_learn_command(app);
+  add_bench_command(app);
+  add_experiments_command(app);
+  add_avatar_command(app);
+  add_config_command(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     const int code = app.exit(e, std::cout, std::cerr);
-    return code == 0 ? 0 : telemime::kExitUsage;
-  } catch (const telemime::Interrupted&) {
-    return telemime::kExitInterrupted;
-  } catch (const telemime::Error& e) {
+    return code == 0 ? 0 : kExitUsage;
+  } catch (const Interrupted&) {
+    return kExitInterrupted;
+  } catch (const Error& e) {
     std::cerr << "telemime: " << e.what() << '\n';
-    return telemime::exit_code(e.kind());
+    return exit_code(e.kind());
   } catch (const std::exception& e) {
     std::cerr << "telemime: unexpected failure: " << e.what() << '\n';
-    return telemime::kExitInternal;
+    return kExitInternal;
   }
   return 0;
+}
+
+}  // namespace
+}  // namespace telemime
+
+int main(int argc, char** argv) {
+  telemime::quiet_opencv();
+  const auto left_behind = std::make_shared<std::atomic<bool>>(false);
+  const int code = telemime::exit_code_of(argc, argv, left_behind);
+  if (*left_behind) {
+    // A thread is still within FFmpeg or a driver: static objects must not be destroyed under it.
+    std::cout.flush();
+    std::cerr.flush();
+    std::fflush(nullptr);
+    std::_Exit(code);
+  }
+  return code;
 }

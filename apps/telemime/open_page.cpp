@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <system_error>
 
 #include "telemime/core/errors.h"
 
@@ -25,11 +26,21 @@ bool has_display() {
   return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
+// Of the new process, which tells the old one why and ends.
+[[noreturn]] void give_up(int report, int why) {
+  (void)!::write(report, &why, sizeof why);
+  ::_exit(127);
+}
+
 // In the new process, where only calls of the system are safe: nothing of ours goes on in it, neither the
 // terminal's Ctrl-C nor the camera nor the server's port.
 [[noreturn]] void become_opener(const char* url, int report) {
   ::setsid();
-  if (::fork() != 0) {
+  const pid_t opener = ::fork();
+  if (opener < 0) {
+    give_up(report, errno);
+  }
+  if (opener > 0) {
     ::_exit(0);  // whoever waits for this process need not wait for the browser
   }
   const int nowhere = ::open("/dev/null", O_RDWR);
@@ -43,9 +54,7 @@ bool has_display() {
   }
   // No shell reads the address: it is one argument, whatever stands in it.
   ::execlp(kOpener, kOpener, url, static_cast<char*>(nullptr));
-  const int why = errno;
-  (void)!::write(report, &why, sizeof why);
-  ::_exit(127);
+  give_up(report, errno);
 }
 
 }  // namespace
@@ -63,8 +72,8 @@ void open_page(const std::string& url) {
   if (child == 0) {
     become_opener(url.c_str(), ends[1]);
   }
+  int why = child < 0 ? errno : 0;
   ::close(ends[1]);
-  int why = child < 0 ? EAGAIN : 0;
   if (child > 0) {
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -78,7 +87,8 @@ void open_page(const std::string& url) {
   ::close(ends[0]);
   if (why != 0) {
     throw Error(ErrorKind::output,
-                std::string("the browser could not be opened: ") + kOpener + " does not start",
+                std::string("the browser could not be opened: ") + kOpener +
+                    " does not start: " + std::generic_category().message(why),
                 "Install the package xdg-utils, or open " + url + " yourself.");
   }
 }

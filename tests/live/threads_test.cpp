@@ -5,7 +5,11 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
 
 #include "live/heard.h"
 #include "live/scripted_source.h"
@@ -61,6 +65,73 @@ TEST(LiveThreads, IsOpeningUntilThereIsAPicture) {
   EXPECT_NE(session.state().words, "");
   scene->show(person());
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }));
+}
+
+// Gives its frames, all of them, and then nothing until it is stopped: a camera that is gone.
+class ThenGone final : public Source {
+ public:
+  explicit ThenGone(std::vector<Frame> frames) : frames_(std::move(frames)) {
+    info_.width = frames_.front().image.cols;
+    info_.height = frames_.front().image.rows;
+    info_.live = true;
+  }
+  const SourceInfo& info() const override { return info_; }
+  std::string complaint() const override { return ""; }
+  void stop() override {
+    {
+      const std::lock_guard lock(mutex_);
+      stopped_ = true;
+    }
+    changed_.notify_all();
+  }
+  std::optional<Frame> next() override {
+    std::unique_lock lock(mutex_);
+    if (at_ == frames_.size()) {
+      changed_.wait(lock, [this] { return stopped_; });
+    }
+    return stopped_ ? std::nullopt : std::optional(frames_[at_++]);
+  }
+
+ private:
+  std::vector<Frame> frames_;
+  std::size_t at_ = 0;
+  SourceInfo info_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stopped_ = false;
+};
+
+TEST(LiveThreads, ASearchThatFailsWhileTheCameraIsGoneEndsTheRun) {
+  const ScratchFolder folder;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 4; ++i) {
+    frames.insert(frames.end(), person().begin(), person().end());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].index = static_cast<std::int64_t>(i);
+    frames[i].time = static_cast<double>(i) / 25.0;
+  }
+  const std::int64_t last = frames.back().index;
+  Heard heard;
+  LiveHooks hooks = heard.hooks();
+  std::atomic<bool> fail = false;  // now
+  std::atomic<bool> failed = false;
+  hooks.motion = [&, heard_motion = hooks.motion](const MotionFrame& frame, double taken) {
+    heard_motion(frame, taken);
+    if (frame.frame == last && !failed) {
+      heard.wait([&] { return fail.load(); });
+      failed = true;
+      throw std::runtime_error("the search has failed");
+    }
+  };
+  const LiveSession session(quick_request(folder), true, std::make_unique<ThenGone>(std::move(frames)),
+                            std::move(hooks));
+  // The image side waits for a picture while the last one is searched.
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
+  fail = true;
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  EXPECT_TRUE(failed);
+  EXPECT_EQ(session.state().words, "the search has failed");
 }
 
 // The same pictures with stamps of a clock that has gone mad.

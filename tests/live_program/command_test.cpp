@@ -5,15 +5,17 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "e2e/run_program.h"
+#include "live/page.h"
 #include "telemime/live/live_settings.h"
 #include "telemime/network/testing_receivers.h"
-#include "telemime/network/web_server.h"
+#include "telemime/network/testing_web_socket.h"
 
 namespace telemime {
 namespace {
@@ -47,6 +49,18 @@ class LiveCommand : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
+  // An input that ends.
+  Words once(const std::string& input, std::uint16_t port = 0) const {
+    return {"live", input, "--port", std::to_string(port), "--recordings", folder_ / "recordings"};
+  }
+  // Of a program that is to end by itself.
+  static e2e::Ended end_of(e2e::Program& program) {
+    EXPECT_TRUE(comes_true([&] { return !program.running(); }));
+    if (program.running()) {
+      program.signal(SIGKILL);
+    }
+    return program.wait();
+  }
   static bool has(const std::string& text, const std::string& words) {
     return text.find(words) != std::string::npos;
   }
@@ -65,7 +79,7 @@ TEST_F(LiveCommand, EndsWithZeroWhenItsTimeIsOverAndWhenItIsInterrupted) {
 
   const std::uint16_t port = testing_receivers::free_port();
   e2e::Program program(live({}, port));
-  EXPECT_TRUE(testing_receivers::comes_true([&] {
+  EXPECT_TRUE(comes_true([&] {
     const testing_receivers::Fd fd(::socket(AF_INET, SOCK_STREAM, 0));
     const sockaddr_in where = testing_receivers::loopback(port);
     return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
@@ -74,16 +88,55 @@ TEST_F(LiveCommand, EndsWithZeroWhenItsTimeIsOverAndWhenItIsInterrupted) {
   EXPECT_EQ(program.wait().code, 0);
 }
 
+TEST_F(LiveCommand, EndsAfterAFileWhenNoPageIsOpen) {
+  e2e::Program program(once(e2e::person_clip()));
+  const e2e::Ended ended = end_of(program);
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_TRUE(has(ended.words, "the input has ended")) << ended.words;
+}
+
+TEST_F(LiveCommand, StaysAfterAFileAsLongAsAPageIsOpen) {
+  const std::uint16_t port = testing_receivers::free_port();
+  e2e::Program program(once(e2e::person_clip(), port));
+  std::unique_ptr<SocketClient> page;
+  ASSERT_TRUE(comes_true([&] {
+    try {
+      page = std::make_unique<SocketClient>(port);
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  }));
+  for (int i = 0; i < 10; ++i) {  // for 5 s: longer than a page takes to come back
+    live_testing::hear(*page, "status", [](const auto& status) { return status.at("phase") == "ended"; });
+  }
+  EXPECT_TRUE(program.running());
+  page.reset();
+  EXPECT_EQ(end_of(program).code, 0);
+}
+
+TEST_F(LiveCommand, AClipOnAWebServerEndsWellWhateverWasWrongWithIt) {
+  const std::string clip = folder_ / "clip.avi";
+  e2e::write_grey_video(clip, 60, 90);
+  std::filesystem::resize_file(clip, std::filesystem::file_size(clip) * 2 / 3);
+  WebHandlers handlers;
+  handlers.get = [&](const std::string&) {
+    WebContent content;
+    content.type = "video/x-msvideo";
+    content.file = clip;
+    return std::optional(content);
+  };
+  const WebServer server(any_port(), handlers);
+  e2e::Program program(once("http://127.0.0.1:" + std::to_string(server.port()) + "/clip.avi"));
+  const e2e::Ended ended = end_of(program);
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_TRUE(has(ended.words, "its header promised 60")) << ended.words;
+}
+
 TEST_F(LiveCommand, WhatCannotBeDoneHasItsExitCode) {
   EXPECT_EQ(e2e::run({"live", "/nothing/here.mp4"}).code, 4);
   EXPECT_EQ(e2e::run(live({"--send", "vmc://"})).code, 2);
-  const WebServer other(
-      [] {
-        WebServerOptions options;
-        options.port = 0;
-        return options;
-      }(),
-      {});
+  const WebServer other(any_port(), {});
   const e2e::Ended taken = e2e::run(live({"--quiet"}, other.port()));
   EXPECT_EQ(taken.code, 5);
   EXPECT_TRUE(has(taken.words, std::to_string(other.port()))) << "also with --quiet: " << taken.words;
@@ -117,7 +170,7 @@ TEST_F(LiveCommand, OpensThePageWithoutAShell) {
 
   const e2e::Ended ended = e2e::run(live({"--seconds", "1", "--open"}));
   EXPECT_EQ(ended.code, 0) << ended.words;
-  ASSERT_TRUE(testing_receivers::comes_true([&] { return std::filesystem::exists(note); }));
+  ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(note); }));
   const std::string start = "the page: ";
   const std::size_t at = ended.output.find(start) + start.size();
   EXPECT_EQ(e2e::bytes_of(note), "1 " + ended.output.substr(at, ended.output.find(' ', at) - at) + "\n");

@@ -127,7 +127,7 @@ std::optional<SourceNews> CameraWatch::stopped(double now) {
   ++interruptions_;
   stopped_at_ = now - start_;
   outcome_ = "it did not come back";
-  return SourceNews{Kind::worse, "the camera stopped; it is opened again"};
+  return SourceNews{Kind::worse, "the camera stopped; trying to open it again"};
 }
 
 std::optional<SourceNews> CameraWatch::silent() {

@@ -27,7 +27,7 @@ class CameraWatch {
   /// Three damaged pictures within two seconds are told; three seconds without one end it.
   std::optional<SourceNews> damaged(double now);
   std::optional<SourceNews> whole(double now);
-  /// The device stopped, and is opened again.
+  /// The device stopped; it is tried again from now on.
   std::optional<SourceNews> stopped(double now);
   /// No picture for some time.
   std::optional<SourceNews> silent();

@@ -77,7 +77,7 @@ TEST(CameraWatch, DamageIsToldWhenThereIsMuchOfIt) {
 TEST(CameraWatch, AnInterruptionIsToldFromItsBeginningToItsEnd) {
   CameraWatch watch({640, 480}, 10.0);
   EXPECT_FALSE(watch.back(11.0));
-  EXPECT_TRUE(says(watch.stopped(12.0), Kind::worse, "opened again"));
+  EXPECT_TRUE(says(watch.stopped(12.0), Kind::worse, "trying to open it again"));
   EXPECT_TRUE(says(watch.silent(), Kind::gone, "no pictures"));
   EXPECT_FALSE(watch.silent());
   EXPECT_FALSE(watch.stopped(20.0)) << "opened, and stopped without a picture";

@@ -37,6 +37,22 @@ void listen(j_common_ptr info, int level) {
   }
 }
 
+// Outside of decode(), so that neither longjmp nor an exception of cv::Mat passes its destructor by.
+struct Decompressor {
+  Decompressor() {
+    info.err = jpeg_std_error(&complaints.base);
+    complaints.base.error_exit = give_up;
+    complaints.base.emit_message = listen;
+    jpeg_create_decompress(&info);
+  }
+  ~Decompressor() { jpeg_destroy_decompress(&info); }
+  Decompressor(const Decompressor&) = delete;
+  Decompressor& operator=(const Decompressor&) = delete;
+
+  jpeg_decompress_struct info{};
+  Complaints complaints{};
+};
+
 // No object with a destructor is made in here: longjmp would pass it by.
 bool decode(jpeg_decompress_struct& info, Complaints& complaints, std::span<const std::uint8_t> bytes,
             cv::Mat& picture) {
@@ -66,14 +82,8 @@ bool decode(jpeg_decompress_struct& info, Complaints& complaints, std::span<cons
 
 cv::Mat decode_jpeg(std::span<const std::uint8_t> bytes) {
   cv::Mat picture;
-  jpeg_decompress_struct info{};
-  Complaints complaints{};
-  info.err = jpeg_std_error(&complaints.base);
-  complaints.base.error_exit = give_up;
-  complaints.base.emit_message = listen;
-  jpeg_create_decompress(&info);
-  const bool whole = decode(info, complaints, bytes, picture);
-  jpeg_destroy_decompress(&info);
+  Decompressor decompressor;
+  const bool whole = decode(decompressor.info, decompressor.complaints, bytes, picture);
   return whole ? picture : cv::Mat();
 }
 

@@ -2,6 +2,7 @@
 #include "telemime/capture/jpeg.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -74,6 +75,40 @@ TEST(Jpeg, BytesBehindItDoNoHarm) {
   Bytes bytes = file_of(picture());
   bytes.resize(bytes.size() + 100, 0);
   EXPECT_FALSE(decode_jpeg(bytes).empty());
+}
+
+// Pictures for which there is no memory, as long as it lives.
+class NoMemory final : public cv::MatAllocator {
+ public:
+  NoMemory() { cv::Mat::setDefaultAllocator(this); }
+  ~NoMemory() override { cv::Mat::setDefaultAllocator(usual_); }
+  NoMemory(const NoMemory&) = delete;
+  NoMemory& operator=(const NoMemory&) = delete;
+
+  cv::UMatData* allocate(int /*dims*/, const int* /*sizes*/, int /*type*/, void* /*data*/,
+                         std::size_t* /*step*/, cv::AccessFlag /*flags*/,
+                         cv::UMatUsageFlags /*usage*/) const override {
+    throw cv::Exception(cv::Error::StsNoMem, "none", "allocate", "", 0);
+  }
+  bool allocate(cv::UMatData* /*data*/, cv::AccessFlag /*flags*/,
+                cv::UMatUsageFlags /*usage*/) const override {
+    return false;
+  }
+  void deallocate(cv::UMatData* data) const override { usual_->deallocate(data); }
+
+ private:
+  cv::MatAllocator* usual_ = cv::Mat::getDefaultAllocator();
+};
+
+TEST(Jpeg, WithoutMemoryForThePictureNothingIsKeptBack) {
+  const Bytes bytes = file_of(picture());
+  EXPECT_FALSE(decode_jpeg(bytes).empty());
+  const NoMemory none;
+  const std::size_t before = ::mallinfo2().uordblks;
+  for (int i = 0; i < 500; ++i) {
+    EXPECT_THROW(decode_jpeg(bytes), cv::Exception);
+  }
+  EXPECT_LT(::mallinfo2().uordblks, before + 1'000'000) << "sanitizers find it in their own way";
 }
 
 TEST(Jpeg, NoBytesCrashIt) {

@@ -104,10 +104,16 @@ class Reader {
 
   /// The reader's thread.
   void read() {
-    while (!stopped()) {
-      if (!read_one() && !stopped() && !reopen()) {
-        break;
+    try {
+      while (!stopped()) {
+        if (!read_one() && !stopped() && !reopen()) {
+          break;
+        }
       }
+    } catch (const std::exception& e) {  // for want of memory, say; nobody else could catch it
+      fail(e.what());
+    } catch (...) {
+      fail("an unknown failure");
     }
     device_ = {};
     {
@@ -118,17 +124,29 @@ class Reader {
   }
 
  private:
+  void fail(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    notes_.add("reading it failed: " + why);
+  }
+
   /// False when the device has stopped, or gives nothing but damage.
   bool read_one() {
-    if (!device_.grab()) {
+    try {
+      if (!device_.grab()) {
+        return false;
+      }
+      stamp();
+    } catch (const cv::Exception&) {  // of the driver: it may be well again when it is opened anew
       return false;
     }
-    stamp();
+    cv::Size size;
     cv::Mat picture;  // a new one each time: the last may still be in use
     try {
       cv::Mat read;
       if (device_.retrieve(read)) {
         picture = to_bgr8(read);
+        size = picture.size();
+        picture = picture.empty() ? picture : fitted(picture);
       }
     } catch (const cv::Exception&) {  // of the decoder; the next picture may be whole
       picture.release();
@@ -143,7 +161,7 @@ class Reader {
       return damaged_ != 0;
     }
     damaged_ = 0;
-    publish(picture);
+    publish(picture, size);
     return true;
   }
 
@@ -154,17 +172,24 @@ class Reader {
     taken_ = std::max(taken_, usable ? driver : now);
   }
 
-  void publish(const cv::Mat& picture) {
+  /// As large as the first picture.
+  cv::Mat fitted(const cv::Mat& picture) {
+    const std::lock_guard lock(mutex_);
+    return fit_to(picture, size_, notes_);
+  }
+
+  /// `size`: that it had when it came.
+  void publish(const cv::Mat& picture, cv::Size size) {
     {
       const std::lock_guard lock(mutex_);
       if (!tell_ || taken_ - opened_ >= options_.steady) {
         attempts_ = 0;
       }
       note(watch_.back(taken_));
-      note(watch_.size(picture.size()));
+      note(watch_.size(size));
       note(watch_.rate(taken_));
       note(watch_.whole(taken_));
-      newest_ = Frame{fit_to(picture, size_, notes_), ++index_, taken_ - start_, taken_};
+      newest_ = Frame{picture, ++index_, taken_ - start_, taken_};
     }
     changed_.notify_all();
   }
@@ -189,7 +214,11 @@ class Reader {
         return false;
       }
       ++attempts_;
-      device_ = open_();
+      try {
+        device_ = open_();
+      } catch (const cv::Exception&) {  // an attempt that failed
+        device_ = {};
+      }
       if (device_.grab) {
         opened_ = options_.clock.now();
         return true;
@@ -256,6 +285,7 @@ class LiveSource final : public Source {
   LiveSource(const std::string& name, OpenDevice open, LiveDevice device, const cv::Mat& first,
              const LiveOptions& options)
       : farewell_(options.farewell),
+        left_behind_(options.left_behind),
         reader_(std::make_shared<Reader>(std::move(open), std::move(device), first, options)),
         info_{name, first.cols, first.rows, reader_->fps(), 0, /*live=*/true},
         thread_([reader = reader_] { reader->read(); }) {}
@@ -264,9 +294,11 @@ class LiveSource final : public Source {
     reader_->stop();
     if (reader_->wait_for_end(farewell_)) {
       thread_.join();
-    } else {
-      thread_
-          .detach();  // a driver or a network that hangs; it ends by itself, and shares nothing with others
+      return;
+    }
+    thread_.detach();  // a driver or a network that hangs; it ends by itself, and shares nothing with others
+    if (left_behind_) {
+      left_behind_();
     }
   }
 
@@ -278,13 +310,20 @@ class LiveSource final : public Source {
 
  private:
   double farewell_;
+  std::function<void()> left_behind_;
   std::shared_ptr<Reader> reader_;
   SourceInfo info_;
   std::thread thread_;
 };
 
-cv::Mat first_picture(const LiveDevice& device) {
+// Each attempt of a device that hangs takes as long as the driver has patience: there are no further ones
+// then.
+cv::Mat first_picture(const LiveDevice& device, const LiveOptions& options) {
+  const double begun = options.clock.now();
   for (int attempt = 0; attempt < kFirstPictureAttempts; ++attempt) {
+    if (attempt > 0 && options.clock.now() - begun > options.patience) {
+      break;
+    }
     try {
       cv::Mat picture;
       if (device.grab() && device.retrieve(picture)) {
@@ -307,7 +346,7 @@ std::unique_ptr<Source> live_source(const std::string& name, OpenDevice open, Li
   if (!device.grab) {
     return nullptr;
   }
-  const cv::Mat first = first_picture(device);
+  const cv::Mat first = first_picture(device, options);
   if (first.empty()) {
     return nullptr;
   }

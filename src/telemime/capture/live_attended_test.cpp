@@ -100,8 +100,11 @@ TEST(LiveAttended, StopsInTheMiddleOfALongPause) {
   LiveOptions options = quick();
   options.pauses = {1e6};
   options.longest_pause = 1e6;
+  options.farewell = 60.0;
+  bool left_behind = false;
+  options.left_behind = [&left_behind] { left_behind = true; };
   std::promise<void> gone;
-  const auto source = live_source("0", open, options);
+  auto source = live_source("0", open, options);
   source->attend([&gone](const SourceNews& news) {
     if (news.kind == Kind::gone) {
       gone.set_value();
@@ -112,6 +115,8 @@ TEST(LiveAttended, StopsInTheMiddleOfALongPause) {
   gone.get_future().wait();
   source->stop();
   EXPECT_FALSE(next.get());
+  source.reset();
+  EXPECT_FALSE(left_behind);
 }
 
 // A driver that never answers, until the test lets it go.
@@ -144,11 +149,14 @@ TEST(LiveAttended, ADeviceThatHangsHoldsNobodyUp) {
   };
   LiveOptions options = quick();
   options.farewell = 0.01;
+  bool left_behind = false;
+  options.left_behind = [&left_behind] { left_behind = true; };
   auto source = live_source("0", open, options);
   std::unique_lock lock(hanging->mutex);
   hanging->changed.wait(lock, [&] { return hanging->hangs; });
   lock.unlock();
   source.reset();  // would wait for ever
+  EXPECT_TRUE(left_behind) << "whoever ends the program must know";
   lock.lock();
   EXPECT_FALSE(hanging->gone);
   hanging->let_go = true;

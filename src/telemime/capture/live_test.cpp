@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <opencv2/core.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "telemime/capture/testing.h"
@@ -190,6 +191,71 @@ TEST(Live, DamagedPicturesAreLeftOut) {
   }
   EXPECT_EQ(opened, 2) << "opened again after nothing but damage, and not for one picture";
   EXPECT_NE(source->complaint().find("damaged"), std::string::npos);
+}
+
+/// Gives so many pictures, then does `end`.
+LiveDevice gives(int pictures, std::function<bool()> end) {
+  return {[pictures, end = std::move(end)]() mutable { return pictures-- > 0 || end(); },
+          [](cv::Mat& picture) {
+            picture = testing::numbered_picture(1);
+            return true;
+          },
+          {},
+          25.0};
+}
+
+/// The index of the last frame.
+std::int64_t last_of(Source& source) {
+  std::int64_t last = -1;
+  while (const std::optional<Frame> frame = source.next()) {
+    last = frame->index;
+  }
+  return last;
+}
+
+TEST(Live, ADriverThatThrowsIsOpenedAgain) {
+  const auto complain = []() -> bool { CV_Error(cv::Error::StsError, "VIDIOC_DQBUF"); };
+  std::atomic<int> openings = 0;
+  const auto open = [&]() -> LiveDevice {
+    switch (openings++) {
+      case 0:
+        return gives(1, complain);
+      case 1:
+        CV_Error(cv::Error::StsError, "cannot be opened");
+      case 2:
+        return gives(1, [] { return false; });
+      default:
+        return {};
+    }
+  };
+  const auto source = live_source("0", open, with_pauses({0.0, 0.0, 0.0}));
+  ASSERT_TRUE(source);
+  EXPECT_EQ(last_of(*source), 1);
+  EXPECT_GE(openings, 3);
+}
+
+TEST(Live, WhatElseFailsInTheReaderEndsItInWords) {
+  const auto open = [] { return gives(3, []() -> bool { throw std::runtime_error("no driver any more"); }); };
+  const auto source = live_source("0", open, with_pauses({0.0, 0.0, 0.0}));
+  ASSERT_TRUE(source);
+  EXPECT_EQ(last_of(*source), 2);
+  EXPECT_NE(source->complaint().find("no driver any more"), std::string::npos) << source->complaint();
+}
+
+TEST(Live, ADeviceThatHangsAtTheStartIsNotAskedAgainAndAgain) {
+  std::atomic<double> now = 0.0;
+  LiveOptions options = with_pauses({});
+  options.clock = {[&] { return now.load(); }, [](double) {}};
+  int grabs = 0;
+  const auto open = [&] {
+    return gives(0, [&] {
+      now = now + 9.0;
+      ++grabs;
+      return false;
+    });
+  };
+  EXPECT_FALSE(live_source("0", open, options));
+  EXPECT_EQ(grabs, 1);
 }
 
 TEST(Live, OddPicturesAreMadeUsable) {

@@ -9,6 +9,7 @@ namespace telemime {
 namespace {
 
 constexpr int kMostDamaged = 25;  // pictures in a row: then it has rather stopped
+constexpr double kSilent = 1.0;   // s, that no decoder needs to fail
 
 // A container's tag, or the beginning of the codec's name where there is no container, as over HTTP.
 bool is_motion_jpeg(const cv::VideoCapture& connection) {
@@ -28,7 +29,20 @@ cv::VideoCapture connect_to_stream(const std::string& url, double patience) {
   return connection;
 }
 
-LiveDevice stream_device(const cv::VideoCapture& connection) {
+bool grab_past_damage(const std::function<bool()>& grab, const Clock& clock) {
+  for (int attempt = 0; attempt < kMostDamaged; ++attempt) {
+    const double begun = clock.now();
+    if (grab()) {
+      return true;
+    }
+    if (clock.now() - begun > kSilent) {
+      return false;
+    }
+  }
+  return false;
+}
+
+LiveDevice stream_device(const cv::VideoCapture& connection, const Clock& clock) {
   if (!connection.isOpened()) {
     return {};
   }
@@ -48,14 +62,7 @@ LiveDevice stream_device(const cv::VideoCapture& connection) {
             {},
             fps};
   }
-  return {[video]() mutable {
-            for (int attempt = 0; attempt < kMostDamaged; ++attempt) {
-              if (video.grab()) {
-                return true;
-              }
-            }
-            return false;
-          },
+  return {[video, clock]() mutable { return grab_past_damage([&video] { return video.grab(); }, clock); },
           [video](cv::Mat& picture) mutable { return video.retrieve(picture); },
           {},
           fps};

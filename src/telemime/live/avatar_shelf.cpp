@@ -33,12 +33,16 @@ AvatarShelf::AvatarShelf() : AvatarShelf([](const AvatarLook& look) { return mak
 AvatarShelf::AvatarShelf(Make make) : make_(std::move(make)), thread_([this] { work(); }) {}
 
 AvatarShelf::~AvatarShelf() {
+  stop();
+  thread_.join();
+}
+
+void AvatarShelf::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
   changed_.notify_all();
-  thread_.join();
 }
 
 bool AvatarShelf::has(std::string_view look) {

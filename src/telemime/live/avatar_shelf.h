@@ -30,7 +30,10 @@ class AvatarShelf {
   explicit AvatarShelf(Make make);
   AvatarShelf(const AvatarShelf&) = delete;
   AvatarShelf& operator=(const AvatarShelf&) = delete;
-  ~AvatarShelf();  ///< does not wait for those that are not begun
+  ~AvatarShelf();  ///< stop(), and waits for the one that is being made
+
+  /// No other one is begun; who waits for one hears soon that there will be none.
+  void stop();
 
   /// Whether get() knows the name.
   static bool has(std::string_view look);

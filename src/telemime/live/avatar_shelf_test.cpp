@@ -84,23 +84,26 @@ TEST(AvatarShelf, WhatCannotBeMadeIsNull) {
 TEST(AvatarShelf, EndsWithoutMakingTheRestAndTellsWhoWaits) {
   std::promise<void> begun;
   std::promise<void> go;
-  int made = 0;
+  int calls = 0;
+  std::future<AvatarShelf::Bytes> in_hand;
   std::future<AvatarShelf::Bytes> waiting;
   {
-    AvatarShelf shelf([&](const AvatarLook&) {
-      begun.set_value();
-      go.get_future().wait();
-      ++made;
+    AvatarShelf shelf([&, gate = go.get_future().share()](const AvatarLook&) {
+      if (++calls == 1) {
+        begun.set_value();
+        gate.wait();
+      }
       return std::string("file");
     });
     begun.get_future().wait();
+    in_hand = ask(shelf, name_of(0));
     waiting = ask(shelf, name_of(3));
-    std::thread ends([&] { go.set_value(); });
-    ends.join();
-    // The one in hand is finished at any moment now; a second one would throw in begun.set_value().
+    shelf.stop();
+    go.set_value();
   }
+  EXPECT_EQ(*in_hand.get(), "file") << "it was begun";
   EXPECT_EQ(waiting.get(), nullptr);
-  EXPECT_EQ(made, 1);
+  EXPECT_EQ(calls, 1);
 }
 
 }  // namespace

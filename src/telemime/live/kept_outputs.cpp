@@ -7,8 +7,21 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/live/live_settings.h"
+#include "telemime/network/url.h"
 
 namespace telemime {
+namespace {
+
+// The file may hold what this version cannot send to.
+std::string meaning_or_text(const std::string& url) {
+  try {
+    return meaning_of(url);
+  } catch (const Error&) {
+    return url;
+  }
+}
+
+}  // namespace
 
 KeptOutputs::KeptOutputs(std::filesystem::path file, SenderList& senders, Tell tell)
     : file_(std::move(file)), senders_(senders), tell_(std::move(tell)) {}
@@ -39,28 +52,62 @@ void KeptOutputs::offer(bool resume) {
 void KeptOutputs::offer(const std::string& url, bool resume) {
   try {
     senders_.offer(url);
+    const std::string shown = without_password(url);
     const std::vector<SenderStatus> outputs = senders_.status();
     const bool off = std::any_of(outputs.begin(), outputs.end(), [&](const SenderStatus& output) {
-      return output.url == url && output.state == SenderState::off;
+      return output.url == shown && output.state == SenderState::off;
     });
     if (resume && off) {
-      senders_.add(url, /*keep=*/true);
-      tell_(MessageLevel::info, "sending again, as in an earlier run: " + url);
+      senders_.add(url);
+      tell_(MessageLevel::info, "sending again, as in an earlier run: " + shown);
     }
   } catch (const Error& e) {
     tell_(MessageLevel::warning, std::string("an output of an earlier run cannot be used: ") + e.what());
   }
 }
 
+void KeptOutputs::keep(const std::string& url) {
+  note({without_password(url), true});
+}
+
+void KeptOutputs::forget(const std::string& url) {
+  note({url, false});
+}
+
+void KeptOutputs::note(Change change) {
+  const std::lock_guard lock(mutex_);
+  changes_.push_back(std::move(change));
+  due_ = true;
+}
+
 void KeptOutputs::save() {
-  if (file_.empty() || !changed_.exchange(false)) {
-    return;
+  std::vector<Change> changes;
+  {
+    const std::lock_guard lock(mutex_);
+    if (file_.empty() || !std::exchange(due_, false)) {
+      return;
+    }
+    changes = changes_;
   }
   try {
-    save_settings(file_, {senders_.kept()});
+    update_settings(file_, [&](LiveSettings& settings) {
+      for (const Change& change : changes) {
+        const std::string meaning = meaning_or_text(change.url);
+        std::vector<std::string>& urls = settings.outputs;
+        const auto same = [&](const std::string& url) { return meaning_or_text(url) == meaning; };
+        if (!change.keep) {
+          std::erase_if(urls, same);
+        } else if (std::none_of(urls.begin(), urls.end(), same)) {
+          urls.push_back(change.url);
+        }
+      }
+    });
   } catch (const Error& e) {
     tell_(MessageLevel::warning, e.what());
+    return;
   }
+  const std::lock_guard lock(mutex_);
+  changes_.erase(changes_.begin(), changes_.begin() + static_cast<std::ptrdiff_t>(changes.size()));
 }
 
 }  // namespace telemime

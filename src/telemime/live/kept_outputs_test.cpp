@@ -24,8 +24,13 @@ struct OneRun {
     };
   }
   void add(const std::string& url) {
-    senders.add(url, true);
-    kept.changed();
+    senders.add(url);
+    kept.keep(url);
+    kept.save();
+  }
+  void remove(const std::string& url) {
+    senders.remove(url);
+    kept.forget(url);
     kept.save();
   }
   SenderState state(std::size_t output) const { return senders.status().at(output).state; }
@@ -53,9 +58,7 @@ TEST_F(Kept, AnOutputIsOfferedAgainAndNotSentTo) {
   EXPECT_EQ(second.state(0), SenderState::off);
   EXPECT_NE(second.heard.find("vmc://localhost:39539"), std::string::npos) << second.heard;
   EXPECT_NE(second.heard.find("--resume-outputs"), std::string::npos) << second.heard;
-  second.senders.remove("vmc://localhost");
-  second.kept.changed();
-  second.kept.save();
+  second.remove("vmc://localhost");
   EXPECT_TRUE(OneRun(file_).senders.status().empty()) << "what was removed is not offered again";
 }
 
@@ -95,6 +98,56 @@ TEST_F(Kept, OneThatIsNoOutputAnyMoreDoesNotKeepTheOthersAway) {
   EXPECT_EQ(run.worst, MessageLevel::warning);
   EXPECT_NE(run.heard.find("carrier-pigeon"), std::string::npos) << run.heard;
   EXPECT_NE(run.state(0), SenderState::off);
+}
+
+TEST_F(Kept, TwoRunsAtOnceDoNotUndoEachOthersChanges) {
+  save_settings(file_, {{"vmc://old", "carrier-pigeon://coop"}});
+  OneRun one(file_);
+  OneRun other(file_);
+  one.add("vmc://one");
+  other.add("vmc://other");
+  other.add("vmc://one:39539");
+  EXPECT_EQ(load_settings(file_).outputs,
+            (std::vector<std::string>{"vmc://old", "carrier-pigeon://coop", "vmc://one", "vmc://other"}));
+  one.remove("vmc://old:39539");
+  other.remove("vmc://other");
+  EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"carrier-pigeon://coop", "vmc://one"}));
+}
+
+TEST_F(Kept, MoreThanCanBeOfferedStay) {
+  LiveSettings many;
+  for (int i = 0; i < 20; ++i) {
+    many.outputs.push_back("vmc://h" + std::to_string(i));
+  }
+  save_settings(file_, many);
+  OneRun run(file_);
+  EXPECT_EQ(run.senders.status().size(), 16U);
+  run.remove("vmc://h3");
+  run.add("vmc://new");
+  many.outputs.erase(many.outputs.begin() + 3);
+  many.outputs.emplace_back("vmc://new");
+  EXPECT_EQ(load_settings(file_).outputs, many.outputs);
+}
+
+TEST_F(Kept, WhatCouldNotBeWrittenIsWrittenWithTheNextChange) {
+  std::ofstream(folder_.file("telemime")) << "a file where the folder should be";
+  OneRun run(file_);
+  run.add("vmc://one");
+  EXPECT_EQ(run.worst, MessageLevel::warning);
+  run.heard.clear();
+  run.kept.save();
+  EXPECT_EQ(run.heard, "") << "it is not told again and again";
+  std::filesystem::remove(folder_.file("telemime"));
+  run.add("vmc://two");
+  EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"vmc://one", "vmc://two"}));
+}
+
+TEST_F(Kept, APasswordIsNot) {
+  OneRun run(file_);
+  run.kept.keep("other://anna:secret@host/x");
+  run.kept.save();
+  ASSERT_EQ(load_settings(file_).outputs.size(), 1U);
+  EXPECT_EQ(load_settings(file_).outputs[0].find("secret"), std::string::npos);
 }
 
 TEST_F(Kept, WhatCannotBeWrittenIsTold) {

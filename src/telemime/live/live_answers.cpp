@@ -3,6 +3,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/live/live_messages.h"
+#include "telemime/network/url.h"
 
 namespace telemime {
 namespace {
@@ -42,8 +43,11 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Recal
   return std::nullopt;
 }
 
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const AddOutput& command) {
-  senders_.add(command.url, /*keep=*/true);
+LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const AddOutput& command) {
+  senders_.add(command.url);
+  if (hooks_.from_here(client)) {
+    hooks_.keep(command.url);
+  }
   return outputs_changed(true, command.url);
 }
 
@@ -51,15 +55,18 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Switc
   return outputs_changed(senders_.switch_off(command.url), command.url);
 }
 
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const RemoveOutput& command) {
-  return outputs_changed(senders_.remove(command.url), command.url);
+LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const RemoveOutput& command) {
+  const bool known = senders_.remove(command.url);
+  if (known && hooks_.from_here(client)) {
+    hooks_.forget(command.url);
+  }
+  return outputs_changed(known, command.url);
 }
 
-LiveAnswers::Answer LiveAnswers::outputs_changed(bool known, const std::string& url) {
+LiveAnswers::Answer LiveAnswers::outputs_changed(bool known, const std::string& url) const {
   if (!known) {
-    return words_message(MessageLevel::error, url + " is not among the outputs");
+    return words_message(MessageLevel::error, without_password(url) + " is not among the outputs");
   }
-  hooks_.outputs();
   hooks_.changed();
   return std::nullopt;
 }

@@ -17,13 +17,17 @@
 
 namespace telemime {
 
-/// Does what pages ask for. For the server's thread, unless said otherwise.
+/// Does what pages ask for. What is kept for later runs follows the pages of this computer alone: whoever
+/// else may reach the page changes this run, not the user's settings. For the server's thread, unless said
+/// otherwise.
 class LiveAnswers {
  public:
   struct Hooks {
     std::function<void(std::uint64_t client, int topic, bool on)> topic;  ///< WebServer::set_topic
-    std::function<void()> changed;  ///< there is a new status to be told
-    std::function<void()> outputs;  ///< what is kept of them has changed
+    std::function<void()> changed;                        ///< there is a new status to be told
+    std::function<bool(std::uint64_t client)> from_here;  ///< WebServer::from_here
+    std::function<void(const std::string& url)> keep;     ///< KeptOutputs::keep
+    std::function<void(const std::string& url)> forget;   ///< KeptOutputs::forget
   };
   LiveAnswers(Recorder& recorder, SenderList& senders, Clock clock, Hooks hooks)
       : recorder_(recorder), senders_(senders), clock_(std::move(clock)), hooks_(std::move(hooks)) {}
@@ -51,7 +55,7 @@ class LiveAnswers {
   Answer carry_out(std::uint64_t client, const Drawn& command);
   Answer carry_out(std::uint64_t client, const Ping& command);
   LiveSession& session() const;
-  Answer outputs_changed(bool known, const std::string& url);
+  Answer outputs_changed(bool known, const std::string& url) const;
 
   Recorder& recorder_;
   SenderList& senders_;

@@ -9,7 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/kept_outputs.h"
 #include "telemime/live/live_answers.h"
@@ -38,9 +37,23 @@ struct LiveProgram::State {
         console(std::move(message)),
         recorder(asked.recordings, asked.request.output_options,
                  [this](MessageLevel level, const std::string& words) { tell(level, words); }),
-        answers(recorder, senders, clock,
-                {[this](std::uint64_t client, int topic, bool on) { server->set_topic(client, topic, on); },
-                 [this] { tell_status(); }, [this] { kept.changed(); }}) {
+        answers(
+            recorder, senders, clock,
+            {[this](std::uint64_t client, int topic, bool on) { server->set_topic(client, topic, on); },
+             [this] { tell_status(); }, [this](std::uint64_t client) { return server->from_here(client); },
+             [this](const std::string& url) { kept.keep(url); },
+             [this](const std::string& url) { kept.forget(url); }}) {
+    try {
+      begin(std::move(source));
+    } catch (...) {
+      end();
+      throw;
+    }
+  }
+
+  ~State() { end(); }
+
+  void begin(std::unique_ptr<Source> source) {
     for (const std::string& url : options.send) {
       senders.add(url);
     }
@@ -66,22 +79,28 @@ struct LiveProgram::State {
     ticker = std::thread([this] { tick(); });
   }
 
-  ~State() {
+  // Threads and handlers call each other: all of them stop before the first object goes.
+  void end() {
     {
       const std::lock_guard lock(mutex);
       stop = true;
     }
     changed.notify_all();
-    if (ticker.joinable()) {
-      ticker.join();
-      painter.join();
+    for (std::thread* const thread : {&ticker, &painter}) {
+      if (thread->joinable()) {
+        thread->join();
+      }
     }
-    // The server's handlers use the session and the recorder until it is gone; their messages use the server.
+    // The server's handlers use the session and the recorder until it has stopped; their messages use the
+    // server.
+    avatars.stop();
     if (session) {
       session->stop();
     }
     recorder.close();
-    server.reset();
+    if (server) {
+      server->stop();
+    }
     kept.save();
   }
 
@@ -260,9 +279,7 @@ struct LiveProgram::State {
         return LiveFailure{false, session_error};
       }
     }
-    const InputKind kind = input_kind(options.request.input);
-    const bool camera = kind == InputKind::camera || kind == InputKind::device || kind == InputKind::stream;
-    return camera && !now.words.empty() ? std::optional(LiveFailure{true, now.words}) : std::nullopt;
+    return !options.ends && !now.words.empty() ? std::optional(LiveFailure{true, now.words}) : std::nullopt;
   }
 
   LiveRequest options;

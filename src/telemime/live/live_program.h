@@ -19,10 +19,11 @@ namespace telemime {
 /// What `telemime live` is asked to do.
 struct LiveRequest {
   TrackRequest request;
-  bool guided = true;              ///< wait for the empty room
-  double page_wait = 60.0;         ///< s without a page to ask for it, until the start goes on without
-  WebServerOptions web;            ///< where the page is served
-  std::vector<std::string> send;   ///< URLs of senders
+  bool ends = false;              ///< the input has an end, which is no failure: a file, also one on a server
+  bool guided = true;             ///< wait for the empty room
+  double page_wait = 60.0;        ///< s without a page to ask for it, until the start goes on without
+  WebServerOptions web;           ///< where the page is served
+  std::vector<std::string> send;  ///< URLs of senders
   std::filesystem::path settings;  ///< file of what is kept for later runs; empty: nothing is
   bool resume_outputs = false;     ///< send to the outputs kept by earlier runs at once
   std::filesystem::path recordings = "telemime-recordings";
@@ -31,7 +32,7 @@ struct LiveRequest {
 
 /// Why a run has ended that nobody asked to end.
 struct LiveFailure {
-  bool input = false;  ///< the camera or stream cannot be read any more; else something inside failed
+  bool input = false;  ///< the input cannot be read any more; else something inside failed
   std::string words;
 };
 
@@ -42,7 +43,7 @@ struct LiveReport {
       latency;       ///< from the camera to the avatar drawn, as pages measured; ms
   double cpu = 0.0;  ///< cores that this process used since it began
   std::vector<SenderStatus> outputs;
-  std::optional<LiveFailure> failure;  ///< never at the end of a file
+  std::optional<LiveFailure> failure;  ///< never at the end of an input that has one
   std::size_t pages = 0;               ///< that are open
   std::int64_t poses = 0;              ///< messages made for pages; none are when nobody gets them
   std::int64_t pictures = 0;           ///< the same

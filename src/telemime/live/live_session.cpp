@@ -104,6 +104,8 @@ struct LiveSession::State {
       }
       if (hand_over.wait_for_search()) {
         leave_person();
+        const std::lock_guard lock(mutex);
+        statistics.clear();  // what comes before and after says nothing of each other
       }
     }
   }
@@ -207,13 +209,16 @@ struct LiveSession::State {
 
   // The search side's thread.
   void search() {
-    guarded([this] {
+    const bool well = guarded([this] {
       while (LiveSlot* const slot = hand_over.take()) {
         decide(*slot);
         hand_over.done(tracker->settled());
       }
     });
     hand_over.finish();
+    if (!well) {
+      source->stop();  // the image side may wait for a camera that never comes back
+    }
   }
 
   void decide(LiveSlot& slot) {
@@ -260,15 +265,17 @@ struct LiveSession::State {
     followed = times;
   }
 
-  // What fails in a thread ends the run, in words.
+  // What fails in a thread ends the run, in words; false then.
   template <typename Work>
-  void guarded(const Work& work) {
+  bool guarded(const Work& work) {
     try {
       work();
+      return true;
     } catch (const std::exception& e) {
       say(e.what(), MessageLevel::error);
       const std::lock_guard lock(mutex);
       failure = e.what();
+      return false;
     }
   }
 

@@ -2,9 +2,11 @@
 #include "telemime/live/live_settings.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <fstream>
@@ -73,12 +75,42 @@ class NewFile {
   bool whole_ = false;
 };
 
-}  // namespace
+// Whoever else changes a file in the folder waits. Where the file system has no locks, it is as without.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
 
-LiveSettings load_settings(const fs::path& file) {
+ private:
+  int descriptor_;
+};
+
+// Where symbolic links lead, also to a file that is not there yet: whoever keeps their settings elsewhere
+// keeps the link.
+fs::path at_end_of_links(fs::path file) {
+  constexpr int kMostLinks = 40;
+  std::error_code failed;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(file, failed); ++links) {
+    file = file.parent_path() / fs::read_symlink(file, failed);
+  }
+  return file;
+}
+
+// All that is in the file; an empty object when there is none. Throws as load_settings().
+Json read(const fs::path& file) {
   std::error_code failed;
   if (!fs::exists(file, failed) && !failed) {
-    return {};
+    return Json::object();
   }
   std::ifstream in(file, std::ios::binary);
   std::string text(static_cast<std::size_t>(kLongestFile) + 1, '\0');
@@ -91,7 +123,7 @@ LiveSettings load_settings(const fs::path& file) {
     damaged(file, "it is longer than " + std::to_string(kLongestFile) + " bytes");
   }
   // Brackets that go deeper than ours could fill the stack of the parser.
-  const Json json = Json::parse(
+  Json json = Json::parse(
       text, [](int depth, Json::parse_event_t, Json&) { return depth < 8; }, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("outputs") || !json["outputs"].is_array()) {
     damaged(file, "it is not what Telemime writes");
@@ -99,30 +131,57 @@ LiveSettings load_settings(const fs::path& file) {
   if (json.value("version", Json()) != kVersion) {
     damaged(file, "it was written by another version of Telemime");
   }
-  LiveSettings settings;
-  for (const Json& url : json["outputs"]) {
-    if (!url.is_string() || settings.outputs.size() == kMostOutputs) {
-      damaged(file, "its list of outputs is not what Telemime writes");
-    }
-    settings.outputs.push_back(url.get<std::string>());
+  const Json& urls = json["outputs"];
+  if (urls.size() > kMostOutputs ||
+      !std::all_of(urls.begin(), urls.end(), [](const Json& url) { return url.is_string(); })) {
+    damaged(file, "its list of outputs is not what Telemime writes");
   }
-  return settings;
+  return json;
 }
 
-void save_settings(const fs::path& file, const LiveSettings& settings) {
+LiveSettings settings_of(const Json& json) {
+  return {json.value("outputs", std::vector<std::string>())};
+}
+
+}  // namespace
+
+LiveSettings load_settings(const fs::path& file) {
+  return settings_of(read(file));
+}
+
+void update_settings(const fs::path& file, const std::function<void(LiveSettings&)>& change) {
   std::error_code failed;
-  const fs::path folder = fs::absolute(file, failed).parent_path();
+  const fs::path target = at_end_of_links(fs::absolute(file, failed));
+  const fs::path folder = target.parent_path();
   if (fs::create_directories(folder, failed)) {
     fs::permissions(folder, fs::perms::owner_all, failed);
   }
-  const Json json = {{"version", kVersion}, {"outputs", settings.outputs}};
-  fs::path next = file;
+  const FolderLock alone(folder);
+  Json json;
+  try {
+    json = read(target);
+  } catch (const Error&) {  // whoever loaded it was told
+    json = Json::object();
+  }
+  LiveSettings settings = settings_of(json);
+  change(settings);
+  std::vector<std::string>& urls = settings.outputs;
+  if (urls.size() > kMostOutputs) {
+    urls.erase(urls.begin(), urls.end() - static_cast<std::ptrdiff_t>(kMostOutputs));
+  }
+  json["version"] = kVersion;
+  json["outputs"] = urls;
+  fs::path next = target;
   next += ".new-" + std::to_string(::getpid());
   errno = 0;
   NewFile made(next);
-  if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n") || !made.move_to(file)) {
-    unwritable(file, errno);
+  if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n") || !made.move_to(target)) {
+    unwritable(target, errno);
   }
+}
+
+void save_settings(const fs::path& file, const LiveSettings& settings) {
+  update_settings(file, [&](LiveSettings& kept) { kept = settings; });
 }
 
 }  // namespace telemime

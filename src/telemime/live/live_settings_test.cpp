@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
@@ -67,6 +68,51 @@ TEST_F(Settings, AFileThatIsDamagedIsRefusedInWordsAndStays) {
   fs::remove(file_);
   fs::create_directory(file_);
   EXPECT_NE(refusal(), "") << "a folder of that name";
+}
+
+TEST_F(Settings, ChangesAreMadeToWhatIsThereNow) {
+  save_settings(file_, {{"vmc://a"}});
+  write(R"({"version":1,"outputs":["vmc://a","vmc://b"],"more":{"of":"a later version"}})");
+  update_settings(file_, [](LiveSettings& settings) { settings.outputs.emplace_back("vmc://c"); });
+  EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"vmc://a", "vmc://b", "vmc://c"}));
+  std::ifstream in(file_);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find("a later version"), std::string::npos) << text;
+}
+
+TEST_F(Settings, ManyAtOnceWaitForEachOther) {
+  std::vector<std::thread> programs;
+  for (int program = 0; program < 3; ++program) {
+    programs.emplace_back([&, program] {
+      for (int i = 0; i < 20; ++i) {
+        const std::string url = "vmc://h" + std::to_string(100 * program + i);
+        update_settings(file_, [&](LiveSettings& settings) { settings.outputs.push_back(url); });
+      }
+    });
+  }
+  for (std::thread& program : programs) {
+    program.join();
+  }
+  EXPECT_EQ(load_settings(file_).outputs.size(), 60U);
+  update_settings(file_, [](LiveSettings& settings) {
+    for (int i = 0; i < 10; ++i) {
+      settings.outputs.push_back("ws://h" + std::to_string(i));
+    }
+  });
+  EXPECT_EQ(load_settings(file_).outputs.size(), 64U) << "what is too much for a run to read is not written";
+  EXPECT_EQ(load_settings(file_).outputs.back(), "ws://h9");
+}
+
+TEST_F(Settings, ALinkToTheFileStaysOne) {
+  const fs::path kept = folder_.path() / "dotfiles" / "live.json";
+  fs::create_directories(file_.parent_path());
+  fs::create_symlink("../../dotfiles/live.json", file_);
+  for (const char* const url : {"vmc://a", "vmc://b"}) {  // the file is not there at first
+    save_settings(file_, {{url}});
+    EXPECT_TRUE(fs::is_symlink(file_));
+    EXPECT_FALSE(fs::is_symlink(kept));
+    EXPECT_EQ(load_settings(kept).outputs.front(), url);
+  }
 }
 
 TEST_F(Settings, WhatCannotBeWrittenIsAnErrorAndTheOldFileStays) {

@@ -32,7 +32,12 @@ double usable_stamp(double taken, double last, double now) {
 
 void LiveStatistics::add(const FrameTimes& times) {
   if (!last_.empty()) {
-    dropped_ += std::max<std::int64_t>(0, times.index - last_.back().index - 1);
+    const std::int64_t came = std::max<std::int64_t>(1, times.index - last_.back().index);
+    dropped_ += came - 1;
+    // Not for a tracker that is slow: other pictures came in that time.
+    if (times.taken - last_.back().taken >= kStopped * static_cast<double>(came)) {
+      last_.clear();
+    }
   }
   ++frames_;
   last_.push_back(times);

@@ -42,11 +42,12 @@ struct LiveRates {
 /// `last`, that of the frame before. All in seconds of one clock that never goes back; last <= now.
 double usable_stamp(double taken, double last, double now);
 
-/// Rates and times over the last 100 frames. Not for several threads.
+/// Rates and times over the last 100 frames, and never over an interruption of the camera (no picture for
+/// 2 s). Not for several threads.
 class LiveStatistics {
  public:
   void add(const FrameTimes& times);
-  /// At `now`: a camera that has stopped for 2 s has no rate.
+  /// At `now`: a camera that has stopped has no rate.
   LiveRates rates(double now) const;
   void clear();
 

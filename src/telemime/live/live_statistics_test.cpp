@@ -59,6 +59,31 @@ TEST(LiveStatistics, ACameraThatStoppedHasNoRate) {
   EXPECT_EQ(statistics.rates(5.0).input, 0.0);
 }
 
+TEST(LiveStatistics, AnInterruptionDoesNotCountIntoTheRates) {
+  LiveStatistics statistics;
+  for (int i = 0; i <= 20; ++i) {
+    statistics.add(at(i, 0.04 * i));
+  }
+  const double back = 600.0;  // ten minutes later
+  for (int i = 0; i <= 20; ++i) {
+    statistics.add(at(21 + i, back + 0.04 * i));
+  }
+  const LiveRates rates = statistics.rates(back + 0.9);
+  EXPECT_NEAR(rates.input, 25.0, 1e-9);
+  EXPECT_NEAR(rates.tracked, 25.0, 1e-9);
+  EXPECT_EQ(rates.frames, 42);
+  EXPECT_EQ(rates.dropped, 0);
+}
+
+TEST(LiveStatistics, ATrackerThatIsSlowHasARate) {
+  LiveStatistics statistics;
+  for (int i = 0; i <= 10; ++i) {
+    statistics.add(at(100 * i, 4.0 * i));  // one frame in four seconds, of a camera of 25 a second
+  }
+  EXPECT_NEAR(statistics.rates(40.1).tracked, 0.25, 1e-9);
+  EXPECT_NEAR(statistics.rates(40.1).input, 25.0, 1e-9);
+}
+
 TEST(LatencyRecord, LeavesOutWhatNoPageCanHaveMeasured) {
   LatencyRecord record;
   EXPECT_FALSE(record.summary());

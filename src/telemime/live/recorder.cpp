@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -102,6 +103,13 @@ struct Recorder::State {
   }
 
   void write(const MotionFrame& frame) {
+    if (open && open->resampler.gap_before(frame) > kLongestBridge) {
+      const auto gap = std::lround(open->resampler.gap_before(frame));
+      say(MessageLevel::warning, "nothing came for " + std::to_string(gap) + " s: recording " +
+                                     std::to_string(open->recording.number) +
+                                     " ends there, and goes on in the next one");
+      close();
+    }
     if (!open) {
       begin();
     }
@@ -138,7 +146,7 @@ struct Recorder::State {
                   "Choose another one with --recordings.");
     }
     Open made{recording, Resampler(header->body, header->camera, header->fps), {}};
-    for (const OutputFormat& format : kOutputFormats) {
+    for (const OutputFormat& format : formats) {
       made.files.push_back(
           std::make_unique<FileOutput>(recording.folder / format.file_name, format.make(options), *header));
     }
@@ -149,22 +157,25 @@ struct Recorder::State {
     if (!open) {
       return;
     }
-    Recording recording = open->recording;
-    for (const auto& file : open->files) {
+    const Open last = std::move(*open);
+    open.reset();  // whatever fails from here on, it is over
+    Recording recording = last.recording;
+    for (const auto& file : last.files) {
       try {
         file->close();
       } catch (const Error& e) {
         say(MessageLevel::error, e.what());
+      } catch (const std::exception& e) {  // memory is short: the others may need less
+        say(MessageLevel::error, file->path().string() + " has no end: " + e.what());
       }
     }
-    for (const auto& file : open->files) {
+    for (const auto& file : last.files) {
       std::error_code failed;
       const auto bytes = std::filesystem::file_size(file->path(), failed);
       if (!failed) {
         recording.files.push_back({file->path().filename().string(), bytes});
       }
     }
-    open.reset();
     std::int64_t missing = 0;
     {
       const std::lock_guard lock(mutex);
@@ -206,6 +217,7 @@ struct Recorder::State {
   OutputOptions options;
   Message message;
   std::int64_t most_frames = 0;
+  std::span<const OutputFormat> formats;
 
   // Of the recorder's thread.
   std::shared_ptr<const StreamHeader> header;
@@ -228,12 +240,13 @@ struct Recorder::State {
 };
 
 Recorder::Recorder(std::filesystem::path folder, OutputOptions options, Message message,
-                   std::int64_t most_frames)
+                   std::int64_t most_frames, std::span<const OutputFormat> formats)
     : state_(std::make_unique<State>()) {
   state_->folder = std::move(folder);
   state_->options = std::move(options);
   state_->message = std::move(message);
   state_->most_frames = most_frames;
+  state_->formats = formats;
   state_->thread = std::thread([s = state_.get()] { s->work(); });
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,10 @@ struct Recording {
 inline constexpr std::int64_t kMostRecordedFrames = 216'000;
 
 /// Records live motion into files, one folder for each recording, in every format and at a constant rate
-/// (resampler.h). Writes in a thread of its own: a slow disk costs frames of the recording, after 10 s, and
-/// never the tracker's time; a full one ends the recording, whose files then hold what was written.
-/// Everything from any thread; nothing throws but the constructor.
+/// (resampler.h). After a gap of more than kLongestBridge it goes on in the next recording. Writes in a
+/// thread of its own: a slow disk costs frames of the recording, after 10 s, and never the tracker's time; a
+/// full one ends the recording, whose files then hold what was written. Everything from any thread; nothing
+/// throws but the constructor.
 class Recorder {
  public:
   using Message = std::function<void(MessageLevel, const std::string&)>;
@@ -43,7 +45,8 @@ class Recorder {
   /// thread. A recording of `most_frames` goes on in the next one: some formats keep 230 bytes a frame in
   /// memory until its end (measured with all: 62 MB for an hour at 25 a second, twice that while it ends).
   Recorder(std::filesystem::path folder, OutputOptions options, Message message,
-           std::int64_t most_frames = kMostRecordedFrames);
+           std::int64_t most_frames = kMostRecordedFrames,
+           std::span<const OutputFormat> formats = kOutputFormats);
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();  ///< close()

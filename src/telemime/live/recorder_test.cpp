@@ -5,10 +5,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <mutex>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/scratch_folder.h"
@@ -23,7 +26,8 @@ namespace fs = std::filesystem;
 
 class Records : public ::testing::Test {
  protected:
-  std::unique_ptr<Recorder> recorder(std::int64_t most_frames = kMostRecordedFrames) {
+  std::unique_ptr<Recorder> recorder(std::int64_t most_frames = kMostRecordedFrames,
+                                     std::span<const OutputFormat> formats = kOutputFormats) {
     return std::make_unique<Recorder>(
         folder_.path() / "r", OutputOptions(),
         [this](MessageLevel level, const std::string& words) {
@@ -32,7 +36,7 @@ class Records : public ::testing::Test {
            : level == MessageLevel::warning ? warnings_
                                             : errors_) += words + "\n";
         },
-        most_frames);
+        most_frames, formats);
   }
   std::string errors() {
     const std::lock_guard lock(mutex_);
@@ -116,6 +120,54 @@ TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
   const std::lock_guard lock(mutex_);
   EXPECT_NE(infos_.find("recording 1 is full"), std::string::npos) << infos_;
   EXPECT_EQ(warnings_ + errors_, "");
+}
+
+TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  for (const double time : {0.0, 8.0, 100'000.0, 100'000.04}) {
+    const auto index = static_cast<std::int64_t>(std::lround(time * header_.fps));
+    r->write(testing_motion::frame_of(header_.body, header_.camera, Pose{}, index, header_.fps));
+  }
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 2 || !errors().empty(); }));
+  EXPECT_EQ(errors(), "");
+  EXPECT_EQ(r->ended()[0].frames, 201) << "a gap of some seconds is filled";
+  EXPECT_EQ(r->ended()[1].frames, 2);
+  const std::lock_guard lock(mutex_);
+  EXPECT_NE(warnings_.find("nothing came for 99992 s: recording 1 ends there"), std::string::npos)
+      << warnings_;
+}
+
+// A format whose tail needs more memory than there is.
+class NoEnd final : public Encoder {
+ public:
+  std::string begin(const StreamHeader& /*header*/) override { return "head\n"; }
+  std::string frame(const MotionFrame& /*frame*/) override { return "frame\n"; }
+  std::string end() override { throw std::bad_alloc(); }
+  std::optional<Patch> patch() const override { return std::nullopt; }
+};
+
+TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {
+  const std::array<OutputFormat, 2> formats = {
+      {{"odd", "motion.odd", "",
+        [](const OutputOptions&) -> std::unique_ptr<Encoder> { return std::make_unique<NoEnd>(); }},
+       output_format("glb")}};
+  const auto r = recorder(kMostRecordedFrames, formats);
+  r->person(header_);
+  for (std::size_t time = 1; time <= 2; ++time) {
+    r->start();
+    write(*r, 5);
+    r->stop();
+    ASSERT_TRUE(comes_true([&] { return r->ended().size() == time; }));
+    EXPECT_FALSE(r->current());
+    const Recording recording = r->ended().back();
+    EXPECT_EQ(recording.files.size(), 2U);
+    EXPECT_EQ(keys(recording.folder / "motion.glb"), 5U);
+    EXPECT_EQ(text_of(recording.folder / "motion.odd").substr(0, 11), "head\nframe\n");
+  }
+  EXPECT_NE(errors().find("motion.odd has no end"), std::string::npos) << errors();
 }
 
 TEST_F(Records, AFolderThatCannotBeMadeIsAnErrorInWords) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "telemime/core/errors.h"
 #include "telemime/smoothing/joint_rotations.h"
 #include "telemime/smoothing/smoother.h"
 
@@ -48,6 +49,10 @@ std::vector<MotionFrame> Resampler::push(const MotionFrame& frame) {
   if (!last_) {
     start_ = frame.time;
     last_ = frame;
+  }
+  if (gap_before(frame) > kLongestBridge) {
+    throw Error(ErrorKind::usage, "a gap of " + std::to_string(gap_before(frame)) + " s is not filled",
+                "Begin anew after it.");
   }
   std::vector<MotionFrame> frames;
   while (start_ + static_cast<double>(count_) / fps_ <= frame.time + kSlack) {

@@ -10,16 +10,22 @@
 
 namespace telemime {
 
+/// The longest gap between two frames that is filled, s.
+inline constexpr double kLongestBridge = 10.0;
+
 /// Makes frames that came when they came into frames at a constant rate, as files of motion need them:
 /// between two tracked frames at most half a second apart the joints turn evenly; in longer gaps the person
-/// is lost.
+/// is lost. A gap of more than kLongestBridge is not filled: what follows it belongs into another file.
 class Resampler {
  public:
   /// `fps` > 0; `camera` is that of MotionFrame::pixels.
   Resampler(const Body& body, const Camera& camera, double fps) : body_(body), camera_(camera), fps_(fps) {}
 
+  /// How long before this frame the last one was, s; 0 of the first one.
+  double gap_before(const MotionFrame& frame) const { return last_ ? frame.time - last_->time : 0.0; }
+
   /// Frames in the order of time. Returns those of the constant rate up to it, frame and time from 0 at the
-  /// first one.
+  /// first one. Throws Error(usage) for one after a gap that is not filled.
   std::vector<MotionFrame> push(const MotionFrame& frame);
 
  private:

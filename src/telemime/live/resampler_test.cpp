@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "telemime/core/errors.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {
@@ -65,6 +66,17 @@ TEST(Resampler, InALongGapThePersonIsLost) {
   EXPECT_EQ(out.front().state, TrackState::lost);
   EXPECT_EQ(out[48].state, TrackState::lost);
   EXPECT_EQ(out[49].state, TrackState::tracking);
+}
+
+TEST(Resampler, AGapThatIsTooLongIsNotFilled) {
+  Resampler resampler = at_25();
+  EXPECT_EQ(resampler.gap_before(bent(7.0, 0.0)), 0.0);
+  resampler.push(bent(7.0, 0.0));
+  const MotionFrame late = bent(100'000.0, 0.0);
+  EXPECT_EQ(resampler.gap_before(late), 99'993.0);
+  EXPECT_THROW(resampler.push(late), Error) << "two and a half million frames are nobody's motion";
+  EXPECT_EQ(resampler.push(bent(7.04, 0.0)).size(), 1U) << "nothing came of it";
+  EXPECT_EQ(resampler.push(bent(7.04 + kLongestBridge, 0.0)).size(), 250U);
 }
 
 TEST(Resampler, WhoIsLostStaysLost) {

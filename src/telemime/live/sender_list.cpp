@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/network/url.h"
 
 namespace telemime {
 namespace {
@@ -35,17 +36,20 @@ void SenderList::require_room() const {
   }
 }
 
-void SenderList::add(const std::string& url, bool keep) {
-  const std::string meaning = meaning_of(url);
+void SenderList::add(const std::string& given) {
+  const std::string meaning = meaning_of(given);
   const std::lock_guard lock(mutex_);
   Entry* entry = find(meaning);
+  const std::string known = entry == nullptr ? "" : without_password(entry->url);
   if (entry != nullptr && entry->sender) {
-    throw Error(ErrorKind::usage,
-                url + " is sent to already" + (entry->url == url ? "" : ", as " + entry->url));
+    const std::string shown = without_password(given);
+    throw Error(ErrorKind::usage, shown + " is sent to already" + (known == shown ? "" : ", as " + known));
   }
   if (entry == nullptr) {
     require_room();
   }
+  // A page knows outputs without their passwords.
+  const std::string url = entry != nullptr && given == known ? entry->url : given;
   const std::shared_ptr<Sender> sender = make_sender(url);
   if (header_) {
     sender->begin(*header_);
@@ -53,18 +57,16 @@ void SenderList::add(const std::string& url, bool keep) {
   if (entry == nullptr) {
     entry = &entries_.emplace_back();
   }
-  *entry = {url, meaning, sender, keep || entry->keep};
+  *entry = {url, meaning, sender};
 }
 
 void SenderList::offer(const std::string& url) {
   const std::string meaning = meaning_of(url);
   const std::lock_guard lock(mutex_);
-  if (Entry* const entry = find(meaning)) {
-    entry->keep = true;
-    return;
+  if (find(meaning) == nullptr) {
+    require_room();
+    entries_.push_back({url, meaning, nullptr});
   }
-  require_room();
-  entries_.push_back({url, meaning, nullptr, true});
 }
 
 bool SenderList::switch_off(const std::string& url) {
@@ -90,17 +92,6 @@ bool SenderList::remove(const std::string& url) {
   gone = std::move(entry->sender);
   entries_.erase(entries_.begin() + (entry - entries_.data()));
   return true;
-}
-
-std::vector<std::string> SenderList::kept() const {
-  std::vector<std::string> urls;
-  const std::lock_guard lock(mutex_);
-  for (const Entry& entry : entries_) {
-    if (entry.keep) {
-      urls.push_back(entry.url);
-    }
-  }
-  return urls;
 }
 
 void SenderList::person(const StreamHeader& header) {
@@ -130,7 +121,7 @@ std::vector<SenderStatus> SenderList::status() const {
       all.push_back(entry.sender->status());
     } else {
       SenderStatus& off = all.emplace_back();
-      off.url = entry.url;
+      off.url = without_password(entry.url);
       off.state = SenderState::off;
       off.words = "nothing is sent there until it is switched on";
     }

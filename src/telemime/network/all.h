@@ -9,6 +9,7 @@
 
 #include "telemime/network/bap_serve.h"
 #include "telemime/network/bap_tcp.h"
+#include "telemime/network/mqtt_sender.h"
 #include "telemime/network/sender.h"
 #include "telemime/network/url.h"
 #include "telemime/network/vmc.h"
@@ -25,10 +26,11 @@ struct SenderKind {
   std::string_view summary;
   /// Throws Error(usage) when the URL cannot be used.
   std::unique_ptr<Sender> (*make)(const SendUrl&);
+  UrlUser user = UrlUser::refused;
 };
 
 /// All of them. A new kind is a Link (send_queue.h) and a line here. `mirror` is an option of each.
-inline constexpr std::array<SenderKind, 4> kSenderKinds = {{
+inline constexpr std::array<SenderKind, 6> kSenderKinds = {{
     {"vmc", kMarionettePort, "vmc://localhost:39539",
      "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
      "avatar programs that take the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
@@ -38,6 +40,11 @@ inline constexpr std::array<SenderKind, 4> kSenderKinds = {{
      "a server of MPEG-4 body animation parameters that VREng's clients can play", make_bap_serve_sender},
     {"ws", kHttpPort, "ws://localhost:8080/motion", "mirror=0|1; all others go to the receiver",
      "JSON messages over a WebSocket, for programs of one's own", make_web_socket_sender},
+    {"mqtt", kMqttPort, "mqtt://localhost:1883/home/studio", "mirror=0|1; name, look, seat, participant, key",
+     "a room that several people share, at an MQTT broker", make_mqtt_sender, UrlUser::taken},
+    {"mqtts", kMqttsPort, "mqtts://localhost:8883/home/studio",
+     "mirror=0|1; ca, name, look, seat, participant, key", "the same, encrypted by TLS", make_mqtt_sender,
+     UrlUser::taken},
 }};
 
 inline std::span<const SenderKind> sender_kinds() {

@@ -18,11 +18,11 @@ struct KnownUrl {
 };
 
 KnownUrl known(const std::string& text) {
-  const SendUrl parts = parse_url(text, kSenderKinds.front().example);
+  const SendUrl parts = parse_url(text, kSenderKinds.front().example, UrlUser::taken);
   std::string examples;
   for (const SenderKind& kind : kSenderKinds) {
     if (kind.scheme == parts.scheme) {
-      return {kind, parse_url(text, kind.example)};
+      return {kind, parse_url(text, kind.example, kind.user)};
     }
     examples += (examples.empty() ? "" : ", ") + std::string(kind.example);
   }
@@ -64,7 +64,7 @@ std::unique_ptr<Sender> make_sender(const std::string& url) {
 
 std::string meaning_of(const std::string& text) {
   const auto& [kind, url] = known(text);
-  std::string meaning = url.scheme + "://" +
+  std::string meaning = url.scheme + "://" + (url.user.empty() ? "" : url.user + "@") +
                         host_and_port(plain_host(url.host), url.port.value_or(kind.port)) +
                         (url.path.empty() ? "/" : url.path);
   std::map<std::string, std::string> ours = defaults_of(kind.options);

@@ -19,7 +19,7 @@ enum class SenderState {
 
 /// How an output over the network is doing.
 struct SenderStatus {
-  std::string url;  ///< as the user gave it
+  std::string url;  ///< as the user gave it, without a password
   SenderState state = SenderState::connecting;
   std::string words;           ///< what happened last and what will be done, for the user
   std::int64_t sent = 0;       ///< frames
@@ -49,9 +49,10 @@ class Sender {
 /// malformed, in words that show a right one.
 std::unique_ptr<Sender> make_sender(const std::string& url);
 
-/// What the URL means, as text: two that mean the same output have the same one. The scheme, the host
-/// (localhost is 127.0.0.1; none, where that is allowed, too), port, path and options, with what the URL
-/// leaves out filled in. Throws as make_sender does for a URL that cannot be parsed or has an unknown scheme.
+/// What the URL means, as text: two that mean the same output have the same one. The scheme, the user, the
+/// host (localhost is 127.0.0.1; none, where that is allowed, too), port, path and options, with what the URL
+/// leaves out filled in; a password does not count. Throws as make_sender does for a URL that cannot be
+/// parsed or has an unknown scheme.
 std::string meaning_of(const std::string& url);
 
 }  // namespace telemime

@@ -32,8 +32,9 @@ class SocketClient : public RawClient {
     }
   };
 
-  explicit SocketClient(std::uint16_t port, const std::string& headers = "", int receive_buffer = 0)
-      : RawClient(port, "127.0.0.1", receive_buffer) {
+  explicit SocketClient(std::uint16_t port, const std::string& headers = "", int receive_buffer = 0,
+                        const char* address = "127.0.0.1")
+      : RawClient(port, address, receive_buffer) {
     RawClient::send(request_text(port, "/ws", upgrade_headers + headers));
     handshake_ = reply(/*head=*/true);
     // The answer to that key is the example of RFC 6455, section 1.3.

@@ -31,9 +31,19 @@ std::string_view take_until(std::string_view& rest, std::string_view ends) {
   return taken;
 }
 
+bool is_port(std::string_view text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_room_scheme(std::string_view scheme) {
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return scheme.size() >= 4 && std::equal(scheme.begin(), scheme.begin() + 4, "mqtt", same);
+}
+
 class Parser {
  public:
-  Parser(const std::string& text, std::string_view example) : text_(text), example_(example) {}
+  Parser(const std::string& text, std::string_view example, UrlUser user)
+      : text_(text), shown_(without_password(text)), example_(example), user_(user) {}
 
   SendUrl parse() const {
     if (text_.size() > kLongestUrl) {
@@ -43,7 +53,7 @@ class Parser {
       fail("holds characters that do not belong in an address");
     }
     SendUrl url;
-    url.text = text_;
+    url.text = shown_;
     std::string_view rest = text_;
     const std::size_t end = rest.find("://");
     if (end == std::string_view::npos || end == 0) {
@@ -53,8 +63,14 @@ class Parser {
     std::transform(url.scheme.begin(), url.scheme.end(), url.scheme.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     rest.remove_prefix(end + 3);
+    if (user_ == UrlUser::taken) {
+      user(rest, url);
+    }
     url.host = host(rest);
     url.port = port(rest);
+    if (is_room_scheme(url.scheme) && rest.find('@') != std::string_view::npos) {
+      fail("has an \"@\" behind its host; %40 stands for one");  // or a password was mistaken for a path
+    }
     url.path = take_until(rest, "?#");
     url.options = options(rest);
     return url;
@@ -62,8 +78,26 @@ class Parser {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::usage, "the output \"" + text_ + "\" " + what,
+    throw Error(ErrorKind::usage, "the output \"" + shown_ + "\" " + what,
                 "Write it like " + std::string(example_) + ".");
+  }
+
+  void user(std::string_view& rest, SendUrl& url) const {
+    const std::string_view authority = rest.substr(0, rest.find_first_of("/?#"));
+    const std::size_t at = authority.rfind('@');
+    if (at == std::string_view::npos) {
+      return;
+    }
+    const std::string_view both = authority.substr(0, at);
+    const std::string_view name = both.substr(0, both.find(':'));
+    const auto user = percent_decoded(name);
+    const auto password = percent_decoded(both.substr(std::min(name.size() + 1, both.size())));
+    if (!user || !password || user->empty()) {
+      fail("has a user or password that cannot be understood");
+    }
+    url.user = *user;
+    url.password = *password;
+    rest.remove_prefix(at + 1);
   }
 
   std::string host(std::string_view& rest) const {
@@ -122,7 +156,9 @@ class Parser {
   }
 
   const std::string& text_;
+  std::string shown_;
   std::string_view example_;
+  UrlUser user_;
 };
 
 std::string listed(std::initializer_list<std::string_view> words) {
@@ -135,8 +171,48 @@ std::string listed(std::initializer_list<std::string_view> words) {
 
 }  // namespace
 
-SendUrl parse_url(const std::string& text, std::string_view example) {
-  return Parser(text, example).parse();
+SendUrl parse_url(const std::string& text, std::string_view example, UrlUser user) {
+  return Parser(text, example, user).parse();
+}
+
+std::string without_password(const std::string& url) {
+  const std::size_t scheme = url.find("://");
+  if (scheme == std::string::npos) {
+    return url;
+  }
+  const std::size_t start = scheme + 3;
+  const std::size_t end = std::min(url.find_first_of("/?#", start), url.size());
+  const std::size_t colon = url.find(':', start);
+  std::size_t at = url.substr(0, end).rfind('@');
+  if (at == std::string::npos || at < start) {
+    // No user in the right place. A password with a "/" in it would be one in the wrong place.
+    const bool host_and_path = colon == std::string::npos || colon > end ||
+                               is_port(std::string_view(url).substr(colon + 1, end - colon - 1));
+    at = host_and_path && !is_room_scheme(url) ? std::string::npos : url.rfind('@');
+  }
+  return at == std::string::npos || colon == std::string::npos || colon > at
+             ? url
+             : url.substr(0, colon) + url.substr(at);
+}
+
+std::optional<std::string> percent_decoded(std::string_view text) {
+  std::string decoded;
+  while (!text.empty()) {
+    const std::string_view plain = take_until(text, "%");
+    decoded += plain;
+    if (text.empty()) {
+      break;
+    }
+    unsigned byte = 0;
+    const std::string_view digits = text.substr(1, 2);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+    if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2) {
+      return std::nullopt;
+    }
+    decoded += static_cast<char>(byte);
+    text.remove_prefix(3);
+  }
+  return decoded;
 }
 
 void check_options(const SendUrl& url, std::initializer_list<std::string_view> names) {

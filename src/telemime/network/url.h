@@ -11,18 +11,31 @@
 
 namespace telemime {
 
-/// scheme://host:port/path?name=value&name=value, in its parts. An output over the network is named so.
+/// scheme://user:password@host:port/path?name=value&name=value, in its parts. An output over the network is
+/// named so.
 struct SendUrl {
-  std::string text;    ///< as the user gave it
-  std::string scheme;  ///< in small letters
-  std::string host;    ///< a name or an address, without the brackets of IPv6; may be empty
+  std::string text;      ///< as the user gave it, without the password: fit to be shown
+  std::string scheme;    ///< in small letters
+  std::string user;      ///< may be empty
+  std::string password;  ///< may be empty; shown to nobody
+  std::string host;      ///< a name or an address, without the brackets of IPv6; may be empty
   std::optional<std::uint16_t> port;
   std::string path;  ///< with its "/"; may be empty
   std::vector<std::pair<std::string, std::string>> options;
 };
 
+/// Whether "user:password@" may stand before the host.
+enum class UrlUser { refused, taken };
+
 /// Throws Error(usage) that shows a right one (`example`) when the text is no such URL.
-SendUrl parse_url(const std::string& text, std::string_view example);
+SendUrl parse_url(const std::string& text, std::string_view example, UrlUser user = UrlUser::refused);
+
+/// The URL without the password before its host: fit to be shown and kept. Also takes what stands in the
+/// place of one in a text that is no URL.
+std::string without_password(const std::string& url);
+
+/// "%41" becomes "A". Nothing when a "%" has no two hexadecimal digits behind it.
+std::optional<std::string> percent_decoded(std::string_view text);
 
 /// Throws Error(usage) when there is an option that is not among `names`.
 void check_options(const SendUrl& url, std::initializer_list<std::string_view> names);

@@ -55,6 +55,52 @@ TEST(Url, OptionsHaveAFirstAndOtherValues) {
   EXPECT_THROW(check_options(url, {"b"}), Error);
 }
 
+TEST(Url, AUserMayStandBeforeTheHostWhereThatIsWanted) {
+  const SendUrl url = parse_url("x://a.b:c%3a%2Fd@host:7/p?q=1", kExample, UrlUser::taken);
+  EXPECT_EQ(url.user, "a.b");
+  EXPECT_EQ(url.password, "c:/d");
+  EXPECT_EQ(url.host, "host");
+  EXPECT_EQ(url.port, 7);
+  EXPECT_EQ(url.path, "/p");
+  EXPECT_EQ(url.text, "x://a.b@host:7/p?q=1");
+  EXPECT_EQ(parse_url("x://a@[::1]", kExample, UrlUser::taken).host, "::1");
+  EXPECT_EQ(parse_url("x://a:@h", kExample, UrlUser::taken).password, "");
+  EXPECT_EQ(parse_url("x://a:b:c@h", kExample, UrlUser::taken).password, "b:c");
+  EXPECT_EQ(parse_url("x://h?q=a@b", kExample, UrlUser::taken).user, "");
+  EXPECT_THROW(parse_url("x://:c@h", kExample, UrlUser::taken), Error);
+  EXPECT_THROW(parse_url("x://a:%4@h", kExample, UrlUser::taken), Error);
+  EXPECT_THROW(parse_url("x://a:b@h", kExample), Error);
+}
+
+TEST(Url, APasswordIsNotShown) {
+  EXPECT_EQ(without_password("x://a:secret@h:1/p?q=1"), "x://a@h:1/p?q=1");
+  EXPECT_EQ(without_password("x://a@h:1/p"), "x://a@h:1/p");
+  EXPECT_EQ(without_password("x://h:1/p?q=a@b"), "x://h:1/p?q=a@b");
+  EXPECT_EQ(without_password("x://[::1]:80/p"), "x://[::1]:80/p");
+  EXPECT_EQ(without_password("no URL"), "no URL");
+  for (const char* const text :
+       {"x://a:secret@h", "x://a:secret@h:1:2", "x://a:sec@secret@h", "x://a:x/secret@h/p/q",
+        "x://a:x?secret@h/p", "mqtt://a:1/secret@h/p/q", "mqtt://a:secret@h/p?n=b@c", "MQTT://a:12?secret@h",
+        "mqtt://a:secret@h\n", "x://:secret@h", "mqtt://a:x#secret@h"}) {
+    EXPECT_EQ(without_password(text).find("secret"), std::string::npos) << without_password(text);
+    for (const UrlUser user : {UrlUser::refused, UrlUser::taken}) {
+      try {
+        EXPECT_EQ(parse_url(text, kExample, user).text.find("secret"), std::string::npos) << text;
+      } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find("secret"), std::string::npos) << error.what();
+      }
+    }
+  }
+}
+
+TEST(Url, PercentSignsStandForBytes) {
+  EXPECT_EQ(percent_decoded(""), "");
+  EXPECT_EQ(percent_decoded("J%C3%B6rg%20%25"), "J\xc3\xb6rg %");
+  for (const char* const bad : {"%", "%4", "a%4", "%zz", "%4z", "% 4", "%-1", "%+1"}) {
+    EXPECT_FALSE(percent_decoded(bad)) << bad;
+  }
+}
+
 TEST(Url, BracketsAroundIpv6) {
   EXPECT_EQ(host_and_port("::1", 80), "[::1]:80");
   EXPECT_EQ(host_and_port("localhost", 80), "localhost:80");

@@ -168,8 +168,12 @@ void WebAnswer::finish(WebBytes made) {
     set_bytes(*this, std::move(made));
     return;
   }
+  refuse(http::status::internal_server_error, "The program could not make this.");
+}
+
+void WebAnswer::refuse(http::status status, const std::string& words) {
   const bool without_body = head;
-  *this = web_refusal(http::status::internal_server_error, "The program could not make this.");
+  *this = web_refusal(status, words);
   if (without_body) {
     message.body() = {};
   }

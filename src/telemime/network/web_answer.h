@@ -30,6 +30,8 @@ struct WebAnswer {
   std::function<void(std::function<void(WebBytes)>)> later;
   /// Puts the bytes in that were waited for; none become a refusal.
   void finish(WebBytes made);
+  /// Becomes web_refusal() instead, without bytes where none are to be sent.
+  void refuse(boost::beast::http::status status, const std::string& words);
 
   bool head = false;  ///< no bytes are to be sent
 };

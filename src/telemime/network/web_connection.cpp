@@ -42,6 +42,7 @@ WebConnection::WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> 
     : hub_(std::move(hub)),
       ticket_(std::move(ticket)),
       stream_(std::move(socket)),
+      patience_(stream_.get_executor()),
       local_(local_address(stream_.socket())),
       buffer_(2 * longest_header) {
   error_code ignored;
@@ -96,13 +97,23 @@ void WebConnection::respond(WebAnswer answer) {
 }
 
 void WebConnection::wait() {
-  // Nobody else keeps this connection while nothing is under way.
+  // Nobody else keeps this connection while nothing is under way. The hub knows by it, too, that one of the
+  // two below was first.
   hub_->hold(shared_from_this());
   stream_.expires_never();
+  patience_.expires_after(hub_->options().stalled_after);
+  patience_.async_wait([weak = weak_from_this()](error_code cancelled) {
+    const std::shared_ptr<WebConnection> self = weak.lock();
+    if (!cancelled && self && self->hub_->let_go(self)) {
+      self->answer_.refuse(http::status::service_unavailable, "This takes too long. Try again later.");
+      self->write();
+    }
+  });
   const auto ready = [door = hub_->door(), weak = weak_from_this()](const WebBytes& bytes) {
     door->post([weak, bytes] {
       const std::shared_ptr<WebConnection> self = weak.lock();
       if (self && self->hub_->let_go(self)) {
+        self->patience_.cancel();
         self->answer_.finish(bytes);
         self->write();
       }

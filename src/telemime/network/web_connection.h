@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -41,7 +42,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   std::shared_ptr<WebHub> hub_;
   std::shared_ptr<void> ticket_;
   boost::beast::tcp_stream stream_;
-  std::string local_;  ///< the address at which it came in
+  boost::asio::steady_timer patience_;  ///< with bytes that are still being made
+  std::string local_;                   ///< the address at which it came in
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
   WebAnswer answer_;

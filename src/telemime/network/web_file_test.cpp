@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 #include "telemime/core/scratch_folder.h"
 #include "telemime/network/testing_web.h"
@@ -223,6 +224,24 @@ TEST(WebLater, TheAnswerComesWhenItIsReadyAndNobodyWaitsForIt) {
   server.reset();
   EXPECT_EQ(last.rest(), "");
   waiting[3](std::make_shared<const std::string>("too late"));  // and nothing happens
+}
+
+TEST(WebLater, WhatIsNeverReadyIsRefusedAfterAWhile) {
+  std::promise<std::function<void(WebBytes)>> asked;
+  WebHandlers handlers;
+  handlers.get = [&](const std::string& path) {
+    WebContent content{std::make_shared<const std::string>("at once"), "text/plain", "", false};
+    if (path == "/never") {
+      content.later = [&](std::function<void(WebBytes)> ready) { asked.set_value(std::move(ready)); };
+    }
+    return std::optional(content);
+  };
+  WebServerOptions options = any_port();
+  options.stalled_after = std::chrono::milliseconds(100);
+  const WebServer server(options, handlers);
+  EXPECT_EQ(ask(server.port(), "/never").status, 503);
+  asked.get_future().get()(std::make_shared<const std::string>("too late"));  // and nothing happens
+  EXPECT_EQ(ask(server.port(), "/now").body, "at once");
 }
 
 TEST(WebTopics, WhatNobodyGetsIsNotWanted) {

@@ -34,7 +34,7 @@ std::shared_ptr<void> WebHub::ticket() {
   return {connections_.get(), [open = connections_](std::size_t*) { --*open; }};
 }
 
-std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& client) {
+std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& client, bool from_here) {
   if (clients_.size() >= options_.most_clients) {
     return std::nullopt;
   }
@@ -42,6 +42,9 @@ std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& clie
   count_ = clients_.size();
   const std::lock_guard lock(mutex_);
   turned_off_[last_id_];
+  if (from_here) {
+    from_here_.insert(last_id_);
+  }
   return last_id_;
 }
 
@@ -53,6 +56,7 @@ void WebHub::leave(std::uint64_t id) {
   {
     const std::lock_guard lock(mutex_);
     turned_off_.erase(id);
+    from_here_.erase(id);
   }
   try {
     if (handlers_.closed) {
@@ -73,6 +77,11 @@ bool WebHub::wanted(int topic) const {
   const std::lock_guard lock(mutex_);
   return std::any_of(turned_off_.begin(), turned_off_.end(),
                      [topic](const auto& client) { return topic == 0 || !client.second.contains(topic); });
+}
+
+bool WebHub::from_here(std::uint64_t client) const {
+  const std::lock_guard lock(mutex_);
+  return from_here_.contains(client);
 }
 
 std::vector<std::string> WebHub::greeting(std::uint64_t id) const {

@@ -43,8 +43,9 @@ class WebHub {
   /// False: it is not held.
   bool let_go(const std::shared_ptr<void>& connection) { return held_.erase(connection) > 0; }
 
-  /// A number for the client, which takes part from now on; nothing when too many do.
-  std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client);
+  /// A number for the client, which takes part from now on; nothing when too many do. `from_here`: its
+  /// connection came over loopback.
+  std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client, bool from_here);
   /// Tells the handlers, once.
   void leave(std::uint64_t id);
   /// leave() for all.
@@ -62,6 +63,7 @@ class WebHub {
 
   std::size_t clients() const { return count_; }  ///< from any thread
   bool wanted(int topic) const;                   ///< from any thread
+  bool from_here(std::uint64_t client) const;     ///< from any thread; false when it is gone
 
  private:
   const WebServerOptions options_;
@@ -76,6 +78,7 @@ class WebHub {
 
   mutable std::mutex mutex_;                           ///< of what follows
   std::map<std::uint64_t, std::set<int>> turned_off_;  ///< topics, of each client
+  std::set<std::uint64_t> from_here_;                  ///< clients of this computer
   WebQueue inbox_{std::numeric_limits<std::size_t>::max()};
   bool drain_is_due_ = false;
 };

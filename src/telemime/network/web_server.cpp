@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/web_server.h"
 
+#include <atomic>
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
@@ -36,7 +37,7 @@ struct WebServer::State {
   }
 
   void send(WebMessage message) {
-    if (message.bytes && hub->put(std::move(message))) {
+    if (message.bytes && !stopped && hub->put(std::move(message))) {
       boost::asio::post(io, [this] { hub->drain(); });
     }
   }
@@ -45,6 +46,7 @@ struct WebServer::State {
   boost::asio::io_context io{1};
   std::list<WebListener> listeners;
   std::uint16_t port = 0;
+  std::atomic<bool> stopped = false;
   std::thread thread;
 };
 
@@ -54,6 +56,13 @@ WebServer::WebServer(WebServerOptions options, WebHandlers handlers)
 }
 
 WebServer::~WebServer() {
+  stop();
+}
+
+void WebServer::stop() {
+  if (state_->stopped.exchange(true)) {
+    return;
+  }
   // All connections end with the io_context; the handlers hear of it from the thread that they know.
   boost::asio::post(state_->io, [state = state_.get()] {
     state->hub->leave_all();
@@ -61,6 +70,10 @@ WebServer::~WebServer() {
   });
   state_->thread.join();
   state_->hub->door()->close();
+}
+
+bool WebServer::from_here(std::uint64_t client) const {
+  return state_->hub->from_here(client);
 }
 
 std::uint16_t WebServer::port() const {

@@ -67,7 +67,13 @@ class WebServer {
   WebServer(WebServerOptions options, WebHandlers handlers);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
-  ~WebServer();  ///< closes all connections; returns within a second
+  ~WebServer();  ///< stop(), and closes all connections; returns within a second
+
+  /// All clients leave, and then nothing is answered: when it returns no handler is called any more, and what
+  /// is sent is forgotten. The rest may still be called. Whoever has handlers that use the server itself
+  /// calls this before they let go of it. The second time it does nothing. Not for handlers, and not from
+  /// several threads at once.
+  void stop();
 
   std::uint16_t port() const;
   std::size_t clients() const;
@@ -83,6 +89,9 @@ class WebServer {
   /// Whether that client gets messages of that topic (at first of every one); one that waits is dropped. From
   /// any thread, handlers included; a client that is gone is no error. Topic 0 cannot be turned off.
   void set_topic(std::uint64_t client, int topic, bool on);
+  /// Whether that client's connection came over loopback: from this computer, a proxy on it included. False
+  /// when it is gone. From any thread, handlers included.
+  bool from_here(std::uint64_t client) const;
 
  private:
   struct State;

@@ -195,7 +195,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
   const PreparedFrame& prepared = seen.prepared;
   if (!observation.head) {
     waited_ = 0;
-    lose("no head is seen", result);
+    lose("nobody is found: the head must be in the picture", result);
     return;
   }
   if (known_ && result.motion.frame == known_->frame) {

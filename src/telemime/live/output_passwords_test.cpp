@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Passwords of outputs go to the broker, and to nothing that is shown or kept.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/live/kept_outputs.h"
+#include "telemime/live/sender_list.h"
+
+namespace telemime {
+namespace {
+
+const std::string kUrl = "mqtt://studio.p01:secret@127.0.0.1:9/home/studio";
+const std::string kShown = "mqtt://studio.p01@127.0.0.1:9/home/studio";
+
+TEST(OutputPasswords, AreKnownToTheListAlone) {
+  SenderList list;
+  list.add(kUrl);
+  EXPECT_EQ(list.status().at(0).url, kShown);
+  try {
+    list.add(kUrl);
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_EQ(std::string(e.what()), kShown + " is sent to already");
+  }
+  ASSERT_TRUE(list.switch_off(kShown)) << "a page names it as it was shown";
+  EXPECT_EQ(list.status().at(0).url, kShown);
+  EXPECT_EQ(list.status().at(0).state, SenderState::off);
+  EXPECT_NO_THROW(list.add(kShown)) << "the password is known from before";
+  EXPECT_NE(list.status().at(0).state, SenderState::off);
+  EXPECT_TRUE(list.remove(kShown));
+  EXPECT_THROW(list.add(kShown), Error) << "and forgotten with the output";
+}
+
+TEST(OutputPasswords, AreNotKeptForLaterRuns) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "live.json";
+  {
+    SenderList list;
+    KeptOutputs kept(file, list, nullptr);
+    kept.keep(kUrl);
+    kept.save();
+  }
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find(kShown), std::string::npos) << text;
+  EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+
+  std::string heard;
+  SenderList list;
+  KeptOutputs kept(file, list, [&heard](MessageLevel, const std::string& words) { heard += words + "\n"; });
+  kept.offer(/*resume=*/true);
+  EXPECT_NE(heard.find("Passwords are not kept"), std::string::npos) << heard;
+  ASSERT_EQ(list.status().size(), 1U);
+  EXPECT_EQ(list.status()[0].state, SenderState::off);
+  EXPECT_NO_THROW(list.add(kUrl));
+  EXPECT_EQ(list.status().size(), 1U) << "the same output, now with its password";
+}
+
+TEST(OutputPasswords, OfAFileThatSomebodyEditedAreNotShown) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "live.json";
+  std::ofstream(file) << R"({"version":1,"outputs":[")" << kUrl << R"("]})";
+  std::string heard;
+  SenderList list;
+  KeptOutputs kept(file, list, [&heard](MessageLevel, const std::string& words) { heard += words + "\n"; });
+  kept.offer(/*resume=*/true);
+  EXPECT_NE(heard.find("sending again, as in an earlier run: " + kShown), std::string::npos) << heard;
+  EXPECT_EQ(heard.find("secret"), std::string::npos) << heard;
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "telemime/network/sender.h"
+#include "telemime/network/url.h"
+
+namespace telemime {
+
+inline constexpr std::uint16_t kMqttPort = 1883;
+inline constexpr std::uint16_t kMqttsPort = 8883;
+
+/// mqtt://[user:password@]host[:1883]/tenant/room[?name=Ana&look=plain&...], or mqtts:// with TLS: takes part
+/// in a room (docs/room-protocol.md). The account comes from the URL, from the file of the option `key`, or
+/// from the environment (mqtt_key.h). A sender that ends says goodbye, for half a second at most. Throws
+/// Error(usage).
+std::unique_ptr<Sender> make_mqtt_sender(const SendUrl& url);
+
+}  // namespace telemime

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+#include <variant>
+
+namespace telemime {
+
+/// What a reader makes of bytes from outside: a value, or the reason why there is none. What strangers send
+/// is wrong often enough to be no exception.
+template <class Value, class Fault>
+class Outcome {
+ public:
+  Outcome(Value value) : content_(std::in_place_index<0>, std::move(value)) {}
+  Outcome(Fault fault) : content_(std::in_place_index<1>, std::move(fault)) {}
+
+  explicit operator bool() const { return content_.index() == 0; }
+  /// The value; only when there is one.
+  const Value& operator*() const { return std::get<0>(content_); }
+  const Value* operator->() const { return &std::get<0>(content_); }
+  /// The reason; only when there is no value.
+  const Fault& fault() const { return std::get<1>(content_); }
+
+ private:
+  std::variant<Value, Fault> content_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/rooms/pose_frame.h"
+
+struct mosquitto;
+struct mosquitto_message;
+
+namespace telemime::testing_rooms {
+
+/// Hears all that is said in the room r/home/studio, and says something: libmosquitto alone, with its own
+/// thread.
+class Ear {
+ public:
+  struct Heard {
+    std::string topic;  ///< behind "r/home/studio/"
+    std::string payload;
+    bool retained;
+    double at;  ///< s of the steady clock
+  };
+
+  explicit Ear(std::uint16_t port, const std::string& user = "", const std::string& password = "");
+  Ear(const Ear&) = delete;
+  Ear& operator=(const Ear&) = delete;
+  ~Ear();
+
+  std::vector<Heard> all() const;
+  /// The newest of a topic; nothing before the first.
+  std::optional<Heard> newest(const std::string& topic) const;
+  /// The newest that is JSON, null else.
+  nlohmann::json json(const std::string& topic) const;
+  /// Pose frames of a participant; those that cannot be read fail the test.
+  std::vector<PoseFrame> frames(const std::string& participant) const;
+  /// Forgets what was heard.
+  void forget();
+  /// Says something, kept by the broker.
+  void say(const std::string& topic, const std::string& payload);
+
+ private:
+  static void on_connect(mosquitto* client, void* self, int code);
+  static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
+
+  mutable std::mutex mutex_;
+  std::vector<Heard> heard_;
+  mosquitto* client_ = nullptr;
+};
+
+}  // namespace telemime::testing_rooms
