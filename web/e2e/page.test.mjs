@@ -151,4 +151,17 @@ test("outputs come and go, wrong ones are refused in words", LONG, async () => {
     .getByText(/pigeon/)
     .first()
     .waitFor();
+  const row = page.locator("#outputs").getByText("vmc://localhost:39539", { exact: true });
+  const press = (what) => page.getByRole("button", { name: `${what} vmc://localhost:39539` }).press("Enter");
+  const state = (is) =>
+    listener.heard(
+      (m) => m.type === "status" && m.outputs.length === 1 && (m.outputs[0].state === "off") === is,
+    );
+  await press("Stop sending to");
+  await state(true);
+  await press("Send again to");
+  await state(false);
+  await press("No longer send to");
+  await listener.heard((m) => m.type === "status" && m.outputs.length === 0);
+  await row.waitFor({ state: "detached" });
 });

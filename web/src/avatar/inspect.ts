@@ -47,7 +47,8 @@ export function boneWords(bone: string): string {
   return bone.replace(/[A-Z]/g, (c) => " " + c.toLowerCase());
 }
 
-function readJson(data: ArrayBuffer): Json {
+/** The JSON of a binary glTF file; throws AvatarError. */
+export function readJson(data: ArrayBuffer): Json {
   const broken = "The file is broken or was cut off. Try to export or download it again.";
   if (data.byteLength < 20) throw new AvatarError("This is not a VRM avatar: the file is too short.");
   const view = new DataView(data);

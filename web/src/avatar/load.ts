@@ -81,6 +81,23 @@ export class Avatar {
     this.vrm.update(dt);
   }
 
+  /** After the avatar was put elsewhere at once: hair and clothes hang as if it had always been there. */
+  resetSprings(): void {
+    this.vrm.scene.updateMatrixWorld(true);
+    this.vrm.springBoneManager?.reset();
+  }
+
+  /** Hides the head and what hangs on it, for pictures from the avatar's own eyes. */
+  set headless(on: boolean) {
+    // What follows the head's bone shrinks to a point inside of the neck. Poses do not change its size.
+    this.vrm.humanoid.getRawBoneNode("head")!.scale.setScalar(on ? 1e-4 : 1);
+  }
+
+  /** Where the head's joint is now; m, world. */
+  headPosition(out: Vector3): Vector3 {
+    return this.vrm.humanoid.getRawBoneNode("head")!.getWorldPosition(out);
+  }
+
   /** Where the hips are now; m, world. */
   hipsPosition(out: Vector3): Vector3 {
     return this.vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(out);

@@ -18,6 +18,11 @@ describe("resolution", () => {
     draw(r, 1500, 300);
     expect(r.ratio).toBe(2);
   });
+  it("goes down sooner where every picture takes long", () => {
+    const r = new Resolution(1, true);
+    draw(r, 700, 3);
+    expect(r.ratio).toBe(0.75);
+  });
   it("goes down step by step, to a bound", () => {
     const r = new Resolution(2, false);
     draw(r, 60, 24);

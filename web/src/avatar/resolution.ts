@@ -3,6 +3,7 @@
 
 const SLOW = 30; // ms between pictures
 const MANY = 24; // pictures in a row, on average slow
+const LONG = 2000; // ms of slow pictures are enough, too
 const STEPS = [2, 1.5, 1.25, 1, 0.75, 0.6] as const;
 
 export class Resolution {
@@ -28,7 +29,7 @@ export class Resolution {
     if (ms > 1000) return false; // a pause, not a slow computer
     this.sum += ms;
     this.count++;
-    if (this.count < MANY) return false;
+    if (this.count < MANY && this.sum < LONG) return false;
     const slow = this.sum / this.count > SLOW;
     this.sum = this.count = 0;
     const next = STEPS.find((s) => s < this.ratio - 1e-6);

@@ -44,11 +44,22 @@ export const LOST_DELAY = 0.3; // s before anything is seen of a loss
 export const LEAVE = 1.0; // s to come to rest
 export const RETURN = 0.3; // s to be back
 
+/** How an avatar comes to rest: how long it waits with it, how long it takes to get there and back; s. */
+export interface RestTimes {
+  delay: number;
+  leave: number;
+  back: number;
+}
+
 /** How far the avatar has come to rest: 0 follows the person, 1 rests. */
 export class RestBlend {
   private raw = 1;
   private last: number | null = null;
-  private lostFor = LOST_DELAY;
+  private lostFor: number;
+
+  constructor(private readonly times: RestTimes = { delay: LOST_DELAY, leave: LEAVE, back: RETURN }) {
+    this.lostFor = times.delay;
+  }
 
   /** `now` in seconds; `tracked`: whether the person is seen at this moment. */
   update(now: number, tracked: boolean): number {
@@ -56,11 +67,11 @@ export class RestBlend {
     this.last = now;
     if (tracked) {
       this.lostFor = 0;
-      this.raw = Math.max(0, this.raw - dt / RETURN);
+      this.raw = Math.max(0, this.raw - dt / this.times.back);
     } else {
-      const late = Math.max(0, this.lostFor + dt - LOST_DELAY);
+      const late = Math.max(0, this.lostFor + dt - this.times.delay);
       this.lostFor += dt;
-      this.raw = Math.min(1, this.raw + Math.min(dt, late) / LEAVE);
+      this.raw = Math.min(1, this.raw + Math.min(dt, late) / this.times.leave);
     }
     return this.weight;
   }

@@ -2,9 +2,7 @@
 // The place where the avatar stands: light, floor, camera, and the loop's one step.
 
 import {
-  CanvasTexture,
   CircleGeometry,
-  Color,
   DirectionalLight,
   HemisphereLight,
   Mesh,
@@ -12,42 +10,24 @@ import {
   PerspectiveCamera,
   Scene,
   Spherical,
-  SRGBColorSpace,
   Vector3,
-  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { drawsInSoftware } from "../graphics";
 import type { Shown } from "./driver";
 import type { Avatar } from "./load";
-import { Resolution } from "./resolution";
+import { Painter } from "./painter";
+import { spot } from "./spot";
 
 const FOV = 26; // degrees, vertical
 const SLOW_BREATH = 0.1; // s between pictures of an avatar at rest, in software
 
-/** A soft round spot, for the floor and the shadow. */
-function spot(inner: string, outer: string, from: number): CanvasTexture {
-  const c = document.createElement("canvas");
-  c.width = c.height = 128;
-  const g = c.getContext("2d")!;
-  const r = g.createRadialGradient(64, 64, from, 64, 64, 64);
-  r.addColorStop(0, inner);
-  r.addColorStop(1, outer);
-  g.fillStyle = r;
-  g.fillRect(0, 0, 128, 128);
-  const t = new CanvasTexture(c);
-  t.colorSpace = SRGBColorSpace;
-  return t;
-}
-
 export class Stage {
   /** Every picture costs a lot: fewer and coarser ones. */
   readonly software: boolean;
-  private readonly renderer: WebGLRenderer;
+  private readonly painter: Painter;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FOV, 1, 0.05, 60);
   private readonly controls: OrbitControls;
-  private readonly resolution: Resolution;
   private readonly floor: Mesh<CircleGeometry, MeshBasicMaterial>;
   private readonly shadow: Mesh<CircleGeometry, MeshBasicMaterial>;
   private readonly scratch = new Vector3();
@@ -57,24 +37,11 @@ export class Stage {
   private lastStep: number | null = null;
   private drewLast = false;
   private lastDraw = 0;
-  private draws = 0;
-  private contextLost = false;
-  private readonly pixel = new Uint8Array(4);
 
   /** Throws when the browser has no WebGL. */
-  constructor(
-    canvas: HTMLCanvasElement,
-    private readonly box: HTMLElement,
-  ) {
-    this.software = drawsInSoftware();
-    this.renderer = new WebGLRenderer({
-      canvas,
-      antialias: !this.software,
-      alpha: true,
-      powerPreference: "high-performance",
-    });
-    this.resolution = new Resolution(window.devicePixelRatio || 1, this.software);
-    this.renderer.setClearColor(new Color(0, 0, 0), 0);
+  constructor(canvas: HTMLCanvasElement, box: HTMLElement) {
+    this.painter = new Painter(canvas, box, (aspect) => this.resized(aspect));
+    this.software = this.painter.software;
 
     const key = new DirectionalLight(0xffffff, 2.2);
     key.position.set(0.8, 1.6, 2.2);
@@ -108,16 +75,7 @@ export class Stage {
     this.controls.addEventListener("change", () => (this.dirty = true));
     this.controls.addEventListener("start", () => (this.touched = true));
     canvas.addEventListener("keydown", (e) => this.key(e));
-    canvas.addEventListener("webglcontextlost", (e) => {
-      e.preventDefault();
-      this.contextLost = true;
-    });
-    canvas.addEventListener("webglcontextrestored", () => {
-      this.contextLost = false;
-      this.dirty = true;
-    });
-    new ResizeObserver(() => this.resize()).observe(box);
-    this.resize();
+    this.painter.resize();
     this.resetView();
   }
 
@@ -126,11 +84,11 @@ export class Stage {
   }
 
   get pictures(): number {
-    return this.draws;
+    return this.painter.pictures;
   }
 
   get ratio(): number {
-    return this.renderer.getPixelRatio();
+    return this.painter.ratio;
   }
 
   setAvatar(avatar: Avatar): void {
@@ -199,25 +157,16 @@ export class Stage {
     this.dirty = true;
   }
 
-  private resize(): void {
-    const w = Math.max(1, this.box.clientWidth);
-    const h = Math.max(1, this.box.clientHeight);
-    this.renderer.setPixelRatio(this.resolution.ratio);
-    this.renderer.setSize(w, h, false);
-    this.camera.aspect = w / h;
+  private resized(aspect: number): void {
+    this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
     if (!this.touched) this.frameAvatar();
     this.dirty = true;
   }
 
-  /**
-   * Waits until the last picture is drawn, where the browser draws in software: else pictures would queue up. With a
-   * graphics card that takes few milliseconds, and nobody waits.
-   */
+  /** Waits until the last picture is drawn, where the browser draws in software. */
   settle(): void {
-    if (!this.software || this.contextLost) return;
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.pixel);
+    this.painter.settle();
   }
 
   /** Shows this; true when a picture was drawn (nothing is drawn when nothing moved). `now` in seconds. */
@@ -226,7 +175,7 @@ export class Stage {
     this.lastStep = now;
     const inARow = this.drewLast;
     this.drewLast = false;
-    if (this.contextLost || !this.avatar) return false;
+    if (this.painter.blind || !this.avatar) return false;
     if (!shown.moving && !this.dirty && !this.avatar.hasSprings) return false;
     if (this.software && shown.rest === 1 && !this.dirty && now - this.lastDraw < SLOW_BREATH) return false;
     const dt = Math.min(0.1, now - this.lastDraw);
@@ -235,15 +184,9 @@ export class Stage {
     const hips = this.avatar.hipsPosition(this.scratch);
     this.shadow.position.x = hips.x;
     this.shadow.position.z = hips.z;
+    this.painter.draw(this.scene, this.camera, inARow ? since : null);
     this.dirty = false;
-    this.renderer.render(this.scene, this.camera);
-    this.draws++;
     this.drewLast = true;
-    if (inARow && this.resolution.drew(since * 1000)) {
-      this.resize(); // which clears the canvas
-      this.renderer.render(this.scene, this.camera);
-      this.dirty = false;
-    }
     return true;
   }
 }

@@ -147,6 +147,7 @@ const connection: Connection = new Connection(address, {
     top.setPose(null);
     secondMode(null);
     line.disconnected();
+    guide.disconnected();
     recordings.disconnected();
     for (const id of ["recalibrate", "guide-again"]) byId(id, HTMLButtonElement).disabled = true;
   },

@@ -10,7 +10,12 @@ export class Banner {
   private state: ConnectionState = { kind: "connecting" };
   private failed = false;
 
-  constructor(tryNow: () => void) {
+  /** `what` went wrong, and perhaps why. */
+  constructor(
+    tryNow: () => void,
+    private readonly what = () => "No connection to Telemime.",
+    private readonly why = "Is the program still running?",
+  ) {
     button("banner-try", tryNow);
   }
 
@@ -33,11 +38,12 @@ export class Banner {
     const words = byId("banner-words", HTMLElement);
     if (!words.firstChild) {
       const what = document.createElement("b");
-      what.textContent = "No connection to Telemime. ";
       const rest = document.createElement("span");
       rest.setAttribute("aria-hidden", "true");
-      words.append(what, "Is the program still running? ", rest);
+      words.append(what, `${this.why} `, rest);
     }
+    const what = `${this.what()} `;
+    if (words.firstElementChild!.textContent !== what) words.firstElementChild!.textContent = what;
     words.lastElementChild!.textContent = when;
   }
 }

@@ -76,6 +76,14 @@ export class Guide {
     this.show(s.words);
   }
 
+  /** Nobody hears the countdown any more; where we are is known with the next status. */
+  disconnected(): void {
+    this.stopCount();
+    this.phase = null;
+    this.guided = false;
+    this.show("");
+  }
+
   /** Starts or stops the countdown, when the room is to be empty. */
   toggleCount(): void {
     if (this.phase !== "empty_room") return;
@@ -94,18 +102,22 @@ export class Guide {
   }
 
   skip(): void {
-    if (this.phase === "empty_room" || this.phase === "background")
-      this.send({ type: "guide", step: "skip" });
+    if (this.phase === "empty_room" || this.phase === "background") this.answer("skip");
     this.stopCount();
   }
 
   again(): void {
-    this.send({ type: "guide", step: "again" });
+    this.answer("again");
   }
 
   private empty(): void {
     this.stopCount();
-    if (this.phase === "empty_room") this.send({ type: "guide", step: "empty" });
+    if (this.phase === "empty_room") this.answer("empty");
+  }
+
+  private answer(step: "empty" | "skip" | "again"): void {
+    if (!this.send({ type: "guide", step }))
+      this.announce("There is no connection to Telemime at the moment.");
   }
 
   private tick(): void {

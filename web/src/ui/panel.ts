@@ -2,10 +2,15 @@
 // The side panel: always there on a wide page, over the page on a narrow one.
 
 import { button, byId } from "./dom";
-import type { Settings } from "./settings";
 import { Tabs } from "./tabs";
 
-export class Panel {
+/** What is kept of a panel. */
+export interface PanelSettings {
+  panelClosed: boolean; // on a wide page
+  tab: string;
+}
+
+export class Panel<T extends PanelSettings> {
   private readonly panel = byId("panel", HTMLElement);
   private readonly toggleButton: HTMLButtonElement;
   private readonly tabs: Tabs;
@@ -13,11 +18,11 @@ export class Panel {
   private over = false; // opened over the page
 
   constructor(
-    private readonly settings: Settings,
+    private readonly settings: T,
     private readonly keep: () => void,
   ) {
     this.tabs = new Tabs(this.panel.querySelector<HTMLElement>('[role="tablist"]')!, (name) => {
-      this.settings.tab = name as Settings["tab"];
+      this.settings.tab = name as T["tab"];
       this.keep();
     });
     this.tabs.choose(settings.tab);
@@ -54,7 +59,7 @@ export class Panel {
     else if (had && !this.open) this.toggleButton.focus();
   }
 
-  show(tab: Settings["tab"]): void {
+  show(tab: T["tab"]): void {
     this.tabs.choose(tab);
     if (!this.open) this.toggle();
     this.panel.querySelector<HTMLElement>('[aria-selected="true"]')?.focus();

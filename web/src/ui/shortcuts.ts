@@ -28,6 +28,7 @@ export class Shortcuts {
   constructor(
     private readonly list: readonly Shortcut[],
     private readonly on: { get: () => boolean; set: (on: boolean) => void },
+    inTheView: readonly [string, string][] = IN_THE_VIEW,
   ) {
     const rows = byId("help-list", HTMLElement);
     const all: [string, string][] = [
@@ -37,7 +38,7 @@ export class Shortcuts {
       ]),
       ["?", "This help"],
       ["Esc", "Close a dialog or the side panel"],
-      ...IN_THE_VIEW,
+      ...inTheView,
     ];
     rows.replaceChildren(
       ...all.map(([key, label]) => h("div", {}, h("dt", {}, h("kbd", {}, key)), h("dd", {}, label))),

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A connection by MQTT 3.1.1 over WebSocket, with mqtt.js.
+
+import mqtt, { type ErrorWithReasonCode, type IClientOptions } from "mqtt";
+import type { Entered } from "./entry";
+import type { Closed, Dial } from "./link";
+import { steadyTimer } from "./ticker";
+
+const KEEP_ALIVE = 10; // s
+const PATIENCE = 8000; // ms for an answer of the broker
+
+const REFUSED: Record<number, string> = {
+  1: "The room's broker speaks another version of MQTT.",
+  2: "The room's broker did not take this page's name.",
+  4: "The room no longer knows this seat.",
+  5: "The room no longer knows this seat.",
+};
+
+/** 8 hex digits. */
+const digits = (): string => crypto.getRandomValues(new Uint32Array(1))[0]!.toString(16).padStart(8, "0");
+
+/** `will`: what the broker says on this page's behalf when the connection breaks. */
+export function brokerDial(
+  entered: Entered,
+  will: { topic: string; payload: (session: number) => Uint8Array } | null,
+): Dial {
+  return (session, events) => {
+    const options: IClientOptions = {
+      protocolVersion: 4,
+      clean: true,
+      clientId: `${entered.participant ?? "watch"}-${digits()}`,
+      username: entered.user,
+      password: entered.password,
+      keepalive: KEEP_ALIVE,
+      timerVariant: steadyTimer,
+      connectTimeout: PATIENCE,
+      reconnectPeriod: 0, // link.ts opens the next one
+      resubscribe: false,
+      queueQoSZero: false,
+      ...(will
+        ? { will: { topic: will.topic, payload: will.payload(session) as Buffer, qos: 1, retain: true } }
+        : {}),
+    };
+    const client = mqtt.connect(entered.mqtt, options);
+    let over = false;
+    let opened = false;
+    let why: Closed | null = null;
+    const closed = (): void => {
+      if (over) return;
+      over = true;
+      client.end(true);
+      events.closed(
+        why ?? {
+          refused: false,
+          words: opened ? "The connection to the room is lost." : "The room does not answer.",
+        },
+      );
+    };
+    client.on("connect", () => {
+      client.subscribe(`${entered.topic}/#`, { qos: 1 }, (error, granted) => {
+        if (over) return;
+        if (error || granted?.some((g) => g.qos > 2)) {
+          why = { refused: true, words: "The room does not let this page hear what is said." };
+          closed();
+          return;
+        }
+        opened = true;
+        events.open();
+      });
+    });
+    client.on("message", (topic, payload) => {
+      if (!over) events.message(topic, payload);
+    });
+    client.on("error", (e: Error | ErrorWithReasonCode) => {
+      const code = "code" in e && typeof e.code === "number" ? e.code : 0;
+      if (REFUSED[code]) why = { refused: true, words: REFUSED[code] };
+      closed();
+    });
+    client.on("close", closed);
+    return {
+      publish: async (topic, payload, retain) => {
+        await client.publishAsync(topic, payload as Buffer, { qos: 1, retain });
+      },
+      close: () => {
+        over = true;
+        client.on("error", () => undefined);
+        client.end(); // after what waits was sent
+      },
+    };
+  };
+}

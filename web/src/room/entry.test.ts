@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { EntryError, LOOKS, enter, inviteOf, readEntered, readKept, tokenFor, withSeat } from "./entry";
+
+const ANSWER = {
+  user: "main.p01",
+  password: "secret",
+  participant: "p01",
+  mqtt: "ws://localhost:9001",
+  topic: "r/lab/main",
+  roles: ["speak", "board"],
+  return: "token-1",
+};
+
+describe("a link", () => {
+  it("has its secret behind #", () => {
+    expect(inviteOf("#k=abc_DEF-123")).toBe("abc_DEF-123");
+    expect(inviteOf("#x=1&k=abc")).toBe("abc");
+    for (const f of ["", "#", "#k=", "#abc", `#k=${"x".repeat(201)}`, "#k=<script>"]) {
+      expect(inviteOf(f)).toBeNull();
+    }
+  });
+});
+
+describe("the answer", () => {
+  it("is taken as it is", () => {
+    expect(readEntered(ANSWER)).toEqual({
+      user: "main.p01",
+      password: "secret",
+      participant: "p01",
+      mqtt: "ws://localhost:9001/",
+      topic: "r/lab/main",
+      roles: ["speak", "board"],
+      token: "token-1",
+      looks: LOOKS,
+    });
+  });
+  it("for those who watch has no participant", () => {
+    expect(readEntered({ ...ANSWER, roles: ["watch"] })!.participant).toBeNull();
+    expect(readEntered({ ...ANSWER, participant: null })!.participant).toBeNull();
+  });
+  it("that lacks something is none", () => {
+    for (const change of [
+      { mqtt: "http://localhost:9001" },
+      { mqtt: "javascript:1" },
+      { topic: "r/lab/#" },
+      { topic: "x" },
+      { user: "" },
+      { password: 7 },
+    ]) {
+      expect(readEntered({ ...ANSWER, ...change })).toBeNull();
+    }
+    for (const a of [null, 3, "x", []]) expect(readEntered(a)).toBeNull();
+    expect(readEntered({ ...ANSWER, looks: ["a", "../b", 3] })!.looks).toEqual(["a"]);
+  });
+});
+
+describe("entering", () => {
+  const answering =
+    (status: number, body: unknown, seen: Request[] = []) =>
+    (url: RequestInfo | URL, init?: RequestInit): Promise<Response> => {
+      seen.push(new Request(new URL(String(url), "http://localhost"), init));
+      return Promise.resolve(new Response(JSON.stringify(body), { status }));
+    };
+  const question = { invite: "SECRET", token: null, watch: false };
+
+  it("asks with the secret in the body, never in the address", async () => {
+    const seen: Request[] = [];
+    const entered = await enter({ ...question, token: "t" }, answering(200, ANSWER, seen));
+    expect(entered.user).toBe("main.p01");
+    expect(seen[0]!.url).toBe("http://localhost/room/enter");
+    expect(seen[0]!.method).toBe("POST");
+    expect(await seen[0]!.json()).toEqual({ v: 1, invite: "SECRET", return: "t", watch: false });
+  });
+  it("says in words why not, without the secret", async () => {
+    for (const [status, words] of [
+      [403, "does not open"],
+      [409, "seats"],
+      [423, "locked"],
+      [429, "Too many"],
+      [500, "could not let you in"],
+    ] as const) {
+      const e = await enter(question, answering(status, { error: "SECRET" })).catch((x: unknown) => x);
+      expect(e).toBeInstanceOf(EntryError);
+      expect((e as Error).message).toContain(words);
+      expect((e as Error).message).not.toContain("SECRET");
+    }
+    await expect(enter(question, answering(200, {}))).rejects.toThrow("does not understand");
+    await expect(enter(question, () => Promise.reject(new TypeError("net")))).rejects.toThrow("answer");
+  });
+});
+
+describe("what the browser keeps", () => {
+  const entered = readEntered(ANSWER)!;
+  it("brings back to the seat of this link, or else to the last one", () => {
+    let kept = readKept(null);
+    expect(tokenFor(kept, "A")).toBeNull();
+    kept = withSeat(kept, "A", entered);
+    kept = withSeat(kept, "B", { ...entered, token: "token-2", topic: "r/lab/two" });
+    expect([tokenFor(kept, "A"), tokenFor(kept, "B"), tokenFor(kept, "C")]).toEqual([
+      "token-1",
+      "token-2",
+      null,
+    ]);
+    expect(tokenFor(kept, null)).toBe("token-2");
+    kept = withSeat(kept, null, { ...entered, token: "token-3" }); // back without the link
+    expect(tokenFor(kept, "A")).toBe("token-3");
+    expect(readKept(JSON.stringify(kept))).toEqual(kept);
+  });
+  it("does not hold the link's secret", () => {
+    expect(JSON.stringify(withSeat(readKept(null), "VERYSECRET", entered))).not.toContain("VERYSECRET");
+  });
+  it("is bounded, and nothing when it is broken", () => {
+    let kept = readKept(null);
+    for (let i = 0; i < 50; i++) kept = withSeat(kept, `link${i}`, { ...entered, token: `t${i}` });
+    expect(kept.seats.length).toBe(10);
+    for (const t of [
+      "{",
+      "3",
+      "null",
+      '{"seats":3,"name":7,"avatar":{}}',
+      '{"seats":[null,{"topic":"x"}]}',
+    ]) {
+      expect(readKept(t)).toEqual({ seats: [], name: "", avatar: "" });
+    }
+  });
+});

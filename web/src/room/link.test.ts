@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { Link, type Closed, type LinkState, type WireEvents } from "./link";
+
+const GONE: Closed = { refused: false, words: "gone" };
+
+class Broker {
+  dials: { session: number; events: WireEvents; closed: boolean; said: string[] }[] = [];
+  fails = false;
+
+  dial = (session: number, events: WireEvents) => {
+    const d = { session, events, closed: false, said: [] as string[] };
+    this.dials.push(d);
+    return {
+      publish: (topic: string) => {
+        if (this.fails) return Promise.reject(new Error("closed"));
+        d.said.push(topic);
+        return Promise.resolve();
+      },
+      close: () => void (d.closed = true),
+    };
+  };
+
+  get last() {
+    return this.dials.at(-1)!;
+  }
+}
+
+let broker: Broker, states: LinkState[], heard: string[], link: Link;
+beforeEach(() => {
+  vi.useFakeTimers();
+  broker = new Broker();
+  states = [];
+  heard = [];
+  link = new Link(
+    broker.dial,
+    { state: (s) => states.push(s), message: (topic) => heard.push(topic) },
+    () => 0.5,
+  );
+});
+afterEach(() => vi.useRealTimers());
+
+const kinds = () => states.map((s) => s.kind);
+
+describe("the connection", () => {
+  it("opens, hears and says", async () => {
+    link.open();
+    expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
+    broker.last.events.open();
+    broker.last.events.message("r/a/b/room", new Uint8Array(1));
+    expect(await link.publish("a", new Uint8Array(1), false)).toBe(true);
+    expect(kinds()).toEqual(["connecting", "open"]);
+    expect(heard).toEqual(["r/a/b/room"]);
+    expect(broker.last.session).toBe(link.session);
+    broker.fails = true;
+    expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
+  });
+  it("tries again with growing pauses, each time as another session", () => {
+    link.open();
+    for (const wait of [500, 1000, 2000, 4000, 8000, 10000, 10000]) {
+      broker.last.events.closed(GONE);
+      expect(link.state).toMatchObject({ kind: "lost", words: "gone", retryAt: performance.now() + wait });
+      const n = broker.dials.length;
+      vi.advanceTimersByTime(wait - 1);
+      expect(broker.dials.length).toBe(n);
+      vi.advanceTimersByTime(1);
+      expect(broker.dials.length).toBe(n + 1);
+      expect(broker.last.session).not.toBe(broker.dials.at(-2)!.session);
+    }
+  });
+  it("starts with short pauses again after it held, not after it broke at once", () => {
+    link.open();
+    const lose = (after: number) => {
+      broker.last.events.open();
+      vi.advanceTimersByTime(after);
+      broker.last.events.closed(GONE);
+      const wait = (link.state as { retryAt: number }).retryAt - performance.now();
+      vi.advanceTimersByTime(wait);
+      return wait;
+    };
+    expect([lose(10), lose(10), lose(10)]).toEqual([500, 1000, 2000]);
+    expect([lose(6000), lose(6000)]).toEqual([500, 500]);
+  });
+  it("tries at once when it is asked to", () => {
+    link.open();
+    broker.last.events.closed(GONE);
+    link.tryNow();
+    expect(broker.dials.length).toBe(2);
+    vi.advanceTimersByTime(60000);
+    expect(broker.dials.length).toBe(2); // the old timer is off
+    link.tryNow();
+    expect(broker.dials.length).toBe(2); // already trying
+  });
+  it("does not try again when it was refused", () => {
+    link.open();
+    broker.last.events.closed({ refused: true, words: "no" });
+    vi.advanceTimersByTime(1e6);
+    expect(broker.dials.length).toBe(1);
+    expect(link.state).toEqual({ kind: "refused", words: "no" });
+  });
+  it("hears nothing of connections that are over", () => {
+    link.open();
+    const old = broker.last.events;
+    old.closed(GONE);
+    link.tryNow();
+    old.message("old", new Uint8Array(1));
+    old.open();
+    old.closed(GONE);
+    expect(heard).toEqual([]);
+    expect(link.state.kind).toBe("connecting");
+    link.close();
+    expect(broker.last.closed).toBe(true);
+    broker.last.events.open();
+    expect(link.state.kind).toBe("closed");
+    vi.advanceTimersByTime(1e6);
+    expect(broker.dials.length).toBe(2);
+  });
+  it("is refused by an address that the browser does not take", () => {
+    const refusing = new Link(
+      () => {
+        throw new Error("bad address");
+      },
+      { state: (s) => states.push(s), message: () => undefined },
+    );
+    refusing.open();
+    expect(refusing.state).toMatchObject({ kind: "refused" });
+  });
+});

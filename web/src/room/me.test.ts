@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { Me } from "./me";
+import { readPresence, readState, toBytes } from "./messages";
+
+const BASE = "r/lab/main";
+const STATE = { name: "Ana", avatar: { look: "plain" }, seat: 2 };
+
+function make() {
+  const said: string[] = [];
+  const me = new Me(BASE, "p01", STATE, (topic, payload) => {
+    const kind = topic.split("/").at(-1)!;
+    if (payload.length === 0) said.push(`${kind} -`);
+    else if (kind === "presence")
+      said.push(`${kind} ${readPresence(payload)!.here} ${readPresence(payload)!.session}`);
+    else said.push(`${kind} ${readState(payload)!.name} ${readState(payload)!.session}`);
+  });
+  const take = () => said.splice(0);
+  return { me, take };
+}
+
+const presence = (here: boolean, session: number) => toBytes({ here, session });
+const tracker = (session: number) =>
+  toBytes({ session, kind: "tracker", name: "Ana", seat: 2, avatar: null });
+
+describe("this page as a participant", () => {
+  it("says that it is here once the room has told what it knows", () => {
+    const { me, take } = make();
+    me.connected(7);
+    expect(take()).toEqual([]);
+    me.settled();
+    expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+    expect(me.announced).toBe(true);
+    me.hear("presence", presence(true, 7)); // its own words
+    expect(take()).toEqual([]);
+    me.change({ ...STATE, name: "Anna" });
+    expect(take()).toEqual(["state Anna 7"]);
+    me.leave();
+    expect(take()).toEqual(["presence false 7", "state -"]);
+    me.leave();
+    expect(take()).toEqual([]);
+  });
+  it("says nothing when a tracker speaks for the same seat, until that has gone", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.hear("presence", presence(true, 50));
+    me.hear("state", tracker(50));
+    me.settled();
+    expect(take()).toEqual([]);
+    expect(me.other).toEqual({ session: 50, kind: "tracker" });
+    me.change({ ...STATE, name: "Anna" });
+    me.leave();
+    expect(take()).toEqual([]);
+    me.connected(8);
+    me.hear("state", tracker(50)); // in the other order
+    me.hear("presence", presence(true, 50));
+    me.settled();
+    expect(me.other).toEqual({ session: 50, kind: "tracker" });
+    me.hear("presence", presence(false, 50));
+    expect(take()).toEqual(["presence true 8", "state Anna 8"]);
+    expect(me.other).toBeNull();
+  });
+  it("steps back for a tracker that comes later", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.settled();
+    take();
+    me.hear("presence", presence(true, 50));
+    me.hear("state", tracker(50));
+    me.hear("presence", presence(false, 49)); // of somebody before
+    expect(take()).toEqual([]);
+    expect(me.other?.kind).toBe("tracker");
+    me.hear("presence", presence(false, 50));
+    expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+  });
+  it("says it again when the will of its last connection comes late, or somebody wipes it", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.settled();
+    take();
+    me.hear("presence", presence(false, 6));
+    expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+    me.hear("presence", new Uint8Array(0));
+    expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+  });
+  it("says nothing after goodbye", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.settled();
+    me.leave();
+    take();
+    me.hear("presence", presence(false, 7));
+    expect(take()).toEqual([]);
+  });
+});

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// This page as a participant: says that it is here and what it looks like, unless somebody else speaks for the same
+// seat already, as a tracker does.
+
+import {
+  readPresence,
+  readState,
+  toBytes,
+  writeState,
+  type AvatarChoice,
+  type StateMessage,
+} from "./messages";
+import { topicOf } from "./topics";
+
+export interface MyState {
+  name: string;
+  avatar: AvatarChoice | null;
+  seat: number | null;
+}
+
+/** Tells the room; retained. */
+type Tell = (topic: string, payload: Uint8Array) => void;
+
+export class Me {
+  /** Another client of this participant is here and has its say: a tracker, or another window. */
+  other: { session: number; kind: StateMessage["kind"] | null } | null = null;
+  private here = false;
+  private ready = false;
+  private session = 0;
+  /** Of whom the last state was that is not this page's: it may come before its presence. */
+  private stated: { session: number; kind: StateMessage["kind"] } | null = null;
+
+  constructor(
+    private readonly base: string,
+    readonly id: string,
+    public state: MyState,
+    private readonly tell: Tell,
+  ) {}
+
+  /** Whether others know of this page. */
+  get announced(): boolean {
+    return this.here;
+  }
+
+  /** The connection is there, as `session`; nothing is said before the room has told what it knows. */
+  connected(session: number): void {
+    this.session = session;
+    this.here = this.ready = false;
+    this.other = this.stated = null;
+  }
+
+  /** What the room knows was told. */
+  settled(): void {
+    this.ready = true;
+    if (!this.other) this.announce();
+  }
+
+  /** A message on this participant's own state or presence topic. */
+  hear(kind: "state" | "presence", payload: Uint8Array): void {
+    if (kind === "state") {
+      const s = readState(payload);
+      if (this.other && s?.session === this.other.session) this.other.kind = s.kind;
+      if (s && s.session !== this.session) this.stated = { session: s.session, kind: s.kind };
+      return;
+    }
+    const m = readPresence(payload);
+    if (m?.here) {
+      if (m.session === this.session) return; // one's own words
+      const known = this.stated?.session === m.session ? this.stated.kind : null;
+      this.other = { session: m.session, kind: known };
+      return;
+    }
+    // Somebody has gone, or was thought to have: this page is still here.
+    if (m && this.other && m.session !== this.other.session) return;
+    this.other = null;
+    if (this.ready) this.announce();
+  }
+
+  /** The person has chosen something else. */
+  change(state: MyState): void {
+    this.state = state;
+    if (this.here && !this.other) this.tellState();
+  }
+
+  /** Says goodbye. */
+  leave(): void {
+    this.ready = false;
+    if (!this.here || this.other) return;
+    this.here = false;
+    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: false, session: this.session }));
+    this.tell(topicOf(this.base, this.id, "state"), new Uint8Array(0));
+  }
+
+  get will(): { topic: string; payload: (session: number) => Uint8Array } {
+    return {
+      topic: topicOf(this.base, this.id, "presence"),
+      payload: (session) => toBytes({ here: false, session }),
+    };
+  }
+
+  private announce(): void {
+    this.here = true;
+    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: true, session: this.session }));
+    this.tellState();
+  }
+
+  private tellState(): void {
+    this.tell(
+      topicOf(this.base, this.id, "state"),
+      writeState({
+        session: this.session,
+        kind: "browser",
+        ...this.state,
+        stature: null,
+        bones: new Map(),
+      }),
+    );
+  }
+}

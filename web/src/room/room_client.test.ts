@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Line } from "./chat";
+import type { Entered, Role } from "./entry";
+import type { Dial, WireEvents } from "./link";
+import { toBytes } from "./messages";
+import { RoomClient } from "./room_client";
+
+const TOPIC = "r/lab/main";
+
+/** A broker in memory: keeps what is retained, tells everybody, speaks last wills. */
+class FakeBroker {
+  readonly kept = new Map<string, Uint8Array>();
+  private readonly there = new Set<{ events: WireEvents; will: (() => void) | null }>();
+  up = true;
+  told = 0;
+
+  dialer =
+    (will: { topic: string; payload: (session: number) => Uint8Array } | null): Dial =>
+    (session, events) => {
+      const one = {
+        events,
+        will: will && (() => this.publish(will.topic, will.payload(session), true)),
+      };
+      queueMicrotask(() => {
+        if (!this.up) {
+          events.closed({ refused: false, words: "down" });
+          return;
+        }
+        this.there.add(one);
+        events.open();
+        for (const [topic, bytes] of this.kept) events.message(topic, bytes);
+      });
+      return {
+        publish: (topic, bytes, retain) => {
+          if (!this.there.has(one)) return Promise.reject(new Error("gone"));
+          this.publish(topic, bytes, retain);
+          return Promise.resolve();
+        },
+        close: () => void this.there.delete(one),
+      };
+    };
+
+  publish(topic: string, bytes: Uint8Array, retain: boolean): void {
+    if (retain && bytes.length) this.kept.set(topic, bytes);
+    if (retain && !bytes.length) this.kept.delete(topic);
+    this.told++;
+    // It takes a while, for who has said it, too.
+    setTimeout(() => {
+      for (const one of [...this.there]) one.events.message(topic, bytes);
+    }, 30);
+  }
+
+  /** Dies with all that it knew; nobody's will is spoken. */
+  die(): void {
+    this.up = false;
+    this.kept.clear();
+    const all = [...this.there];
+    this.there.clear();
+    for (const one of all) one.events.closed({ refused: false, words: "lost" });
+  }
+
+  /** The newest connection breaks. */
+  cut(): void {
+    const one = [...this.there].at(-1)!;
+    this.there.delete(one);
+    one.events.closed({ refused: false, words: "lost" });
+    one.will?.();
+  }
+}
+
+let broker: FakeBroker;
+beforeEach(() => {
+  vi.useFakeTimers();
+  broker = new FakeBroker();
+});
+afterEach(() => vi.useRealTimers());
+
+const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
+
+class Page {
+  readonly lines: Line[] = [];
+  readonly client: RoomClient;
+  constructor(id: string | null, name: string, roles: Role[] = ["speak", "board"]) {
+    const entered: Entered = {
+      user: `main.${id}`,
+      password: "x",
+      participant: id,
+      mqtt: "ws://localhost:1/",
+      topic: TOPIC,
+      roles,
+      token: null,
+      looks: [],
+    };
+    this.client = new RoomClient(
+      entered,
+      id ? { name, avatar: { look: "plain" }, seat: null } : null,
+      broker.dialer,
+      {
+        link: () => undefined,
+        event: () => undefined,
+        line: (l) => this.lines.push(l),
+        strokes: () => undefined,
+        mine: () => undefined,
+      },
+    );
+    this.client.start();
+  }
+  get said(): string[] {
+    return this.lines.map((l) => (l.kind === "note" ? `* ${l.text}` : `${l.name}: ${l.text}`));
+  }
+  get names(): string[] {
+    return [...this.client.roster.names.values()];
+  }
+  get seats(): Record<string, number> {
+    return Object.fromEntries(this.client.roster.seats);
+  }
+}
+
+describe("a page in a room", () => {
+  it("sees others come, speak and go, on seats of their own", async () => {
+    const ana = new Page("p01", "Ana");
+    await wait(1000);
+    const bo = new Page("p02", "Bo");
+    await wait(3000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(bo.names).toEqual(["Ana", "Bo"]);
+    expect(ana.seats).toEqual({ p01: 0, p02: 1 });
+    expect(bo.seats).toEqual(ana.seats);
+    expect(broker.told).toBe(4); // a presence and a state of each
+    bo.client.say("hello");
+    await wait(100);
+    bo.client.leave();
+    await wait(1000);
+    expect(ana.said).toEqual(["* Bo came in.", "Bo: hello", "* Bo left."]);
+    expect(bo.said).toEqual(["Bo: hello"]); // who was here before is not announced
+    expect([...broker.kept.keys()]).not.toContain(`${TOPIC}/p/p02/state`);
+  });
+  it("does not tell again and again of one who comes and goes all the time", async () => {
+    const ana = new Page("p01", "Ana");
+    await wait(1000);
+    for (let i = 0; i < 60; i++) {
+      broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: i % 2 === 0, session: 5 }), true);
+      await wait(3000);
+    }
+    expect(ana.said.length).toBeLessThan(20);
+    expect(ana.said.slice(0, 2)).toEqual(["* p09 came in.", "* p09 left."]);
+  });
+  it("numbers the same names", async () => {
+    const pages = [new Page("p02", "Ana"), new Page("p01", "Ana")]; // at the same moment
+    await wait(3000);
+    for (const p of pages) expect(p.names).toEqual(["Ana (1)", "Ana (2)"]);
+    expect(Object.values(pages[0]!.seats).sort()).toEqual([0, 1]);
+    expect(pages[0]!.seats).toEqual(pages[1]!.seats);
+  });
+  it("asks for the seat that it was given when somebody with a smaller id wants its own", async () => {
+    const bo = new Page("p02", "Bo");
+    await wait(1000);
+    expect(bo.seats).toEqual({ p02: 0 });
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 5 }), true);
+    const state = { session: 5, kind: "tracker", name: "Ana", seat: 0, avatar: null };
+    broker.publish(`${TOPIC}/p/p01/state`, toBytes(state), true);
+    await wait(1000);
+    expect(bo.seats).toEqual({ p01: 0, p02: 1 });
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: false, session: 5 }), true);
+    await wait(1000);
+    expect(bo.seats).toEqual({ p02: 1 }); // nobody is moved because somebody leaves
+  });
+  it("keeps its seat among those who want any", async () => {
+    for (const [i, id] of ["p13", "p14"].entries()) {
+      broker.publish(`${TOPIC}/p/${id}/presence`, toBytes({ here: true, session: 5 }), true);
+      const state = { session: 5, kind: "tracker", name: `T${i}`, seat: null, avatar: null };
+      broker.publish(`${TOPIC}/p/${id}/state`, toBytes(state), true);
+    }
+    const bo = new Page("p02", "Bo");
+    await wait(3000);
+    expect(bo.seats).toEqual({ p02: 2, p13: 0, p14: 1 });
+    expect(broker.told).toBe(6); // and no dispute with oneself
+  });
+  it("only watches without a seat", async () => {
+    new Page("p01", "Ana");
+    const watcher = new Page(null, "");
+    await wait(2000);
+    expect(watcher.names).toEqual(["Ana"]);
+    expect(watcher.client.say("hi")).toContain("only watch");
+    expect([...broker.kept.keys()].every((t) => t.startsWith(`${TOPIC}/p/p01/`))).toBe(true);
+  });
+});
+
+describe("when the broker dies and comes back with nothing", () => {
+  it("everybody is there again without a word, and what was said meanwhile is said", async () => {
+    const ana = new Page("p01", "Ana");
+    const bo = new Page("p02", "Bo");
+    await wait(3000);
+    bo.client.draw("#ffffff", 40, [0, 0, 1, 1]);
+    await wait(500);
+    broker.die();
+    await wait(4000);
+    expect(ana.client.state.kind).toBe("lost");
+    expect(ana.names).toEqual(["Ana", "Bo"]); // still to be seen
+    expect(ana.client.say("are you there?")).toBe("");
+    bo.client.draw("#ffffff", 40, [0, 1, 1, 0]);
+    broker.up = true;
+    await wait(40000);
+    expect(ana.client.state.kind).toBe("open");
+    expect(ana.said).toEqual(["* Bo came in.", "Ana: are you there?"]);
+    expect(bo.said.at(-1)).toBe("Ana: are you there?");
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(ana.client.board.strokes.length).toBe(2);
+    const late = new Page("p03", "Chidi");
+    await wait(1000);
+    expect(late.client.board.strokes.length).toBe(2);
+    expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
+  });
+  it("who does not come back has left", async () => {
+    const ana = new Page("p01", "Ana");
+    const bo = new Page("p02", "Bo");
+    await wait(3000);
+    broker.die();
+    bo.client.stop();
+    broker.up = true;
+    await wait(15000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    await wait(20000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual(["* Bo came in.", "* Bo left."]);
+  });
+  it("chairs tell what the room is", async () => {
+    const room = { title: "Blue", seats: 5, epoch: 3, chairs: ["p01"], locked: false };
+    broker.publish(`${TOPIC}/room`, toBytes(room), true);
+    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
+    await wait(1000);
+    broker.die();
+    broker.up = true;
+    await wait(5000);
+    expect(ana.client.roster.room).toEqual(room);
+    const late = new Page("p03", "Chidi");
+    await wait(1000);
+    expect(late.client.roster.room.title).toBe("Blue");
+  });
+});
+
+describe("one connection that breaks", () => {
+  it("is told to others, and mended without a trace of the late will", async () => {
+    const ana = new Page("p01", "Ana");
+    await wait(1000);
+    const bo = new Page("p02", "Bo");
+    await wait(3000);
+    broker.cut();
+    await wait(20000);
+    expect(bo.client.state.kind).toBe("open");
+    expect(ana.said).toEqual(["* Bo came in.", "* Bo left.", "* Bo came in."]);
+    // The will of the old connection comes only now: Bo is here none the less, for those who come later, too.
+    broker.publish(`${TOPIC}/p/p02/presence`, toBytes({ here: false, session: 1 }), true);
+    await wait(2000);
+    const late = new Page("p03", "Chidi");
+    await wait(1000);
+    expect(ana.names).toEqual(["Ana", "Bo", "Chidi"]);
+    expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
+    expect(ana.said.length).toBe(4);
+  });
+});
+
+describe("the blackboard", () => {
+  it("is the same for all, late ones and those who come back", async () => {
+    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page("p02", "Bo");
+    await wait(2000);
+    expect(bo.client.mayWipe).toBe(false);
+    ana.client.draw("#ffd76a", 40, [0, 0, 0.5, 0.5]);
+    bo.client.draw("#ff9280", 40, [0, 1, 1, 0]);
+    bo.client.draw("#ff9280", 40, [0, 0.5, 1, 0.5]);
+    await wait(1000);
+    for (const p of [ana, bo]) expect(p.client.board.strokes.length).toBe(3);
+    bo.client.stop();
+    const again = new Page("p02", "Bo");
+    await wait(2000);
+    expect(again.client.board.strokes.length).toBe(3);
+    again.client.undo();
+    await wait(1000);
+    expect(ana.client.board.strokes.length).toBe(2);
+    bo.client.wipe(); // may not
+    await wait(500);
+    expect(ana.client.board.strokes.length).toBe(2);
+    ana.client.wipe();
+    await wait(1000);
+    for (const p of [ana, again]) expect(p.client.board.strokes.length).toBe(0);
+    expect([...broker.kept.keys()].filter((t) => t.includes("/board/"))).toEqual([]);
+    again.client.draw("#ff9280", 40, [0, 0, 1, 1]);
+    await wait(1000);
+    expect(ana.client.board.strokes.length).toBe(1);
+  });
+});
+
+describe("a tracker on the same seat", () => {
+  it("has its say; the page goes on to chat and to draw", async () => {
+    const ana = new Page("p01", "Ana");
+    const other = new Page("p02", "Bo");
+    await wait(2000);
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 77 }), true);
+    const state = { session: 77, kind: "tracker", name: "Ana T", seat: 0, avatar: { look: "robot" } };
+    broker.publish(`${TOPIC}/p/p01/state`, toBytes(state), true);
+    await wait(3000);
+    expect(ana.client.me!.other?.kind).toBe("tracker");
+    expect(other.names).toEqual(["Ana T", "Bo"]);
+    ana.client.say("moving");
+    await wait(500);
+    expect(other.said.at(-1)).toBe("Ana T: moving");
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: false, session: 77 }), true);
+    await wait(3000);
+    expect(other.names).toEqual(["Ana", "Bo"]);
+  });
+});

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { encodeFrame } from "./frame";
+import { toBytes } from "./messages";
+import { COME_BACK, MOST_PARTICIPANTS, Roster, type RoomEvent } from "./roster";
+
+const BASE = "r/lab/main";
+const NOTHING = new Uint8Array(0);
+
+const pose = (sequence: number, session = 5): Uint8Array =>
+  encodeFrame({
+    tracked: true,
+    still: false,
+    session,
+    sequence,
+    captured: BigInt(1e6 + sequence * 33333),
+    hips: [0, 1, 0],
+    bones: [],
+  });
+
+class Room {
+  readonly roster = new Roster(BASE);
+  now = 100;
+
+  say(id: string, what: string, payload: object | Uint8Array): RoomEvent[] {
+    const bytes = payload instanceof Uint8Array ? payload : toBytes(payload);
+    return this.roster.hear(`${BASE}/p/${id}/${what}`, bytes, this.now);
+  }
+
+  enter(id: string, name: string, more: object = {}): RoomEvent[] {
+    const session = 5;
+    const came = this.say(id, "presence", { here: true, session });
+    this.say(id, "state", { session, kind: "browser", name, seat: null, avatar: null, ...more });
+    return came;
+  }
+}
+
+describe("who is here", () => {
+  it("comes and goes by presence, in either order with the state", () => {
+    const r = new Room();
+    expect(r.enter("p01", "Ana")).toEqual([{ kind: "came", id: "p01" }]);
+    r.say("p02", "state", { session: 5, kind: "tracker", name: "Bo", seat: 1, avatar: null });
+    expect(r.roster.here.map((p) => p.id)).toEqual(["p01"]);
+    expect(r.say("p02", "presence", { here: true, session: 5 })).toEqual([{ kind: "came", id: "p02" }]);
+    expect([...r.roster.names]).toEqual([
+      ["p01", "Ana"],
+      ["p02", "Bo"],
+    ]);
+    expect(Object.fromEntries(r.roster.seats)).toEqual({ p01: 0, p02: 1 });
+    expect(r.say("p02", "presence", { here: false, session: 5 })).toEqual([{ kind: "left", id: "p02" }]);
+    expect(r.roster.get("p02")!.state?.name).toBe("Bo"); // to say who left
+    r.say("p02", "state", NOTHING);
+    expect(r.roster.get("p02")!.state).toBeNull();
+  });
+  it("stays when an older session is told to be gone, and goes when its presence is cleared", () => {
+    const r = new Room();
+    r.enter("p01", "Ana");
+    expect(r.say("p01", "presence", { here: false, session: 4 })).toEqual([]);
+    expect(r.say("p01", "presence", NOTHING)).toEqual([{ kind: "left", id: "p01" }]);
+  });
+  it("is here by its frames alone, as long as they come", () => {
+    const r = new Room();
+    expect(r.say("p03", "pose", pose(0))).toEqual([{ kind: "came", id: "p03" }]);
+    expect(r.roster.names.get("p03")).toBe("p03");
+    r.now += 4;
+    expect(r.roster.step(r.now)).toEqual([]);
+    r.now += 2;
+    expect(r.roster.step(r.now)).toEqual([{ kind: "left", id: "p03" }]);
+  });
+  it("is told by the topic, whatever the message says of itself", () => {
+    const r = new Room();
+    r.enter("p01", "Ana");
+    r.say("p02", "presence", { here: false, session: 5, participant: "p01", id: "p01" });
+    r.say("p02", "state", { session: 5, kind: "browser", name: "X", seat: 0, avatar: null, id: "p01" });
+    expect(r.roster.here.map((p) => p.id)).toEqual(["p01"]);
+    expect(r.roster.names.get("p01")).toBe("Ana");
+    const events = r.say("p02", "chat", { id: "5-1", text: "hi", from: "p01" });
+    expect(events).toEqual([{ kind: "said", id: "p02", message: { id: "5-1", text: "hi" } }]);
+  });
+  it("is not changed by a new state of others, nor by what cannot be read", () => {
+    const r = new Room();
+    r.enter("p01", "Ana");
+    r.enter("p02", "Bo");
+    expect(r.say("p01", "state", { session: 5, kind: "browser", name: "Ann", seat: 2 })).toEqual([
+      { kind: "changed", id: "p01" },
+    ]);
+    for (const what of ["state", "presence", "chat", "board/0"]) {
+      expect(r.say("p01", what, new TextEncoder().encode("{broken"))).toEqual([]);
+      expect(r.say("p01", what, new Uint8Array(1 << 20))).toEqual([]);
+    }
+    expect(r.say("p01", "pose", new Uint8Array(300))).toEqual([]);
+    expect(r.roster.get("p01")!.refused).toBe(8);
+    expect(r.roster.get("p02")!.refused).toBe(0);
+    expect(r.roster.get("p01")!.stream.reading(r.now).malformed).toBe(1);
+    expect(r.roster.get("p02")!.stream.reading(r.now).malformed).toBe(0);
+    expect(r.roster.names.get("p01")).toBe("Ann");
+  });
+  it("is bounded; who left makes room", () => {
+    const r = new Room();
+    for (let i = 0; i < MOST_PARTICIPANTS + 50; i++) r.enter(`p${i}`, "X");
+    expect(r.roster.here.length).toBe(MOST_PARTICIPANTS);
+    expect(r.roster.ignored).toBeGreaterThan(0);
+    r.say("p3", "presence", { here: false, session: 5 });
+    expect(r.enter("new", "N")).toEqual([{ kind: "came", id: "new" }]);
+  });
+  it("hears topics of no room without harm", () => {
+    const r = new Room();
+    for (const topic of ["", "x", `${BASE}/p/../pose`, `${BASE}/p/__proto__/state`, "r/lab/other/room"]) {
+      r.roster.hear(topic, NOTHING, 0);
+    }
+    expect(r.roster.here).toEqual([]);
+  });
+});
+
+describe("a lost connection", () => {
+  it("makes nobody leave who comes back in time", () => {
+    const r = new Room();
+    r.enter("p01", "Ana");
+    r.enter("p02", "Bo");
+    r.roster.connected((r.now += 10));
+    r.now += COME_BACK - 1;
+    expect(r.roster.step(r.now)).toEqual([]);
+    expect(r.say("p01", "presence", { here: true, session: 6 })).toEqual([]); // a new session of the same
+    r.now += 2;
+    expect(r.roster.step(r.now)).toEqual([{ kind: "left", id: "p02" }]);
+    expect(r.roster.step((r.now += 100))).toEqual([]);
+  });
+});
+
+describe("the room", () => {
+  it("is what its topic says", () => {
+    const r = new Room();
+    const message = toBytes({ title: "Blue", seats: 3, epoch: 7, chairs: ["p01"], locked: false });
+    expect(r.roster.hear(`${BASE}/room`, message, 0)).toEqual([{ kind: "room" }]);
+    expect(r.roster.room).toMatchObject({ title: "Blue", seats: 3, epoch: 7 });
+    r.roster.hear(`${BASE}/room`, toBytes({ epoch: "x" }), 0);
+    expect(r.roster.refused).toBe(1);
+    expect(r.roster.room.epoch).toBe(7);
+  });
+  it("has pages of strokes", () => {
+    const r = new Room();
+    const stroke = { c: "#ffffff", w: 4, p: [1, 2, 3, 4] };
+    expect(r.say("p01", "board/3", { epoch: 0, strokes: [stroke] })).toEqual([
+      { kind: "page", id: "p01", page: 3, content: { epoch: 0, strokes: [stroke] } },
+    ]);
+    expect(r.say("p01", "board/3", NOTHING)).toEqual([{ kind: "page", id: "p01", page: 3, content: null }]);
+  });
+});

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is in the room, and what each has said of itself: built from messages alone, each from its own topic.
+
+import {
+  readBoard,
+  readChat,
+  readPresence,
+  readRoom,
+  readState,
+  type BoardMessage,
+  type RoomMessage,
+  type StateMessage,
+} from "./messages";
+import { shownNames } from "./names";
+import { assignSeats } from "./seats";
+import { PoseStream } from "./stream";
+import { parseTopic } from "./topics";
+
+export const MOST_PARTICIPANTS = 128;
+/** Whose presence nobody has told is here as long as frames come, s. */
+const UNTOLD = 5;
+/** After a lost connection the others, whose connection may be lost too, have so long to come back, s. */
+export const COME_BACK = 25;
+
+export interface Participant {
+  readonly id: string;
+  readonly stream: PoseStream;
+  state: StateMessage | null;
+  /** The session that says that it is here. */
+  presence: number | null;
+  here: boolean;
+  /** Its presence was told since the connection is there. */
+  confirmed: boolean;
+  /** JSON messages that were refused. */
+  refused: number;
+}
+
+export type RoomEvent =
+  | { kind: "came"; id: string }
+  | { kind: "left"; id: string }
+  | { kind: "changed"; id: string } // its state
+  | { kind: "room" }
+  | { kind: "said"; id: string; message: { id: string; text: string } }
+  | { kind: "page"; id: string; page: number; content: BoardMessage | null }; // null: it is gone
+
+export const DEFAULT_ROOM: Readonly<RoomMessage> = {
+  title: "",
+  seats: 8,
+  epoch: 0,
+  chairs: [],
+  locked: false,
+};
+
+export class Roster {
+  room: RoomMessage = { ...DEFAULT_ROOM };
+  /** Messages on topics that are none of the room's, or of more participants than are taken. */
+  ignored = 0;
+  /** Refused messages about the room itself. */
+  refused = 0;
+  private readonly all = new Map<string, Participant>();
+  /** Until then those who were here before the connection was lost count as here. */
+  private deadline = Infinity;
+
+  constructor(private readonly base: string) {}
+
+  /** Those who are here, by id. */
+  get here(): Participant[] {
+    return [...this.all.values()].filter((p) => p.here).sort((a, b) => (a.id < b.id ? -1 : 1));
+  }
+
+  get(id: string): Participant | null {
+    return this.all.get(id) ?? null;
+  }
+
+  /** What those who are here are called. */
+  get names(): Map<string, string> {
+    return shownNames(new Map(this.here.map((p) => [p.id, p.state?.name ?? p.id])));
+  }
+
+  get seats(): Map<string, number> {
+    return assignSeats(
+      this.here.map((p) => ({ id: p.id, seat: p.state?.seat ?? null })),
+      this.room.seats,
+    );
+  }
+
+  /** A message of the broker; `now` in s of our clock. */
+  hear(topic: string, payload: Uint8Array, now: number): RoomEvent[] {
+    const place = parseTopic(this.base, topic);
+    if (!place) {
+      this.ignored++;
+      return [];
+    }
+    if (place.kind === "room") return this.hearRoom(payload);
+    const p = this.participant(place.participant);
+    if (!p) {
+      this.ignored++;
+      return [];
+    }
+    switch (place.kind) {
+      case "pose":
+        return p.stream.hear(payload, now) === "taken" ? this.look(p, now) : [];
+      case "state":
+        return this.hearState(p, payload, now);
+      case "presence":
+        return this.hearPresence(p, payload, now);
+      case "chat": {
+        const message = readChat(payload);
+        if (!message) p.refused++;
+        return message ? [{ kind: "said", id: p.id, message }] : [];
+      }
+      case "board": {
+        const content = payload.byteLength ? readBoard(payload) : null;
+        if (payload.byteLength && !content) {
+          p.refused++;
+          return [];
+        }
+        return [{ kind: "page", id: p.id, page: place.page, content }];
+      }
+    }
+  }
+
+  /** Who has gone without a word. To be asked while the room is connected. */
+  step(now: number): RoomEvent[] {
+    const late = now > this.deadline;
+    if (late) this.deadline = Infinity;
+    const events: RoomEvent[] = [];
+    for (const p of this.all.values()) {
+      if (late && !p.confirmed) p.presence = null;
+      if (p.here) events.push(...this.look(p, now));
+    }
+    return events;
+  }
+
+  /** Everybody who was here has told so since the connection is there. */
+  get complete(): boolean {
+    return [...this.all.values()].every((p) => p.presence === null || p.confirmed);
+  }
+
+  /** The connection is there anew. What was known of the others holds until they had time to tell it again. */
+  connected(now: number): void {
+    this.deadline = now + COME_BACK;
+    for (const p of this.all.values()) p.confirmed = false;
+  }
+
+  private participant(id: string): Participant | null {
+    const known = this.all.get(id);
+    if (known) return known;
+    if (this.all.size >= MOST_PARTICIPANTS) {
+      const gone = [...this.all.values()].find((p) => !p.here);
+      if (!gone) return null;
+      this.all.delete(gone.id);
+    }
+    const made: Participant = {
+      id,
+      stream: new PoseStream(),
+      state: null,
+      presence: null,
+      here: false,
+      confirmed: false,
+      refused: 0,
+    };
+    this.all.set(id, made);
+    return made;
+  }
+
+  private hearRoom(payload: Uint8Array): RoomEvent[] {
+    const room = readRoom(payload);
+    if (!room) {
+      if (payload.byteLength) this.refused++;
+      return [];
+    }
+    this.room = room;
+    return [{ kind: "room" }];
+  }
+
+  private hearState(p: Participant, payload: Uint8Array, now: number): RoomEvent[] {
+    const state = payload.byteLength ? readState(payload) : null;
+    if (payload.byteLength && !state) {
+      p.refused++;
+      return [];
+    }
+    // An empty one comes when somebody leaves: their name is still needed to say so.
+    if (!state && p.here) return [];
+    p.state = state;
+    const seen = this.look(p, now);
+    return seen.length || !p.here ? seen : [{ kind: "changed", id: p.id }];
+  }
+
+  private hearPresence(p: Participant, payload: Uint8Array, now: number): RoomEvent[] {
+    const m = payload.byteLength ? readPresence(payload) : null;
+    if (payload.byteLength && !m) {
+      p.refused++;
+      return [];
+    }
+    if (m?.here) {
+      p.presence = m.session;
+      p.confirmed = true;
+    } else {
+      // Of an older session: the newer one stays. An empty one clears whoever is there.
+      if (!m || m.session === p.presence) p.presence = null;
+      if (m) p.stream.leave(m.session, now);
+    }
+    return this.look(p, now);
+  }
+
+  private look(p: Participant, now: number): RoomEvent[] {
+    const here = p.presence !== null || p.stream.alive(now, UNTOLD);
+    if (here === p.here) return [];
+    p.here = here;
+    return [{ kind: here ? "came" : "left", id: p.id }];
+  }
+}

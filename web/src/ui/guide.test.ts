@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Command, Phase, Status } from "../protocol";
+import { Guide } from "./guide";
+
+/** As much of an element as the guide touches. */
+class FakeElement {
+  readonly dataset: Record<string, string> = {};
+  readonly classList = { toggle: () => false };
+  hidden = true;
+  textContent = "";
+  press = (): void => {};
+  addEventListener(_type: string, pressed: () => void): void {
+    this.press = pressed;
+  }
+}
+
+let elements: Map<string, FakeElement>;
+let sent: Command[];
+let said: string[];
+let connected: boolean;
+let guide: Guide;
+
+function element(id: string): FakeElement {
+  const known = elements.get(id) ?? new FakeElement();
+  elements.set(id, known);
+  return known;
+}
+
+const enter = (phase: Phase): void => guide.setStatus({ phase, words: "" } as unknown as Status);
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.stubGlobal("window", globalThis);
+  vi.stubGlobal("HTMLElement", FakeElement);
+  vi.stubGlobal("HTMLButtonElement", FakeElement);
+  vi.stubGlobal("document", { getElementById: element, querySelectorAll: () => [] });
+  elements = new Map();
+  sent = [];
+  said = [];
+  connected = true;
+  const send = (c: Command): boolean => {
+    if (connected) sent.push(c);
+    return connected;
+  };
+  guide = new Guide(
+    send,
+    (words) => said.push(words),
+    () => {},
+  );
+});
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe("the guide", () => {
+  it("says that the room is empty when it has counted down", () => {
+    enter("empty_room");
+    element("guide-count").press();
+    vi.advanceTimersByTime(4900);
+    expect(sent).toEqual([]);
+    vi.advanceTimersByTime(200);
+    expect(sent).toEqual([{ type: "guide", step: "empty" }]);
+  });
+
+  it("stops counting when the connection is lost, and knows no phase", () => {
+    enter("empty_room");
+    element("guide-count").press();
+    vi.advanceTimersByTime(2000);
+    guide.disconnected();
+    expect(element("countdown").hidden).toBe(true);
+    expect(element("guide").hidden).toBe(true);
+    said = [];
+    vi.advanceTimersByTime(60000);
+    expect(said).toEqual([]);
+    for (const id of ["guide-count", "guide-now", "guide-skip"]) element(id).press();
+    vi.advanceTimersByTime(60000);
+    expect(sent).toEqual([]);
+    enter("empty_room"); // the program is back
+    expect(element("guide").hidden).toBe(false);
+    element("guide-now").press();
+    expect(sent).toEqual([{ type: "guide", step: "empty" }]);
+  });
+
+  it("is not done with a person who was found while nobody was connected", () => {
+    enter("person");
+    guide.disconnected();
+    enter("tracking");
+    enter("tracking");
+    expect(said.join()).not.toMatch(/Done/);
+  });
+
+  it("says so when nothing can be said to the program", () => {
+    enter("empty_room");
+    connected = false;
+    for (const id of ["guide-now", "guide-skip", "guide-back"]) {
+      said = [];
+      element(id).press();
+      expect(said.join()).toMatch(/no connection/);
+    }
+    connected = true;
+    said = [];
+    element("guide-now").press();
+    expect(said.join()).not.toMatch(/no connection/);
+  });
+});
