@@ -212,6 +212,27 @@ TEST_F(Room, TheLastFrameBeforeAPauseGoesOut) {
   })) << "the newest, without another one behind it";
 }
 
+TEST_F(Room, TimesRise) {
+  const auto sender = make_sender(broker_.url());
+  ASSERT_TRUE(is_sending(*sender)) << sender->status().words;
+  const StreamHeader header = testing_motion::header();
+  MotionFrame frame = testing_motion::gesture(header, 1)[0];
+  sender->begin(header);
+  sender->send(frame, 50.0);
+  ASSERT_TRUE(frames_come(1));
+  frame.state = TrackState::lost;  // left: told with the time of the last picture
+  sender->send(frame, 50.0);
+  ASSERT_TRUE(frames_come(2));
+  frame.state = TrackState::tracking;
+  sender->send(frame, std::nan(""));
+  ASSERT_TRUE(frames_come(3));
+  const std::vector<PoseFrame> frames = ear_.frames("tracker");
+  EXPECT_EQ(frames[0].captured, 50'000U);
+  EXPECT_FALSE(frames[1].tracked);
+  EXPECT_GT(frames[1].captured, frames[0].captured);
+  EXPECT_GT(frames[2].captured, frames[1].captured);
+}
+
 TEST_F(Room, FramesAreShort) {
   const auto sender = make_sender(broker_.url());
   Feeder feeder(*sender);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/mqtt_room_link.h"
 
+#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/address.hpp>
 #include <chrono>
@@ -228,6 +229,8 @@ void RoomLink::send_when_due() {
   }
   waiting_->session = session_;
   waiting_->sequence = sequence_++;
+  // A person who is left has no picture of their own: the time of the one before.
+  waiting_->captured = captured_ = std::max(waiting_->captured, captured_ + 1);
   waiting_->still = pace_.still(*waiting_);
   connection_.tell(pose_topic_, encode(*waiting_));
   pace_.sent(*waiting_, now);

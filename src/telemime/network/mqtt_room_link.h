@@ -69,9 +69,10 @@ class RoomLink final : public Link {
   WhoIsHere here_;
   std::optional<PoseFrame> waiting_;  ///< the newest frame, until it is sent
   std::uint32_t sequence_ = 0;
-  int uncounted_ = 0;       ///< frames that were sent and not yet told by frame()
-  bool confirmed_ = false;  ///< our presence came back: what we publish is taken
-  bool twin_ = false;       ///< somebody else takes part under our name
+  std::uint64_t captured_ = 0;  ///< us, of the last frame that was sent
+  int uncounted_ = 0;           ///< frames that were sent and not yet told by frame()
+  bool confirmed_ = false;      ///< our presence came back: what we publish is taken
+  bool twin_ = false;           ///< somebody else takes part under our name
 };
 
 }  // namespace telemime

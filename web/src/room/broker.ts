@@ -8,6 +8,8 @@ import { steadyTimer } from "./ticker";
 
 const KEEP_ALIVE = 10; // s
 const PATIENCE = 8000; // ms for an answer of the broker
+/** Between signs of life, ms: far more often than must be, as a busy computer may be late with them. */
+const SIGN_OF_LIFE = 4000;
 
 const REFUSED: Record<number, string> = {
   1: "The room's broker speaks another version of MQTT.",
@@ -45,9 +47,13 @@ export function brokerDial(
     let over = false;
     let opened = false;
     let why: Closed | null = null;
+    const pulse = steadyTimer.set(() => {
+      if (client.connected) client.sendPing();
+    }, SIGN_OF_LIFE);
     const closed = (): void => {
       if (over) return;
       over = true;
+      steadyTimer.clear(pulse);
       client.end(true);
       events.closed(
         why ?? {
@@ -83,6 +89,7 @@ export function brokerDial(
       },
       close: () => {
         over = true;
+        steadyTimer.clear(pulse);
         client.on("error", () => undefined);
         client.end(); // after what waits was sent
       },

@@ -40,7 +40,7 @@ export class RoomLoop {
       requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
       this.ticks++;
       const now = performance.now() / 1000;
-      if (this.ready(now)) this.draw(now);
+      if (this.ready(now) || this.stage.blank) this.draw(now);
     };
     requestAnimationFrame(tick);
   }

@@ -10,6 +10,7 @@ import type { AvatarChoice } from "../messages";
 
 /** Bytes of all strangers' files that are kept at a time. */
 const MOST_BYTES = 256 * 1024 * 1024;
+const PAUSE = 20; // ms between avatars that are built
 
 /** The same for the same file. */
 export const keyOf = (choice: AvatarChoice): string =>
@@ -64,6 +65,7 @@ function shareSurfaces(from: Object3D, to: Object3D): void {
 
 export class AvatarLibrary {
   private readonly entries = new Map<string, Entry>();
+  private last: Promise<unknown> = Promise.resolve();
   private readonly keys = new WeakMap<Avatar, string>();
 
   /** A new avatar for one participant; give it back with release(). Throws AvatarError in words. */
@@ -72,7 +74,8 @@ export class AvatarLibrary {
     const entry = this.entry(key, choice);
     entry.waiting++;
     try {
-      const avatar = await loadAvatar(await entry.data);
+      const data = await entry.data;
+      const avatar = await this.inTurn(() => loadAvatar(data));
       if (entry.first) shareSurfaces(entry.first.scene, avatar.scene);
       else entry.first = avatar;
       entry.users.add(avatar);
@@ -84,6 +87,15 @@ export class AvatarLibrary {
     } finally {
       entry.waiting--;
     }
+  }
+
+  /** One after the other, with a moment for the rest of the page between them: to build one takes a while. */
+  private inTurn<T>(work: () => Promise<T>): Promise<T> {
+    const done = this.last.then(work);
+    this.last = done
+      .catch(() => undefined)
+      .then(() => new Promise<void>((resolve) => void window.setTimeout(resolve, PAUSE)));
+    return done;
   }
 
   release(avatar: Avatar): void {

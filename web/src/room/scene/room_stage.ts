@@ -36,6 +36,8 @@ export class RoomStage {
   private built: Object3D[] = [];
   /** How figures are lit; null where a graphics card does that. */
   light: Light | null = null;
+  /** There is nothing on the canvas: it is drawn at once, whatever is under way. */
+  blank = true;
   private dirty = true;
   private slateOld = true;
   private slateAt = -Infinity;
@@ -53,7 +55,7 @@ export class RoomStage {
     this.painter = new Painter(canvas, box, (aspect) => {
       this.rig.aspect = this.camera.aspect = aspect;
       this.camera.updateProjectionMatrix();
-      this.dirty = true;
+      this.dirty = this.blank = true; // another size clears the canvas
     });
     this.software = this.painter.software;
     this.slate = new CanvasTexture(board);
@@ -155,7 +157,7 @@ export class RoomStage {
     this.painter.draw(this.scene, this.camera, this.drewAt === null ? null : Math.min(1, now - this.drewAt));
     this.painter.watch();
     this.drewAt = now;
-    this.dirty = false;
+    this.dirty = this.blank = false;
     for (const [id, figure] of this.figures) {
       this.tags.place(id, id === hidden ? null : figure.tagPlace(this.scratch), this.camera);
     }
