@@ -21,7 +21,7 @@ export async function openRoom(options = {}) {
       execFileSync(program, ["avatar", "--look", look, "--out", join(folder, `${look}.vrm`)]);
   }
   const codec = await loadCodec();
-  const room = await startRoom({ accounts: 14, ...options, avatars: program ? folder : null });
+  const room = await startRoom({ accounts: 30, ...options, avatars: program ? folder : null });
   const people = [];
   return Object.assign(room, {
     codec,
