@@ -131,6 +131,21 @@ TEST(Tracker, AtFiveFramesASecondThePersonIsFollowedToo) {
   }
 }
 
+TEST(Tracker, OneBadFrameLosesNobodyHoweverLongItLasts) {
+  for (const char* method : {"two-step", "heuristics"}) {
+    Config config = quick_config();
+    config.tracking.method = method;
+    config.tracking.lost_region = 1e-6;  // every frame is bad
+    std::vector<Frame> frames(clip().person.begin(), clip().person.begin() + 3);
+    for (Frame& frame : frames) {
+      frame.time *= 12.5;
+    }
+    const auto motion = track(config, frames);
+    EXPECT_EQ(motion[1].state, TrackState::tracking) << method << ": one bad frame of half a second";
+    EXPECT_EQ(motion[2].state, TrackState::lost) << method << ": two in a row";
+  }
+}
+
 TEST(TimeStep, IsOneWhereItIsUsualOrNotKnown) {
   EXPECT_EQ(steps_between(0.0, 0.04), 1.0);
   EXPECT_EQ(steps_between(1.0, 1.0415), 1.0);  // a camera's clock

@@ -105,7 +105,8 @@ void Tracker::recalibrate() {
   if (filter_) {
     filter_->stop();
   }
-  bad_frames_ = 0.0;
+  bad_frames_ = 0;
+  bad_for_ = 0.0;
   facing_ = 0.0;
   phase_ = Phase::waiting;
   waited_ = 0;
@@ -163,6 +164,7 @@ TrackedFrame Tracker::decide(SeenFrame& seen) {
   motion.stage_ms.emplace_back("features", seen.ms);
   result.note = seen.note;
   result.warnings = seen.warnings;
+  steps_before_ = steps_;
   steps_ = steps_between(decided_, seen.frame.time);
   decided_ = seen.frame.time;
   if (seen.coloured) {
@@ -254,7 +256,7 @@ void Tracker::follow(const SeenFrame& seen, TrackedFrame& result) {
   Objective objective(*backend_, seen.prepared, model_, limits_);
   RegistrationConfig search = for_time_step(config_.registration, steps_);
   search.iterations = std::max(1, static_cast<int>(std::lround(effort_ * search.iterations)));
-  const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity, limits_);
+  const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity * steps_ / steps_before_, limits_);
   const bool goes_on = objective(expected, search.region) < objective(pose_, search.region);
   const Pose start = goes_on ? expected : pose_;
   objective.expect(start);
@@ -290,8 +292,10 @@ void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& res
     return;
   }
   const bool bad = score.region > config_.tracking.lost_region || !seen.observation.head;
-  bad_frames_ = bad ? bad_frames_ + steps_ : 0.0;
-  if (bad_frames_ >= config_.tracking.patience) {
+  bad_frames_ = bad ? bad_frames_ + 1 : 0;
+  bad_for_ = bad ? bad_for_ + steps_ : 0.0;
+  // At a few frames a second one bad frame lasts as long as the patience.
+  if (bad_for_ >= config_.tracking.patience && bad_frames_ >= std::min(2, config_.tracking.patience)) {
     lose("the body no longer fits the picture", result);
   }
 }
@@ -305,7 +309,8 @@ void Tracker::adopt(const Pose& pose, const Score& score, TrackedFrame& result) 
 
 void Tracker::lose(const std::string& why, TrackedFrame& result) {
   phase_ = calibration_ ? Phase::lost : Phase::waiting;
-  bad_frames_ = 0.0;
+  bad_frames_ = 0;
+  bad_for_ = 0.0;
   if (filter_) {
     filter_->stop();
   }

@@ -137,7 +137,9 @@ class Tracker {
   double decided_ = 0.0;              ///< time of the last frame, s
   double steps_ = 1.0;                ///< since then, in 1/25 s
   double facing_ = 0.0;               ///< of the filter's last step
-  double bad_frames_ = 0.0;           ///< 1/25 s
+  double steps_before_ = 1.0;         ///< and between the two frames before it
+  int bad_frames_ = 0;                ///< in a row
+  double bad_for_ = 0.0;              ///< 1/25 s
   double frames_until_search_ = 0.0;  ///< 1/25 s
   std::int64_t since_ = 0;            ///< of the image side
   int waited_ = 0;                    ///< frames since a head came into the picture
