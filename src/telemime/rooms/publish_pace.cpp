@@ -48,13 +48,16 @@ double PublishPace::period(const PoseFrame& frame) const {
 }
 
 double PublishPace::due(const PoseFrame& frame) const {
-  return last_ ? slot_ + period(frame) : std::numeric_limits<double>::lowest();
+  if (!last_) {
+    return std::numeric_limits<double>::lowest();
+  }
+  // A frame may go out one slot early. With frames as often as slots, the phase of the first would otherwise
+  // stay: every frame would wait for its slot.
+  return still(frame) ? slot_ + period(frame) : slot_;
 }
 
 void PublishPace::sent(const PoseFrame& frame, double now) {
-  // The slots are evenly spaced, so that frames that come a little late do not lower the rate.
-  const double slot = due(frame);
-  slot_ = last_ && now - slot < period(frame) ? slot : now;
+  slot_ = last_ ? std::max(now, slot_ + period(frame)) : now;
   last_ = frame;
 }
 

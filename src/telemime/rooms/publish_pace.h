@@ -19,7 +19,8 @@ inline constexpr double kStillRate = 2.0;
 /// degrees, the hips moved by less than 3 mm.
 bool is_still(const PoseFrame& before, const PoseFrame& now);
 
-/// Says when a frame may go out. Times are seconds of one clock.
+/// Says when a frame may go out: evenly spaced slots, and at most one slot early. Times are seconds of one
+/// clock.
 class PublishPace {
  public:
   /// How many are in the room, oneself among them.
@@ -35,7 +36,7 @@ class PublishPace {
   double period(const PoseFrame& frame) const;
 
   double rate_ = publish_rate(1);
-  double slot_ = 0.0;  ///< when the last frame was due, or went out
+  double slot_ = 0.0;  ///< of the last frame that went out; at most one period after that
   std::optional<PoseFrame> last_;
 };
 
