@@ -19,6 +19,7 @@
 #include "experiments_command.h"
 #include "learn_command.h"
 #include "live_command.h"
+#include "room_command.h"
 #include "synth_command.h"
 #include "telemime/capture/quiet.h"
 #include "track_command.h"
@@ -32,6 +33,7 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   app.require_subcommand(1);
   app.set_version_flag("--version", TELEMIME_VERSION);
   add_live_command(app, left_behind);
+  add_room_command(app);
   add_track_command(app);
   add_calibrate_command(app);
   add_evaluate_command(app);

@@ -91,6 +91,14 @@ Ended Program::wait() {
           bytes_of(folder_.file("err"))};
 }
 
+std::string Program::output() const {
+  return bytes_of(folder_.file("out"));
+}
+
+std::string Program::words() const {
+  return bytes_of(folder_.file("err"));
+}
+
 Ended run(const std::vector<std::string>& arguments) {
   return Program(arguments).wait();
 }

@@ -29,6 +29,10 @@ class Program {
   void signal(int number) const;
   bool running();
   Ended wait();
+  pid_t process() const { return process_; }
+  /// So far: standard output and error.
+  std::string output() const;
+  std::string words() const;
 
  private:
   ScratchFolder folder_;  ///< of its standard output and error

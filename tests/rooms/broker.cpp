@@ -18,7 +18,23 @@ namespace {
 
 constexpr int kAttempts = 10;
 
-/// Starts a program whose output goes to a file. It does not outlive the thread that calls this.
+std::string content_of(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+bool somebody_listens(std::uint16_t port) {
+  const testing_receivers::Fd fd(::socket(AF_INET, SOCK_STREAM, 0));
+  const sockaddr_in where = testing_receivers::loopback(port);
+  return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
+}
+
+bool has_ended(pid_t process) {
+  return ::waitpid(process, nullptr, WNOHANG) == process;
+}
+
+}  // namespace
+
 pid_t start_program(const std::vector<std::string>& words, const std::string& output) {
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
@@ -37,23 +53,6 @@ pid_t start_program(const std::vector<std::string>& words, const std::string& ou
   }
   return process;
 }
-
-std::string content_of(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-bool somebody_listens(std::uint16_t port) {
-  const testing_receivers::Fd fd(::socket(AF_INET, SOCK_STREAM, 0));
-  const sockaddr_in where = testing_receivers::loopback(port);
-  return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
-}
-
-bool has_ended(pid_t process) {
-  return ::waitpid(process, nullptr, WNOHANG) == process;
-}
-
-}  // namespace
 
 void run(const std::vector<std::string>& words) {
   const ScratchFolder folder;
@@ -81,6 +80,13 @@ Broker::Broker(const std::vector<Account>& accounts) {
               folder_.file("rights") + "\n");
 }
 
+Broker::Broker(Where where) {
+  if (where == Where::everywhere) {
+    address_.clear();
+  }
+  choose_port("allow_anonymous true\n");
+}
+
 Broker::Broker(const std::string& certificate, const std::string& key) {
   choose_port("allow_anonymous true\ncertfile " + certificate + "\nkeyfile " + key + "\n");
 }
@@ -93,7 +99,7 @@ Broker::~Broker() {
 void Broker::choose_port(const std::string& more) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     port_ = testing_receivers::free_port();
-    std::ofstream(folder_.file("config")) << "listener " << port_ << " 127.0.0.1\n"
+    std::ofstream(folder_.file("config")) << "listener " << port_ << address_ << '\n'
                                           << more << "persistence false\nlog_type all\n"
                                           << (::geteuid() == 0 ? "user root\n" : "");
     if (try_start()) {

@@ -20,6 +20,11 @@ class Broker {
     std::string rights;  ///< lines of an ACL file: "topic read r/home/studio/#\n"
   };
 
+  /// Which of the computer's addresses it listens at.
+  enum class Where { loopback, everywhere };
+
+  /// Who comes may do all.
+  explicit Broker(Where where);
   /// Who comes may do all; or only `accounts` may, each what its rights say.
   explicit Broker(const std::vector<Account>& accounts = {});
   /// TLS with this certificate and its key, files in PEM form.
@@ -43,9 +48,13 @@ class Broker {
   bool try_start();
 
   ScratchFolder folder_;
+  std::string address_ = " 127.0.0.1";
   std::uint16_t port_ = 0;
   pid_t process_ = -1;
 };
+
+/// Starts a program whose output goes to a file. It does not outlive the thread that calls this.
+pid_t start_program(const std::vector<std::string>& words, const std::string& output);
 
 /// Runs a program and waits for its end; fails the test unless that is 0.
 void run(const std::vector<std::string>& words);

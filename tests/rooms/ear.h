@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -33,6 +34,8 @@ class Ear {
   Ear& operator=(const Ear&) = delete;
   ~Ear();
 
+  /// Whether the broker has granted what it asked for. It may hear something before.
+  bool listens() const { return listens_; }
   std::vector<Heard> all() const;
   /// The newest of a topic; nothing before the first.
   std::optional<Heard> newest(const std::string& topic) const;
@@ -47,10 +50,12 @@ class Ear {
 
  private:
   static void on_connect(mosquitto* client, void* self, int code);
+  static void on_subscribe(mosquitto* client, void* self, int id, int count, const int* granted);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
 
   mutable std::mutex mutex_;
   std::vector<Heard> heard_;
+  std::atomic<bool> listens_ = false;
   mosquitto* client_ = nullptr;
 };
 

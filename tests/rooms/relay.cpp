@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <utility>
 
 namespace telemime::testing_rooms {
 namespace {
@@ -23,7 +24,8 @@ bool pass_on(const Fd& from, const Fd& to) {
 
 }  // namespace
 
-Relay::Relay(std::uint16_t broker) : broker_(broker), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
+Relay::Relay(std::vector<std::uint16_t> brokers)
+    : brokers_(std::move(brokers)), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
   const int small = 2048;  // so that a stall is felt soon
   ::setsockopt(listener_.get(), SOL_SOCKET, SO_RCVBUF, &small, sizeof(small));
   testing_receivers::bind_to(listener_.get(), 0);
@@ -50,12 +52,15 @@ void Relay::run() {
 
 void Relay::accept() {
   Fd sender(::accept(listener_.get(), nullptr, nullptr));
-  Fd broker(::socket(AF_INET, SOCK_STREAM, 0));
-  const sockaddr_in where = testing_receivers::loopback(broker_);
-  if (::connect(broker.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0) {
-    const std::lock_guard lock(mutex_);
-    open_.push_back({std::move(sender), std::move(broker)});
-    ++made_;
+  for (const std::uint16_t port : brokers_) {
+    Fd broker(::socket(AF_INET, SOCK_STREAM, 0));
+    const sockaddr_in where = testing_receivers::loopback(port);
+    if (::connect(broker.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0) {
+      const std::lock_guard lock(mutex_);
+      open_.push_back({std::move(sender), std::move(broker)});
+      ++made_;
+      return;
+    }
   }
 }
 

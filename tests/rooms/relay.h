@@ -15,7 +15,9 @@ namespace telemime::testing_rooms {
 /// Stands between a sender and its broker, and can break a connection as networks do.
 class Relay {
  public:
-  explicit Relay(std::uint16_t broker);
+  explicit Relay(std::uint16_t broker) : Relay(std::vector{broker}) {}
+  /// Leads each connection to the first of these brokers that takes it, as a load balancer does.
+  explicit Relay(std::vector<std::uint16_t> brokers);
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
   ~Relay();
@@ -39,7 +41,7 @@ class Relay {
   void accept();
   static bool carry(const Pair& pair);
 
-  const std::uint16_t broker_;
+  const std::vector<std::uint16_t> brokers_;
   testing_receivers::Fd listener_;
   std::mutex mutex_;
   std::list<Pair> open_;

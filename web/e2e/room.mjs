@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages of a room for the tests beside this file: a real Mosquitto, a real Chromium, synthetic trackers.
+// Pages of a room for the tests beside this file: a real Mosquitto, a real Chromium, synthetic trackers. The room is that of
+// mock/room.mjs, or the real program's where TELEMIME_ROOM_PROGRAM names it.
 
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
@@ -8,26 +9,32 @@ import { join } from "node:path";
 import { conj, mul } from "../mock/quat.mjs";
 import { loadCodec, startPerson } from "../mock/people.mjs";
 import { startRoom } from "../mock/room.mjs";
+import { startHostedRoom } from "./hosted_room.mjs";
 import { PATIENCE } from "./program.mjs";
 
 export const LOOKS = ["plain", "casual", "office", "summer", "robot"];
 
-/** The room, its trackers' codec, and the project's own avatars where there is a program to write them. */
-export async function openRoom(options = {}) {
+/**
+ * The room, its trackers' codec, and the project's own avatars where there is a program to write them. `hosted`: the program
+ * that opens it (`telemime room`).
+ */
+export async function openRoom({ hosted = process.env.TELEMIME_ROOM_PROGRAM, ...options } = {}) {
   const folder = mkdtempSync(join(tmpdir(), "telemime-room-"));
   const program = process.env.TELEMIME_PROGRAM;
-  if (program) {
+  if (program && !hosted) {
     for (const look of LOOKS)
       execFileSync(program, ["avatar", "--look", look, "--out", join(folder, `${look}.vrm`)]);
   }
   const codec = await loadCodec();
-  const room = await startRoom({ accounts: 30, ...options, avatars: program ? folder : null });
+  const room = hosted
+    ? await startHostedRoom(hosted, options)
+    : await startRoom({ accounts: 30, ...options, avatars: program ? folder : null });
   const people = [];
   return Object.assign(room, {
     codec,
     /** A tracker with an account of its own. */
     async person(options) {
-      const p = await startPerson({ ...room, account: room.takeAccount(), codec }, options);
+      const p = await startPerson({ ...room, account: await room.takeAccount(), codec }, options);
       people.push(p);
       return p;
     },
@@ -41,15 +48,16 @@ export async function openRoom(options = {}) {
 
 /**
  * A page at the door. `complaints` holds what the console and the page said against themselves; `requested` all addresses
- * that it asked for. Few pixels: without a graphics card each costs processor time.
+ * that it asked for. `script` runs before the page's own. Few pixels: without a graphics card each costs processor time.
  */
-export async function atTheDoor(browser, room, { role = "speak", ...options } = {}) {
+export async function atTheDoor(browser, room, { role = "speak", script = null, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 900, height: 560 },
     deviceScaleFactor: 0.5,
     ...options,
   });
   context.setDefaultTimeout(PATIENCE);
+  if (script) await context.addInitScript(script);
   const page = await context.newPage();
   const complaints = [];
   const requested = [];

@@ -72,6 +72,7 @@ export async function startBroker(accounts) {
     `listener ${tcp} 127.0.0.1`,
     "protocol mqtt",
     `listener ${ws} 127.0.0.1`,
+    "socket_domain ipv4", // without it Mosquitto 2.0.11 listens for WebSockets at all addresses
     "protocol websockets",
   ]);
   let child = null;

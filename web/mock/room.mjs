@@ -11,7 +11,7 @@ import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
 import mqtt from "mqtt";
 import { boxAvatar } from "./avatar.mjs";
-import { startBroker } from "./broker.mjs";
+import { startBroker as startMosquitto } from "./broker.mjs";
 import { loadCodec, startPerson } from "./people.mjs";
 
 const DIST = fileURLToPath(new URL("../dist/", import.meta.url));
@@ -43,13 +43,14 @@ function avatarsOf(folder) {
   return out;
 }
 
-/** `seats`: participants' accounts; the first is a chair's. */
+/** `accounts`: participants' accounts; the first is a chair's. `startBroker`: startCluster of cluster.mjs for another one. */
 export async function startRoom({
   port = 0,
   seats = 8,
   accounts = seats,
   avatars = null,
   title = "Blue room",
+  startBroker = startMosquitto,
 } = {}) {
   const topic = "r/mock/blue";
   const ids = Array.from({ length: accounts }, (_, i) => `p${String(i + 1).padStart(2, "0")}`);
@@ -68,7 +69,7 @@ export async function startRoom({
     account("service", [`${topic}/#`], [`${topic}/#`]),
   ];
   const of = new Map(all.map((a) => [a.participant, a]));
-  const broker = await startBroker(all);
+  const broker = await startBroker(all, topic);
   const invites = { speak: secret(), watch: secret(), chair: secret() };
   const tokens = new Map(); // return token -> participant
   const taken = new Set();

@@ -70,4 +70,15 @@ std::optional<WebContent> live_file(const std::string& path, AvatarShelf& avatar
   return page_file(path);
 }
 
+std::optional<WebContent> room_file(const std::string& path, AvatarShelf& avatars) {
+  if (const auto look = look_of(path)) {
+    return avatar(*look, avatars);
+  }
+  if (path == "/" || path == "/room") {
+    auto page = page_file("/room.html");
+    return page ? page : page_file("/");  // built without pages: the note that says so
+  }
+  return path == "/index.html" ? std::nullopt : page_file(path);
+}
+
 }  // namespace telemime

@@ -15,4 +15,8 @@ namespace telemime {
 /// blocks.
 std::optional<WebContent> live_file(const std::string& path, AvatarShelf& avatars, const Recorder& recorder);
 
+/// What stands at a path of a room's server (docs/room-page.md): the room's page at "/room" and "/", its
+/// files, an avatar. Nothing where there is none. Never blocks.
+std::optional<WebContent> room_file(const std::string& path, AvatarShelf& avatars);
+
 }  // namespace telemime

@@ -35,6 +35,31 @@ TEST(OutputPasswords, AreKnownToTheListAlone) {
   EXPECT_THROW(list.add(kShown), Error) << "and forgotten with the output";
 }
 
+TEST(OutputPasswords, SecretsOfRoomsLinksAreSuch) {
+  const std::string link = "http://127.0.0.1:9/room?name=Ana#k=secret";
+  const std::string shown = "http://127.0.0.1:9/room?name=Ana";
+  const ScratchFolder folder;
+  SenderList list;
+  KeptOutputs kept(folder.path() / "live.json", list, nullptr);
+  list.add(link);
+  kept.keep(link);
+  kept.save();
+  EXPECT_EQ(list.status().at(0).url, shown);
+  std::ifstream in(folder.path() / "live.json");
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find(shown), std::string::npos) << text;
+  EXPECT_EQ(text.find("secret"), std::string::npos) << text;
+  ASSERT_TRUE(list.switch_off(shown));
+  EXPECT_NO_THROW(list.add(shown)) << "known from before";
+  ASSERT_TRUE(list.remove(shown));
+  try {
+    list.add(shown);
+    ADD_FAILURE();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("Secrets are not kept"), std::string::npos) << e.what();
+  }
+}
+
 TEST(OutputPasswords, AreNotKeptForLaterRuns) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "live.json";

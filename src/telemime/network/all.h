@@ -10,6 +10,7 @@
 #include "telemime/network/bap_serve.h"
 #include "telemime/network/bap_tcp.h"
 #include "telemime/network/mqtt_sender.h"
+#include "telemime/network/room_sender.h"
 #include "telemime/network/sender.h"
 #include "telemime/network/url.h"
 #include "telemime/network/vmc.h"
@@ -30,7 +31,7 @@ struct SenderKind {
 };
 
 /// All of them. A new kind is a Link (send_queue.h) and a line here. `mirror` is an option of each.
-inline constexpr std::array<SenderKind, 6> kSenderKinds = {{
+inline constexpr std::array<SenderKind, 8> kSenderKinds = {{
     {"vmc", kMarionettePort, "vmc://localhost:39539",
      "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
      "avatar programs that take the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
@@ -45,6 +46,10 @@ inline constexpr std::array<SenderKind, 6> kSenderKinds = {{
     {"mqtts", kMqttsPort, "mqtts://localhost:8883/home/studio",
      "mirror=0|1; ca, name, look, seat, participant, key", "the same, encrypted by TLS", make_mqtt_sender,
      UrlUser::taken},
+    {"http", kHttpPort, "http://localhost:7080/room#k=INVITE", "mirror=0|1; name, look, seat",
+     "a room by its link, as telemime room prints it", make_room_sender},
+    {"https", kHttpsPort, "https://localhost:7080/room#k=INVITE", "mirror=0|1; ca, name, look, seat",
+     "the same, encrypted by TLS", make_room_sender},
 }};
 
 inline std::span<const SenderKind> sender_kinds() {

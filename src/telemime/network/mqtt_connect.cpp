@@ -53,7 +53,7 @@ std::string refusal_words(int code, bool named) {
 
 }  // namespace
 
-void MqttConnection::open(const std::string& client_id, const MqttMessage& will) {
+void MqttConnection::open(const std::string& client_id, const std::optional<MqttMessage>& will) {
   std::string cause;
   for (const std::string& address : resolve(loop_, server_.host)) {
     try {
@@ -66,7 +66,7 @@ void MqttConnection::open(const std::string& client_id, const MqttMessage& will)
   throw LinkBroken(cause);
 }
 
-void MqttConnection::prepare(const std::string& client_id, const MqttMessage& will) {
+void MqttConnection::prepare(const std::string& client_id, const std::optional<MqttMessage>& will) {
   close();
   client_.reset(mosquitto_new(client_id.c_str(), /*clean_session=*/true, this));
   mosquitto* const client = client_.get();
@@ -79,8 +79,10 @@ void MqttConnection::prepare(const std::string& client_id, const MqttMessage& wi
   mosquitto_message_callback_set(client, on_message);
   check(mosquitto_int_option(client, MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311));
   check(mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1));
-  check(mosquitto_will_set(client, will.topic.c_str(), static_cast<int>(will.payload.size()),
-                           will.payload.data(), kAtLeastOnce, /*retain=*/true));
+  if (will) {
+    check(mosquitto_will_set(client, will->topic.c_str(), static_cast<int>(will->payload.size()),
+                             will->payload.data(), kAtLeastOnce, /*retain=*/true));
+  }
   if (!server_.user.empty()) {
     check(mosquitto_username_pw_set(client, server_.user.c_str(), server_.password.c_str()));
   }
@@ -92,7 +94,7 @@ void MqttConnection::prepare(const std::string& client_id, const MqttMessage& wi
 }
 
 void MqttConnection::connect(const std::string& address, const std::string& client_id,
-                             const MqttMessage& will) {
+                             const std::optional<MqttMessage>& will) {
   prepare(client_id, will);
   errno = 0;
   const int result = mosquitto_connect_async(client_.get(), address.c_str(), server_.port, kKeepAlive);

@@ -18,8 +18,8 @@ using SteadyClock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr milliseconds kLongestAnswer{3000};
-constexpr milliseconds kTick{1000};  // libmosquitto's own wish
+constexpr milliseconds kLongestGrant{6000};  // a cluster in need takes 4 s to refuse
+constexpr milliseconds kTick{1000};          // libmosquitto's own wish
 constexpr milliseconds kLongestGoodbye{500};
 constexpr std::size_t kLongestTopic = 256;
 constexpr std::size_t kLongestPayload = 16384;
@@ -143,15 +143,19 @@ void MqttConnection::check(int result) const {
 }
 
 void MqttConnection::subscribe(const std::string& filter) {
-  granted_.reset();
-  check(mosquitto_subscribe(client_.get(), nullptr, filter.c_str(), kAtLeastOnce));
-  watch_writes();
-  if (!loop_.wait([this] { return granted_.has_value(); }, kLongestAnswer)) {
-    throw LinkBroken("it does not answer");
+  // A broker cluster that has just lost a node may be unable to grant more than QoS 0.
+  for (const int quality : {kAtLeastOnce, kAtMostOnce}) {
+    granted_.reset();
+    check(mosquitto_subscribe(client_.get(), nullptr, filter.c_str(), quality));
+    watch_writes();
+    if (!loop_.wait([this] { return granted_.has_value(); }, kLongestGrant)) {
+      throw LinkBroken("it does not answer");
+    }
+    if (*granted_ != kSubscriptionRefused) {
+      return;
+    }
   }
-  if (*granted_ == kSubscriptionRefused) {
-    throw LinkBroken("this user may not read there");
-  }
+  throw LinkBroken("this user may not read there");
 }
 
 void MqttConnection::tell(const std::string& topic, std::span<const std::uint8_t> payload) {
@@ -161,9 +165,17 @@ void MqttConnection::tell(const std::string& topic, std::span<const std::uint8_t
 }
 
 void MqttConnection::keep(const MqttMessage& message) {
+  publish(message, /*retain=*/true);
+}
+
+void MqttConnection::say(const MqttMessage& message) {
+  publish(message, /*retain=*/false);
+}
+
+void MqttConnection::publish(const MqttMessage& message, bool retain) {
   int id = 0;
   check(mosquitto_publish(client_.get(), &id, message.topic.c_str(), static_cast<int>(message.payload.size()),
-                          message.payload.data(), kAtLeastOnce, /*retain=*/true));
+                          message.payload.data(), kAtLeastOnce, retain));
   unconfirmed_.insert(id);
   watch_writes();
 }

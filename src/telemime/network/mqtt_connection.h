@@ -49,14 +49,16 @@ class MqttConnection {
   ~MqttConnection();
 
   /// Connects and has the account accepted, within 5 s for each of the host's addresses. `will` is published,
-  /// retained, when the connection breaks.
-  void open(const std::string& client_id, const MqttMessage& will);
-  /// Waits for the broker's leave, 3 s at most.
+  /// retained, when the connection breaks; who only listens has none.
+  void open(const std::string& client_id, const std::optional<MqttMessage>& will);
+  /// Waits for the broker's leave, 6 s at most; where QoS 1 is refused, once more for QoS 0.
   void subscribe(const std::string& filter);
   /// At most once; lost when the connection breaks.
   void tell(const std::string& topic, std::span<const std::uint8_t> payload);
   /// At least once as long as the connection stands, and the broker keeps the newest of the topic.
   void keep(const MqttMessage& message);
+  /// At least once as long as the connection stands, to those who listen now.
+  void say(const MqttMessage& message);
   /// Whether nothing waits to be written.
   bool drained() const;
   /// Last words, kept as above, and an orderly end: the will is not published. Takes half a second at most,
@@ -73,8 +75,10 @@ class MqttConnection {
   static void on_publish(mosquitto* client, void* self, int id);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
 
-  void connect(const std::string& address, const std::string& client_id, const MqttMessage& will);
-  void prepare(const std::string& client_id, const MqttMessage& will);
+  void connect(const std::string& address, const std::string& client_id,
+               const std::optional<MqttMessage>& will);
+  void prepare(const std::string& client_id, const std::optional<MqttMessage>& will);
+  void publish(const MqttMessage& message, bool retain);
   [[noreturn]] void tell_why_unreachable(const std::string& address, int result, int error);
   void watch_reads();
   void watch_writes();

@@ -6,9 +6,9 @@
 #include <boost/asio/ip/address.hpp>
 #include <chrono>
 #include <cmath>
-#include <random>
 #include <utility>
 
+#include "telemime/network/mqtt_names.h"
 #include "telemime/rooms/tracked_pose.h"
 
 namespace telemime {
@@ -29,24 +29,6 @@ double seconds_now() {
 SteadyClock::time_point at_seconds(double seconds) {
   return SteadyClock::time_point(
       std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds)));
-}
-
-std::uint16_t any_session() {
-  std::random_device chance;
-  return static_cast<std::uint16_t>(std::uniform_int_distribution<int>(1, UINT16_MAX)(chance));
-}
-
-/// A client's name is new for each connection: an older one of ours that the broker still holds stays out of
-/// the way.
-std::string client_id(const std::string& participant) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  constexpr int kCount = 8;
-  std::random_device chance;
-  std::string id = participant + "-";
-  for (int i = 0; i < kCount; ++i) {
-    id += kDigits[chance() % kDigits.size()];
-  }
-  return id;
 }
 
 bool is_this_computer(const std::string& host) {
@@ -113,7 +95,7 @@ void RoomLink::open() {
   confirmed_ = false;
   twin_ = false;
   waiting_.reset();
-  connection_.open(client_id(output_.participant), presence(false));
+  connection_.open(any_client_id(output_.participant), presence(false));
   connection_.subscribe(presence_filter(output_.room));
   connection_.keep(presence(true));
   connection_.keep(state());

@@ -56,7 +56,9 @@ std::optional<int> seat_of(const SendUrl& url) {
   refuse(url, "names a seat that there is not", "Seats are 0 to " + std::to_string(kMostSeats - 1) + ".");
 }
 
-RoomOutput output_of(const SendUrl& url) {
+}  // namespace
+
+RoomOutput room_output_of(const SendUrl& url) {
   for (const auto& [name, value] : url.options) {
     if (name == "password" || name == "user") {  // before anything shows the URL
       throw Error(ErrorKind::usage, "an output's user and password are no options",
@@ -103,10 +105,8 @@ RoomOutput output_of(const SendUrl& url) {
   return output;
 }
 
-}  // namespace
-
 std::unique_ptr<Sender> make_mqtt_sender(const SendUrl& url) {
-  const RoomOutput output = output_of(url);
+  const RoomOutput output = room_output_of(url);
   return make_queued_sender(url, [&](SendLoop& loop) { return std::make_unique<RoomLink>(loop, output); });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "telemime/network/mqtt_room_link.h"
 #include "telemime/network/sender.h"
 #include "telemime/network/url.h"
 
@@ -11,6 +12,9 @@ namespace telemime {
 
 inline constexpr std::uint16_t kMqttPort = 1883;
 inline constexpr std::uint16_t kMqttsPort = 8883;
+
+/// What the URL below names. Throws Error(usage).
+RoomOutput room_output_of(const SendUrl& url);
 
 /// mqtt://[user:password@]host[:1883]/tenant/room[?name=Ana&look=plain&...], or mqtts:// with TLS: takes part
 /// in a room (docs/room-protocol.md). The account comes from the URL, from the file of the option `key`, or

@@ -17,8 +17,10 @@ MqttTls& owner_of(const SSL* connection) {
   return *static_cast<MqttTls*>(SSL_CTX_get_ex_data(SSL_get_SSL_CTX(connection), 0));
 }
 
-std::string words_for(int error, const std::string& host) {
-  switch (error) {
+}  // namespace
+
+std::string tls_refusal(long result, const std::string& host) {
+  switch (result) {
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
       return "its certificate is not one for \"" + host + "\"";
@@ -33,11 +35,9 @@ std::string words_for(int error, const std::string& host) {
     case X509_V_ERR_CERT_NOT_YET_VALID:
       return "its certificate is not valid today";
     default:
-      return std::string("its certificate is not accepted: ") + X509_verify_cert_error_string(error);
+      return std::string("its certificate is not accepted: ") + X509_verify_cert_error_string(result);
   }
 }
-
-}  // namespace
 
 void MqttTls::Free::operator()(SSL_CTX* context) const {
   SSL_CTX_free(context);
@@ -83,7 +83,7 @@ int MqttTls::verify(int accepted, X509_STORE_CTX* store) {
     const auto* const connection =
         static_cast<const SSL*>(X509_STORE_CTX_get_ex_data(store, SSL_get_ex_data_X509_STORE_CTX_idx()));
     MqttTls& own = owner_of(connection);
-    own.refusal_ = words_for(X509_STORE_CTX_get_error(store), own.host_);
+    own.refusal_ = tls_refusal(X509_STORE_CTX_get_error(store), own.host_);
   }
   return accepted;
 }

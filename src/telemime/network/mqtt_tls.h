@@ -8,6 +8,9 @@
 
 namespace telemime {
 
+/// Why a certificate was refused, in words: the result of OpenSSL's verification for that host.
+std::string tls_refusal(long result, const std::string& host);
+
 /// How a client connects by TLS (1.2 or newer) to one host: whose certificates it trusts, and that the host's
 /// name or address stands in its certificate. Serves any number of connections, one after the other.
 class MqttTls {

@@ -35,9 +35,26 @@ bool is_port(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-bool is_room_scheme(std::string_view scheme) {
+bool begins_with(std::string_view scheme, std::string_view word) {
   const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return scheme.size() >= 4 && std::equal(scheme.begin(), scheme.begin() + 4, "mqtt", same);
+  return scheme.size() >= word.size() &&
+         std::equal(word.begin(), word.end(), scheme.begin(), [&](char b, char a) { return same(a, b); });
+}
+
+bool is_room_scheme(std::string_view scheme) {
+  return begins_with(scheme, "mqtt");
+}
+
+/// Of a room's page: its links have their secret behind "#".
+bool is_page_scheme(std::string_view scheme) {
+  return begins_with(scheme, "http");
+}
+
+constexpr std::string_view kInvite = "#k=";
+
+/// Where the secret of a room's link begins, "#" included.
+std::size_t secret_of_link(std::string_view url) {
+  return url.find(is_page_scheme(url) ? std::string_view("#") : kInvite);
 }
 
 class Parser {
@@ -63,6 +80,9 @@ class Parser {
     std::transform(url.scheme.begin(), url.scheme.end(), url.scheme.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     rest.remove_prefix(end + 3);
+    if (is_page_scheme(url.scheme)) {
+      invite(rest, url);
+    }
     if (user_ == UrlUser::taken) {
       user(rest, url);
     }
@@ -80,6 +100,25 @@ class Parser {
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(ErrorKind::usage, "the output \"" + shown_ + "\" " + what,
                 "Write it like " + std::string(example_) + ".");
+  }
+
+  /// Takes the secret of a room's link off.
+  void invite(std::string_view& rest, SendUrl& url) const {
+    const std::size_t start = rest.find('#');
+    if (start == std::string_view::npos) {
+      return;
+    }
+    const std::string_view fragment = rest.substr(start);
+    constexpr std::size_t kLongestInvite = 200;
+    const auto may_stand = [](char c) {
+      return is_letter_or_digit(c) || std::string_view("_.~-").find(c) != std::string_view::npos;
+    };
+    url.password = fragment.starts_with(kInvite) ? fragment.substr(kInvite.size()) : "";
+    if (url.password.empty() || url.password.size() > kLongestInvite ||
+        !std::all_of(url.password.begin(), url.password.end(), may_stand)) {
+      fail("has behind \"#\" what no room's link has; it may be cut off");
+    }
+    rest = rest.substr(0, start);
   }
 
   void user(std::string_view& rest, SendUrl& url) const {
@@ -175,7 +214,8 @@ SendUrl parse_url(const std::string& text, std::string_view example, UrlUser use
   return Parser(text, example, user).parse();
 }
 
-std::string without_password(const std::string& url) {
+std::string without_password(const std::string& given) {
+  std::string url = given.substr(0, secret_of_link(given));
   const std::size_t scheme = url.find("://");
   if (scheme == std::string::npos) {
     return url;

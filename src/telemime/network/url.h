@@ -17,7 +17,7 @@ struct SendUrl {
   std::string text;      ///< as the user gave it, without the password: fit to be shown
   std::string scheme;    ///< in small letters
   std::string user;      ///< may be empty
-  std::string password;  ///< may be empty; shown to nobody
+  std::string password;  ///< or the secret of a room's link (http, https); may be empty; shown to nobody
   std::string host;      ///< a name or an address, without the brackets of IPv6; may be empty
   std::optional<std::uint16_t> port;
   std::string path;  ///< with its "/"; may be empty
@@ -30,9 +30,9 @@ enum class UrlUser { refused, taken };
 /// Throws Error(usage) that shows a right one (`example`) when the text is no such URL.
 SendUrl parse_url(const std::string& text, std::string_view example, UrlUser user = UrlUser::refused);
 
-/// The URL without the password before its host: fit to be shown and kept. Also takes what stands in the
-/// place of one in a text that is no URL.
-std::string without_password(const std::string& url);
+/// The URL without the password before its host and without the secret of a room's link ("#k=..."): fit to be
+/// shown and kept. Also takes what stands in the place of one in a text that is no URL.
+std::string without_password(const std::string& given);
 
 /// "%41" becomes "A". Nothing when a "%" has no two hexadecimal digits behind it.
 std::optional<std::string> percent_decoded(std::string_view text);

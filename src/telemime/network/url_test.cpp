@@ -93,6 +93,21 @@ TEST(Url, APasswordIsNotShown) {
   }
 }
 
+TEST(Url, TheSecretOfARoomsLinkIsNotShown) {
+  const SendUrl url = parse_url("http://h:7080/room?name=Ana#k=Sec-ret_1", kExample);
+  EXPECT_EQ(url.text, "http://h:7080/room?name=Ana");
+  EXPECT_EQ(url.password, "Sec-ret_1");
+  EXPECT_EQ(url.path, "/room");
+  EXPECT_EQ(free_option(url, "name"), "Ana");
+  EXPECT_EQ(without_password("https://h/room#k=secret"), "https://h/room");
+  EXPECT_EQ(without_password("https://h/room"), "https://h/room");
+  for (const char* const bad : {"http://h/room#", "http://h/room#k=", "http://h/room#x=a",
+                                "http://h/room#k=a b", "http://h/room#k=a#k=b", "http://h/room#k=a/b"}) {
+    EXPECT_THROW(parse_url(bad, kExample), Error) << bad;
+  }
+  EXPECT_THROW(parse_url("http://h/room#k=" + std::string(201, 'a'), kExample), Error);
+}
+
 TEST(Url, PercentSignsStandForBytes) {
   EXPECT_EQ(percent_decoded(""), "");
   EXPECT_EQ(percent_decoded("J%C3%B6rg%20%25"), "J\xc3\xb6rg %");

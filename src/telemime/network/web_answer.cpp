@@ -36,8 +36,8 @@ std::string content_policy(std::string_view host) {
 }
 
 template <typename Message>
-void set_guards(Message& message, std::string_view host) {
-  message.set("Content-Security-Policy", content_policy(host));
+void set_guards(Message& message, const std::string& policy) {
+  message.set("Content-Security-Policy", policy);
   message.set("X-Content-Type-Options", "nosniff");
   message.set("X-Frame-Options", "DENY");
   message.set("Referrer-Policy", "no-referrer");
@@ -91,14 +91,17 @@ void set_bytes(WebAnswer& answer, WebBytes bytes) {
   }
 }
 
-WebAnswer with_content(WebContent content, const WebRequest& request) {
+}  // namespace
+
+WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers) {
   WebAnswer answer;
   answer.head = request.method() == http::verb::head;
   auto& message = answer.message;
-  message.result(http::status::ok);
+  message.result(content.status);
   message.version(request.version());
   message.keep_alive(request.keep_alive());
-  set_guards(message, view(request[http::field::host]));
+  const std::string_view host = view(request[http::field::host]);
+  set_guards(message, handlers.policy ? handlers.policy(host) : content_policy(host));
   message.set(http::field::content_type, content.type);
   message.set(http::field::cache_control,
               content.immutable ? "public, max-age=31536000, immutable" : "no-store");
@@ -120,6 +123,8 @@ WebAnswer with_content(WebContent content, const WebRequest& request) {
   return answer;
 }
 
+namespace {
+
 WebAnswer ask_handler(const WebRequest& request, const std::string& path, const WebHandlers& handlers) {
   std::optional<WebContent> content;
   try {
@@ -130,7 +135,7 @@ WebAnswer ask_handler(const WebRequest& request, const std::string& path, const 
   } catch (...) {
     return web_refusal(http::status::internal_server_error, "The program could not answer this.");
   }
-  return content ? with_content(std::move(*content), request)
+  return content ? web_content(std::move(*content), request, handlers)
                  : web_refusal(http::status::not_found, "There is nothing here: " + path);
 }
 
@@ -186,12 +191,28 @@ WebAnswer web_refusal(http::status status, const std::string& words) {
   message.result(status);
   message.version(11);
   message.keep_alive(false);
-  set_guards(message, {});
+  set_guards(message, content_policy({}));
   message.set(http::field::content_type, "text/plain; charset=utf-8");
   message.set(http::field::cache_control, "no-store");
   message.content_length(answer.bytes->size());
   message.body() = {answer.bytes->data(), answer.bytes->size()};
   return answer;
+}
+
+bool web_post(const WebRequest& request, const WebNames& names, std::string_view local,
+              const WebHandlers& handlers, WebPost& post) {
+  if (!handlers.post || request.method() != http::verb::post || stranger(request, names, local) ||
+      request.target().size() > longest_target) {
+    return false;
+  }
+  std::optional<std::string> path = web_path(view(request.target()));
+  if (!path || *path == socket_path) {
+    return false;
+  }
+  post.path = std::move(*path);
+  post.type = view(request[http::field::content_type]);
+  post.host = view(request[http::field::host]);
+  return true;
 }
 
 WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,

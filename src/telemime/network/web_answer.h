@@ -36,10 +36,18 @@ struct WebAnswer {
   bool head = false;  ///< no bytes are to be sent
 };
 
-/// Decides. `request` is a whole header; `has_body` says whether something follows it, which is always
-/// refused. `local` is the address at which the connection came in.
+/// Decides about anything but a POST that is taken. `request` is a whole header; `has_body` says whether
+/// something follows it, which is always refused. `local` is the address at which the connection came in.
 WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
                      const WebHandlers& handlers);
+
+/// Whether the request is a POST that handlers.post is to be asked about, once its body was read. `post`
+/// gets path and headers. False: web_answer() knows.
+bool web_post(const WebRequest& request, const WebNames& names, std::string_view local,
+              const WebHandlers& handlers, WebPost& post);
+
+/// What stands in `content`, for that request.
+WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers);
 
 /// Plain words with a status, and the end of the connection.
 WebAnswer web_refusal(boost::beast::http::status status, const std::string& words);

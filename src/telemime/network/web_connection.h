@@ -4,9 +4,9 @@
 #include <array>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -15,6 +15,7 @@
 
 #include "telemime/network/web_answer.h"
 #include "telemime/network/web_hub.h"
+#include "telemime/network/web_stream.h"
 
 namespace telemime {
 
@@ -25,9 +26,16 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
  public:
   WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket,
                 boost::asio::ip::tcp::socket socket);
-  void read();
+  /// Begins, once.
+  void start();
 
  private:
+  void read();
+  void read_body(WebPost post);
+  void ask(WebPost post);
+  void put_bytes(WebBytes bytes);
+  void put_content(WebContent content);
+  void hold();
   void answer(boost::system::error_code error);
   void upgrade();
   void respond(WebAnswer answer);
@@ -41,11 +49,12 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
 
   std::shared_ptr<WebHub> hub_;
   std::shared_ptr<void> ticket_;
-  boost::beast::tcp_stream stream_;
-  boost::asio::steady_timer patience_;  ///< with bytes that are still being made
+  WebStream stream_;
+  boost::asio::steady_timer patience_;  ///< with an answer that is still being made
   std::string local_;                   ///< the address at which it came in
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> body_;  ///< of a POST
   WebAnswer answer_;
   std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>>
       serializer_;

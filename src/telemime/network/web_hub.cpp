@@ -23,8 +23,12 @@ std::string error_message(const std::string& words) {
 }  // namespace
 
 WebHub::WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names,
-               std::shared_ptr<WebDoor> door)
-    : options_(options), handlers_(std::move(handlers)), names_(std::move(names)), door_(std::move(door)) {}
+               std::shared_ptr<WebDoor> door, std::shared_ptr<boost::asio::ssl::context> tls)
+    : options_(options),
+      handlers_(std::move(handlers)),
+      names_(std::move(names)),
+      door_(std::move(door)),
+      tls_(std::move(tls)) {}
 
 std::shared_ptr<void> WebHub::ticket() {
   if (*connections_ >= options_.most_clients + more_connections) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <boost/asio/ssl/context.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,13 +28,15 @@ class WebClient;
 class WebHub {
  public:
   /// `names`: under which the server may be called, with the port that it got.
-  WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names,
-         std::shared_ptr<WebDoor> door);
+  /// `tls` may be null.
+  WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names, std::shared_ptr<WebDoor> door,
+         std::shared_ptr<boost::asio::ssl::context> tls);
 
   const WebServerOptions& options() const { return options_; }
   const WebHandlers& handlers() const { return handlers_; }
   const WebNames& names() const { return names_; }
   const std::shared_ptr<WebDoor>& door() const { return door_; }
+  const std::shared_ptr<boost::asio::ssl::context>& tls() const { return tls_; }
 
   /// To be kept by a connection as long as it is open; nothing when too many are.
   std::shared_ptr<void> ticket();
@@ -70,6 +73,7 @@ class WebHub {
   const WebHandlers handlers_;
   const WebNames names_;
   const std::shared_ptr<WebDoor> door_;
+  const std::shared_ptr<boost::asio::ssl::context> tls_;
   std::set<std::shared_ptr<void>> held_;
   std::map<std::uint64_t, std::weak_ptr<WebClient>> clients_;
   std::uint64_t last_id_ = 0;

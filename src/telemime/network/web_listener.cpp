@@ -120,7 +120,7 @@ void WebListener::accept() {
 
 void WebListener::welcome(ip::tcp::socket socket) {
   if (std::shared_ptr<void> ticket = hub_->ticket()) {
-    std::make_shared<WebConnection>(hub_, std::move(ticket), std::move(socket))->read();
+    std::make_shared<WebConnection>(hub_, std::move(ticket), std::move(socket))->start();
     return;
   }
   constexpr std::string_view full =

@@ -26,7 +26,8 @@ std::string lower(std::string_view text) {
 
 }  // namespace
 
-WebNames::WebNames(std::uint16_t port, const std::vector<std::string>& hosts) : port_(port) {
+WebNames::WebNames(std::uint16_t port, const std::vector<std::string>& hosts, bool secure)
+    : port_(port), usual_port_(secure ? https_port : http_port) {
   for (const char* own : {"localhost", "127.0.0.1", "::1"}) {
     names_.push_back({own, port});
   }
@@ -83,7 +84,7 @@ bool WebNames::allowed(const std::optional<Name>& name, std::string_view local) 
 }
 
 bool WebNames::host(std::string_view value, std::string_view local) const {
-  return allowed(parse(value, http_port), local);
+  return allowed(parse(value, usual_port_), local);
 }
 
 bool WebNames::origin(std::string_view value, std::string_view local) const {

@@ -14,8 +14,8 @@ namespace telemime {
 class WebNames {
  public:
   /// localhost, 127.0.0.1 and [::1] at `port`, and `hosts`: names at `port`, or "name:port". Throws
-  /// Error(usage) for a host that is none.
-  WebNames(std::uint16_t port, const std::vector<std::string>& hosts);
+  /// Error(usage) for a host that is none. `secure`: asked for by https.
+  WebNames(std::uint16_t port, const std::vector<std::string>& hosts, bool secure = false);
 
   /// The value of a Host header. `local` is the address at which the connection came in, as text: its user
   /// may have called it by that (a number cannot be rebound).
@@ -32,6 +32,7 @@ class WebNames {
   bool allowed(const std::optional<Name>& name, std::string_view local) const;
 
   std::uint16_t port_;
+  std::uint16_t usual_port_;  ///< that a Host header leaves out
   std::vector<Name> names_;
 };
 

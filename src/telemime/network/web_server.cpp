@@ -12,6 +12,7 @@
 
 #include "telemime/network/web_hub.h"
 #include "telemime/network/web_listener.h"
+#include "telemime/network/web_tls.h"
 
 namespace telemime {
 
@@ -19,8 +20,10 @@ struct WebServer::State {
   State(const WebServerOptions& options, WebHandlers handlers) {
     std::vector<boost::asio::ip::tcp::acceptor> acceptors = listen_at(io, options.address, options.port);
     port = acceptors.front().local_endpoint().port();
-    hub = std::make_shared<WebHub>(options, std::move(handlers), WebNames(port, options.hosts),
-                                   std::make_shared<WebDoor>(io));
+    const bool secure = !options.certificate.empty();
+    hub = std::make_shared<WebHub>(options, std::move(handlers), WebNames(port, options.hosts, secure),
+                                   std::make_shared<WebDoor>(io),
+                                   secure ? web_tls(options.certificate, options.key) : nullptr);
     for (boost::asio::ip::tcp::acceptor& acceptor : acceptors) {
       listeners.emplace_back(hub, std::move(acceptor)).accept();
     }

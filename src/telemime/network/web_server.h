@@ -15,7 +15,7 @@ namespace telemime {
 
 using WebBytes = std::shared_ptr<const std::string>;
 
-/// What a GET is answered with.
+/// What a request is answered with.
 struct WebContent {
   WebBytes bytes;
   std::string type;        ///< MIME type
@@ -28,6 +28,16 @@ struct WebContent {
   /// `ready` once, from any thread and at any time, also when the server is gone; null means that they could
   /// not be made (500).
   std::function<void(std::function<void(WebBytes)> ready)> later = {};
+  unsigned status = 200;  ///< of HTTP, for `bytes` alone
+};
+
+/// What a POST brings.
+struct WebPost {
+  std::string path;     ///< as WebHandlers::get has it
+  std::string type;     ///< its Content-Type as it stands there; may be empty
+  std::string body;     ///< at most WebServerOptions::most_posted bytes, any
+  std::string host;     ///< its Host, which is one of this server's
+  std::string address;  ///< from where it came, in numbers
 };
 
 struct WebServerOptions {
@@ -37,9 +47,13 @@ struct WebServerOptions {
                                       ///< "studio", or "studio:8080" when a proxy has another port
   std::size_t most_clients = 32;      ///< open WebSockets; more are refused in words
   std::size_t most_bytes_in = 64 * 1024;  ///< of one WebSocket message; a longer one closes the connection
+  std::size_t most_posted = 4 * 1024;     ///< bytes of a POST; a longer one is refused (413)
   std::chrono::milliseconds request_within{10'000};  ///< for a whole request to come; idle connections, too
   std::chrono::milliseconds stalled_after{
       30'000};  ///< without progress in writing, or a sign of life: closed
+  /// Not empty: TLS with this certificate and its key (web_tls.h). There are no WebSockets then.
+  std::filesystem::path certificate = {};
+  std::filesystem::path key = {};
 };
 
 /// Called from the server's thread. None may block. All may be empty. What one throws goes to its client in
@@ -48,6 +62,11 @@ struct WebHandlers {
   /// The decoded, normalised absolute path ("/", "/assets/a.js"): nothing for 404. Never holds "..", NUL or
   /// a backslash.
   std::function<std::optional<WebContent>(const std::string& path)> get;
+  /// A POST. `answer` is called once, from any thread and at any time, also when the server is gone; a client
+  /// that waits too long is told so (503). Empty: there is nothing to be posted (405).
+  std::function<void(WebPost post, std::function<void(WebContent)> answer)> post;
+  /// The content security policy of what was asked for under that Host; empty: that of the live page.
+  std::function<std::string(std::string_view host)> policy;
   /// A client has come; what is returned is sent to it first, in this order.
   std::function<std::vector<std::string>(std::uint64_t client)> opened;
   /// A text message, any bytes that are valid UTF-8; the answer, if there is one, goes to that client alone.
@@ -55,15 +74,16 @@ struct WebHandlers {
   std::function<void(std::uint64_t client)> closed;
 };
 
-/// Serves the page over HTTP and a WebSocket at /ws, to browsers on this machine unless asked otherwise. In a
-/// thread of its own. For address 127.0.0.1 it listens on ::1, too, where there is one: some browsers ask
-/// for localhost there. Requests with a Host or an Origin that is not this server's are refused, so that no
-/// other web site can reach it. A client that does not read loses messages, never memory: of each `topic`
-/// only the newest waits for it; one that has not read for 30 s is closed.
+/// Serves the page over HTTP (or HTTPS, see `certificate`) and a WebSocket at /ws, to browsers on this
+/// machine unless asked otherwise. In a thread of its own. For address 127.0.0.1 it listens on ::1, too,
+/// where there is one: some browsers ask for localhost there. Requests with a Host or an Origin that is not
+/// this server's are refused, so that no other web site can reach it. A client that does not read loses
+/// messages, never memory: of each `topic` only the newest waits for it; one that has not read for 30 s is
+/// closed.
 class WebServer {
  public:
-  /// Throws Error(usage) when the address is no address, Error(output) when the port is taken (the words say
-  /// which and what to do).
+  /// Throws Error(usage) when the address is no address or TLS cannot be used, Error(output) when the port is
+  /// taken (the words say which and what to do).
   WebServer(WebServerOptions options, WebHandlers handlers);
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;

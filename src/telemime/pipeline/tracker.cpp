@@ -256,7 +256,8 @@ void Tracker::follow(const SeenFrame& seen, TrackedFrame& result) {
   Objective objective(*backend_, seen.prepared, model_, limits_);
   RegistrationConfig search = for_time_step(config_.registration, steps_);
   search.iterations = std::max(1, static_cast<int>(std::lround(effort_ * search.iterations)));
-  const Pose expected = expected_pose(pose_, previous_, config_.tracking.velocity * steps_ / steps_before_, limits_);
+  const Pose expected =
+      expected_pose(pose_, previous_, config_.tracking.velocity * steps_ / steps_before_, limits_);
   const bool goes_on = objective(expected, search.region) < objective(pose_, search.region);
   const Pose start = goes_on ? expected : pose_;
   objective.expect(start);

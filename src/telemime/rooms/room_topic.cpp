@@ -113,6 +113,10 @@ std::string presence_filter(const RoomAddress& room) {
   return prefix_of(room) + "p/+/presence";
 }
 
+std::string room_filter(const RoomAddress& room) {
+  return prefix_of(room) + "#";
+}
+
 std::optional<std::string> participant_of_user(const RoomAddress& room, std::string_view user) {
   if (!take(user, room.room + ".") || !is_room_segment(user)) {
     return std::nullopt;

@@ -36,6 +36,8 @@ std::optional<RoomTopic> read_topic(const RoomAddress& room, std::string_view te
 
 /// What to subscribe to for the presence of everybody in the room. Throws Error(usage) as above.
 std::string presence_filter(const RoomAddress& room);
+/// The same for all that is said in the room.
+std::string room_filter(const RoomAddress& room);
 
 /// The participant of an account's user name, "<room>.<participant>"; nothing when it is none of this room.
 std::optional<std::string> participant_of_user(const RoomAddress& room, std::string_view user);

@@ -62,10 +62,12 @@ export function brokerDial(
         },
       );
     };
-    client.on("connect", () => {
-      client.subscribe(`${entered.topic}/#`, { qos: 1 }, (error, granted) => {
+    const listen = (qos: 0 | 1): void => {
+      client.subscribe(`${entered.topic}/#`, { qos }, (error, granted) => {
         if (over) return;
         if (error || granted?.some((g) => g.qos > 2)) {
+          // A cluster that has just lost a node may have no place to keep what is not confirmed. It passes on all the same.
+          if (qos === 1) return listen(0);
           why = { refused: true, words: "The room does not let this page hear what is said." };
           closed();
           return;
@@ -73,7 +75,8 @@ export function brokerDial(
         opened = true;
         events.open();
       });
-    });
+    };
+    client.on("connect", () => listen(1));
     client.on("message", (topic, payload) => {
       if (!over) events.message(topic, payload);
     });

@@ -35,6 +35,10 @@ describe("the answer", () => {
       looks: LOOKS,
     });
   });
+  it("may lead to a broker below a path", () => {
+    const url = "wss://room.example.org/mqtt";
+    expect(readEntered({ ...ANSWER, mqtt: url })!.mqtt).toBe(url);
+  });
   it("for those who watch has no participant", () => {
     expect(readEntered({ ...ANSWER, roles: ["watch"] })!.participant).toBeNull();
     expect(readEntered({ ...ANSWER, participant: null })!.participant).toBeNull();

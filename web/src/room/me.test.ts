@@ -40,6 +40,19 @@ describe("this page as a participant", () => {
     me.leave();
     expect(take()).toEqual([]);
   });
+  it("does not take its own earlier connection, whose last will was lost, for somebody else", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.settled();
+    take();
+    me.connected(8);
+    me.hear("presence", presence(true, 7)); // as the broker has kept it
+    me.settled();
+    expect(me.other).toBeNull();
+    expect(take()).toEqual(["presence true 8", "state Ana 8"]);
+    me.hear("presence", presence(true, 7));
+    expect(me.other).toBeNull();
+  });
   it("says nothing when a tracker speaks for the same seat, until that has gone", () => {
     const { me, take } = make();
     me.connected(7);

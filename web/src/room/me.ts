@@ -27,6 +27,8 @@ export class Me {
   private here = false;
   private ready = false;
   private session = 0;
+  /** Of this page's connections. The last will of one is lost when its broker's computer dies. */
+  private readonly mine = new Set<number>();
   /** Of whom the last state was that is not this page's: it may come before its presence. */
   private stated: { session: number; kind: StateMessage["kind"] } | null = null;
 
@@ -45,6 +47,7 @@ export class Me {
   /** The connection is there, as `session`; nothing is said before the room has told what it knows. */
   connected(session: number): void {
     this.session = session;
+    this.mine.add(session);
     this.here = this.ready = false;
     this.other = this.stated = null;
   }
@@ -60,12 +63,12 @@ export class Me {
     if (kind === "state") {
       const s = readState(payload);
       if (this.other && s?.session === this.other.session) this.other.kind = s.kind;
-      if (s && s.session !== this.session) this.stated = { session: s.session, kind: s.kind };
+      if (s && !this.mine.has(s.session)) this.stated = { session: s.session, kind: s.kind };
       return;
     }
     const m = readPresence(payload);
     if (m?.here) {
-      if (m.session === this.session) return; // one's own words
+      if (this.mine.has(m.session)) return; // one's own words
       const known = this.stated?.session === m.session ? this.stated.kind : null;
       this.other = { session: m.session, kind: known };
       return;

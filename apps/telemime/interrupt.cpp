@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interrupt.h"
+
+#include <unistd.h>
+
+#include <csignal>
+
+namespace telemime {
+namespace {
+
+// A signal handler reaches nothing else.
+volatile std::sig_atomic_t interrupt_noted = 0;
+
+void on_interrupt(int signal) {
+  if (interrupt_noted != 0) {
+    ::_exit(128 + signal);
+  }
+  interrupt_noted = 1;
+}
+
+}  // namespace
+
+void note_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+}
+
+bool interrupted() {
+  return interrupt_noted != 0;
+}
+
+}  // namespace telemime

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace telemime {
+
+/// From now on Ctrl-C and SIGTERM are noted, to end in order; the second one ends the program at once.
+void note_interrupts();
+
+/// Whether one was noted.
+bool interrupted();
+
+}  // namespace telemime

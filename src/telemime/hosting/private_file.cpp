@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/hosting/private_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, int number) {
+  throw Error(ErrorKind::output,
+              path.string() + " cannot be written: " + std::generic_category().message(number));
+}
+
+int write_all(int file, const std::string& content) {
+  std::size_t written = 0;
+  while (written < content.size()) {
+    const ssize_t count = ::write(file, content.data() + written, content.size() - written);
+    if (count < 0 && errno != EINTR) {
+      return errno;
+    }
+    written += count > 0 ? static_cast<std::size_t>(count) : 0;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void write_private_file(const std::filesystem::path& file, const std::string& content) {
+  std::string other = file.string() + ".XXXXXX";
+  const int descriptor = ::mkostemp(other.data(), O_CLOEXEC);  // new, and 0600
+  if (descriptor < 0) {
+    fail(file, errno);
+  }
+  int failure = write_all(descriptor, content);
+  if (::close(descriptor) != 0 && failure == 0) {
+    failure = errno;
+  }
+  if (failure == 0 && ::rename(other.c_str(), file.c_str()) != 0) {
+    failure = errno;
+  }
+  if (failure != 0) {
+    ::unlink(other.c_str());
+    fail(file, failure);
+  }
+}
+
+void make_private_folders(const std::filesystem::path& folder) {
+  if (folder.empty() || std::filesystem::is_directory(folder)) {
+    return;
+  }
+  make_private_folders(folder.parent_path());
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    fail(folder, errno);
+  }
+}
+
+}  // namespace telemime

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace telemime {
+
+/// What a participant needs to take part in a room.
+struct RoomKey {
+  std::string broker;  ///< of the plain MQTT listener: "mqtt://host:1883" or "mqtts://host:8883"
+  std::string user, password;
+  std::string topic;               ///< "r/<tenant>/<room>"
+  std::string participant;         ///< empty: may only watch
+  std::vector<std::string> roles;  ///< "speak", "board", "chair", "watch"
+  std::string way_back;            ///< the answer's "return": gives the same seat again
+};
+
+/// How to come in (docs/room-page.md, "Coming in").
+struct RoomEntry {
+  std::string link;          ///< http(s)://host[:port]/room#k=...; without "#k=..." where there is a way back
+  bool watch = false;        ///< an account that only reads
+  std::string way_back;      ///< RoomKey::way_back of an earlier entry; may be empty
+  std::filesystem::path ca;  ///< PEM file of the authorities that https trusts; empty: this computer's
+};
+
+/// Whether the text is a room's link: http(s)://host[:port]/room#k=... Whether it can be used shows later.
+bool is_room_link(std::string_view text);
+
+/// The link without its secret, to be shown, logged or kept: "http://host:7080/room". Text that is no link
+/// comes back as it is.
+std::string without_invite(const std::string& link);
+
+/// Asks the room's server for an account: POST /room/enter. Blocks for at most 10 s. Throws Error(usage) for
+/// a link that cannot be understood, Error(input) with words for what the server says (403 404 409 423 429),
+/// for a server that cannot be reached or that is not trusted, and for an answer that is none. No words hold
+/// a secret.
+RoomKey enter_room(const RoomEntry& entry);
+
+}  // namespace telemime

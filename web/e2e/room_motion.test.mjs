@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tracker saw is what everybody in the room sees: the bundled clip is tracked into a room, twice (one of the two
+// mirrored), and recorded; the recording is replayed into the room, and three pages show it.
+
+import assert from "node:assert/strict";
+import { spawn, execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { after, before, test } from "node:test";
+import mqtt from "mqtt";
+import { mixQuat } from "../mock/quat.mjs";
+import { LIGHT, PATIENCE, startBrowser, startProgram } from "./program.mjs";
+import { dressed, inTheRoom, motionError, openRoom, shows } from "./room.mjs";
+
+const LONG = { timeout: 6 * PATIENCE };
+const MOST = 2; // degrees, on average
+const ENOUGH = 250; // recorded frames of each
+const PROGRAM = process.env.TELEMIME_PROGRAM;
+const DEMO = process.env.TELEMIME_DEMO ?? fileURLToPath(new URL("../../data/demo", import.meta.url));
+const SCRIPT =
+  process.env.TELEMIME_ROOM_SESSION ??
+  fileURLToPath(new URL("../../scripts/room_session.py", import.meta.url));
+
+/** A subcommand of `telemime room` that goes on until it is ended. */
+function roomCommand(args) {
+  const child = spawn(PROGRAM, ["room", ...args], { stdio: ["ignore", "pipe", "pipe"] });
+  let heard = "";
+  child.stdout.on("data", (d) => (heard += d));
+  child.stderr.on("data", (d) => (heard += d));
+  const ended = new Promise((resolve) => child.on("exit", resolve));
+  return {
+    async end() {
+      child.kill("SIGINT");
+      assert.equal(await ended, 0, heard);
+      return heard;
+    },
+  };
+}
+
+/** Hears the frames of everybody in the room: by participant, in the order of their capture times (us). */
+async function listen(room) {
+  const account = await room.enter({ invite: room.invites.watch, watch: true });
+  const client = mqtt.connect(account.tcp, {
+    protocolVersion: 4,
+    username: account.user,
+    password: account.password,
+  });
+  const frames = new Map();
+  client.on("message", (topic, payload) => {
+    const participant = /\/p\/([^/]+)\/pose$/.exec(topic)?.[1];
+    const frame = participant && room.codec.decodeFrame(payload);
+    if (!frame) return;
+    if (!frames.has(participant)) frames.set(participant, []);
+    frames.get(participant).push({ ...frame, captured: Number(frame.captured) });
+  });
+  await new Promise((resolve) => client.on("connect", resolve));
+  await client.subscribeAsync(`${room.topic}/#`, { qos: 1 });
+  return { frames, end: () => client.endAsync(true) };
+}
+
+/** Recorded frames of who has this name, in their order, as { bone: rotation }; and how many there are. */
+function recordedMotion(file, name, codec) {
+  const lines = execFileSync("python3", [SCRIPT, file, "--lines"], { maxBuffer: 1 << 28 });
+  const all = lines.toString().trim().split("\n").map(JSON.parse);
+  const who = all.find((r) => r.kind === "state" && r.payload && JSON.parse(r.payload).name === name);
+  return all
+    .filter((r) => r.kind === "pose" && r.participant === who.participant)
+    .map((r) => codec.decodeFrame(Buffer.from(r.payload, "hex")))
+    .map((frame) => Object.fromEntries(frame.bones.map((b) => [codec.BONES[b.bone], b.rotation])));
+}
+
+/** The recorded motion at a moment of the clock under which it is replayed: frame k has the sequence k. */
+function truthOf(motion, heard) {
+  return (captured) => {
+    const next = heard.findIndex((f) => f.captured > captured);
+    const [a, b] = [heard[next - 1], heard[next] ?? heard.at(-1)];
+    assert.ok(a && b.session === a.session, "the page shows a moment between two frames");
+    const share = (captured - a.captured) / (b.captured - a.captured);
+    const [from, to] = [motion[a.sequence], motion[b.sequence]];
+    const bones = Object.keys(from).filter((bone) => to[bone]);
+    return { bones: Object.fromEntries(bones.map((bone) => [bone, mixQuat(from[bone], to[bone], share)])) };
+  };
+}
+
+let browser, room, chair, guest, watcher, listener, file;
+const replays = [];
+before(async () => {
+  if (!PROGRAM) throw new Error("TELEMIME_PROGRAM does not say where the program is");
+  room = await openRoom({ hosted: PROGRAM });
+  listener = await listen(room);
+  file = join(room.folder, "session.troom");
+}, LONG);
+after(async () => {
+  for (const replay of replays) await replay.end();
+  for (const visit of [chair, guest, watcher]) await visit?.close();
+  await listener?.end();
+  await browser?.close();
+  await room?.end();
+});
+
+test("a tracked clip is recorded", LONG, async () => {
+  const recording = roomCommand(["record", room.link("watch"), "--out", file]);
+  const to = (options) => room.link("speak").replace("#", `?${options}#`);
+  const live = await startProgram([
+    join(DEMO, "video.mp4"),
+    ...["--background", join(DEMO, "background.mp4"), "--loop", "--no-guide", "--no-settings", ...LIGHT],
+    ...["--send", to("name=Ana"), "--send", to("name=Bo&mirror=1&look=robot")],
+  ]);
+  const until = performance.now() + 2 * PATIENCE;
+  const heard = () => [...listener.frames.values()].filter((f) => f.length >= ENOUGH).length;
+  while (heard() < 2 && performance.now() < until) await new Promise((resolve) => setTimeout(resolve, 200));
+  await live.stop();
+  const words = await recording.end();
+  assert.equal(heard(), 2, words);
+  listener.frames.clear();
+});
+
+test("three pages show the recorded motion when it is replayed", LONG, async () => {
+  browser = await startBrowser();
+  chair = await inTheRoom(browser, room, { name: "Chidi", role: "chair", look: "office" });
+  guest = await inTheRoom(browser, room, { name: "Dara", look: "summer" });
+  watcher = await inTheRoom(browser, room, { role: "watch" });
+  for (const name of ["Ana", "Bo"])
+    replays.push(roomCommand(["replay", file, "--to", room.link("speak"), "--only", name, "--loop"]));
+  for (const { page } of [chair, guest, watcher]) {
+    await shows(page, ["Ana", "Bo", "Chidi", "Dara"]);
+    const people = await page.evaluate(() => window.telemimeRoom.participants);
+    for (const name of ["Ana", "Bo"]) {
+      const { id } = people.find((p) => p.name === name);
+      await dressed(page, [id]);
+      const motion = recordedMotion(file, name, room.codec);
+      assert.ok(motion.length >= ENOUGH - 50, "most of what was heard is in the file");
+      const person = { participant: id, poseOf: truthOf(motion, listener.frames.get(id)) };
+      const error = await motionError(page, person);
+      console.log(`${name}: bones ${error.mean.toFixed(3)} degrees off, at most ${error.worst.toFixed(2)}`);
+      assert.ok(error.mean <= MOST);
+    }
+  }
+  for (const visit of [chair, guest, watcher]) assert.deepEqual(visit.complaints, []);
+});
