@@ -5,6 +5,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
+ASAN_TARGETS ?= all
 CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 TARGETS := help deps configure build demo test bench experiments lint asan tsan fuzz install clean
 .PHONY: $(TARGETS) deps-test
@@ -44,9 +45,9 @@ lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@cmake --preset lint > /dev/null
 	@scripts/lint.sh $(FILES)
 
-asan: deps ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
+asan: deps ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers; ASAN_TARGETS="a_test b_test" for some
 	@cmake --preset asan $(CCACHE)
-	@cmake --build --preset asan -j $(JOBS)
+	@cmake --build --preset asan --target $(ASAN_TARGETS) -j $(JOBS)
 	@ctest --preset asan -j $(JOBS)
 
 tsan: deps ## all but the slow tests under the thread sanitizer

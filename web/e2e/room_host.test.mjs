@@ -3,7 +3,8 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { startBrowser, PATIENCE } from "./program.mjs";
+import mqtt from "mqtt";
+import { startBrowser, PATIENCE, tabTo } from "./program.mjs";
 import { atTheDoor, inTheRoom, isIn, openRoom, shows } from "./room.mjs";
 
 const LONG = { timeout: 4 * PATIENCE };
@@ -71,6 +72,103 @@ test("who loads the page anew is who they were; the broker may die meanwhile", L
   await shows(chair.page, ["Chidi", "Dara"]);
   for (const visit of [chair, guest]) visit.complaints.length = 0; // Chromium tells of each failed socket
 });
+
+test(
+  "who chairs the room names it and locks it; nobody new comes in until it is unlocked",
+  LONG,
+  async () => {
+    const { page } = chair;
+    await page.locator("#room-canvas").focus();
+    await page.keyboard.press("r");
+    await tabTo(page, "#room-title");
+    await page.keyboard.press("ControlOrMeta+a");
+    await page.keyboard.type("Green room");
+    await tabTo(page, "#room-seats");
+    await page.keyboard.press("ControlOrMeta+a");
+    await page.keyboard.type("101");
+    await page.keyboard.press("Enter");
+    await page.locator("#chair-words").filter({ hasText: "from 1 to 100" }).waitFor();
+    await page.keyboard.press("ControlOrMeta+a");
+    await page.keyboard.type("12");
+    await page.keyboard.press("Enter");
+    await page.locator("#chair-words").filter({ hasText: "Saved." }).waitFor();
+    for (const p of pages()) {
+      await p.locator("#title").filter({ hasText: "Green room" }).waitFor();
+      await p.locator("#room-is").filter({ hasText: "12 seats" }).waitFor({ state: "attached" });
+    }
+    await tabTo(page, "#room-locked");
+    await page.keyboard.press("Space");
+    await page.locator("#chair-words").filter({ hasText: "Locked." }).waitFor();
+    for (const p of pages()) await p.locator("#room-badge").waitFor();
+    const { page: late, close } = await atTheDoor(browser, room);
+    await late.locator("#name").fill("Emeka");
+    await late.locator("#enter").click();
+    await late.locator("#door-error").filter({ hasText: "The room is locked" }).waitFor();
+    await page.locator("#room-locked").click();
+    for (const p of pages()) await p.locator("#room-badge").waitFor({ state: "hidden" });
+    await late.locator("#enter").click();
+    await isIn(late);
+    assert.equal(await late.locator("#title").innerText(), "Green room");
+    await close();
+    for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
+    assert.equal(
+      await guest.page.locator("#chair").getAttribute("hidden"),
+      "",
+      "no controls without the role",
+    );
+    await page.keyboard.press("Escape");
+    quiet();
+  },
+);
+
+test(
+  "the command for a camera is who it says: the page leaves the avatar to it, and takes it back",
+  LONG,
+  async () => {
+    const { page } = guest;
+    const me = await page.evaluate(() => window.telemimeRoom.me);
+    await page.locator("#room-canvas").focus();
+    await page.keyboard.press("r");
+    assert.equal(
+      await page.locator("#camera-command").textContent(),
+      "",
+      "no password before it is asked for",
+    );
+    await tabTo(page, "#camera-show");
+    await page.keyboard.press("Enter");
+    const command = await page.locator("#camera-command").innerText();
+    const [, address] = /^telemime live --send '([^'\s]+)'$/.exec(command);
+    const url = new URL(address);
+    const [tenant, name] = url.pathname.slice(1).split("/");
+    assert.equal(`r/${tenant}/${name}`, room.topic);
+    assert.equal(`mqtt://${url.host}`, room.broker.tcp);
+    assert.equal(url.username, `${name}.${me}`);
+    assert.equal(url.searchParams.get("name"), "Dara");
+    assert.equal(url.searchParams.get("look"), "summer");
+    const presence = `${room.topic}/p/${me}/presence`;
+    const tracker = await mqtt.connectAsync(`mqtt://${url.host}`, {
+      protocolVersion: 4,
+      username: decodeURIComponent(url.username),
+      password: decodeURIComponent(url.password),
+    });
+    const tell = (topic, message) =>
+      tracker.publishAsync(topic, JSON.stringify({ v: 1, session: 7, ...message }), { qos: 1, retain: true });
+    const state = { kind: "tracker", name: "Dara's camera", seat: 3, avatar: { look: "robot" } };
+    await tell(presence, { here: true });
+    await tell(`${room.topic}/p/${me}/state`, state);
+    for (const p of pages()) await shows(p, ["Chidi", "Dara's camera"]);
+    await page.locator("#camera-here").waitFor();
+    assert.match(await page.locator("#state-words").textContent(), /Your tracker moves your avatar/);
+    await page.locator("#camera-show").click();
+    assert.equal(await page.locator("#camera-command").textContent(), "", "hidden again");
+    await tell(presence, { here: false });
+    await tracker.endAsync();
+    for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
+    await page.locator("#camera-here").waitFor({ state: "hidden" });
+    await page.keyboard.press("Escape");
+    quiet();
+  },
+);
 
 test("no secret is in what the program says beside its links", LONG, async () => {
   const answer = await room.enter({ invite: room.invites.speak });

@@ -29,6 +29,7 @@ describe("the answer", () => {
       password: "secret",
       participant: "p01",
       mqtt: "ws://localhost:9001/",
+      tcp: null,
       topic: "r/lab/main",
       roles: ["speak", "board"],
       token: "token-1",
@@ -38,6 +39,22 @@ describe("the answer", () => {
   it("may lead to a broker below a path", () => {
     const url = "wss://room.example.org/mqtt";
     expect(readEntered({ ...ANSWER, mqtt: url })!.mqtt).toBe(url);
+  });
+  it("may say where programs reach the broker, and nothing else there", () => {
+    const tcp = (v: unknown) => readEntered({ ...ANSWER, tcp: v })!.tcp;
+    for (const good of ["mqtt://localhost:1883", "mqtts://room.example.org:8883", "mqtt://[::1]:1883"])
+      expect(tcp(good)).toBe(good);
+    expect(tcp("mqtt://localhost:1883/")).toBe("mqtt://localhost:1883");
+    for (const bad of [
+      7,
+      "",
+      "http://h:1",
+      "mqtt://u:p@h:1",
+      "mqtt://h:1/x",
+      "mqtt://h';rm -r '",
+      "mqtt://$(x):1",
+    ])
+      expect(tcp(bad)).toBeNull();
   });
   it("for those who watch has no participant", () => {
     expect(readEntered({ ...ANSWER, roles: ["watch"] })!.participant).toBeNull();

@@ -21,6 +21,8 @@ export interface Entered {
   participant: string | null;
   /** ws:// or wss:// */
   mqtt: string;
+  /** mqtt:// or mqtts://, for programs; null when it is not told. */
+  tcp: string | null;
   /** "r/tenant/room" */
   topic: string;
   roles: readonly Role[];
@@ -45,6 +47,12 @@ function socketUrl(v: unknown): string | null {
   }
 }
 
+/** Host and port alone: it becomes a part of a command that people copy. */
+function brokerUrl(v: unknown): string | null {
+  const plain = /^mqtts?:\/\/(\[[0-9a-f:.]{2,45}\]|[a-z0-9._-]{1,253})(:\d{1,5})?\/?$/i;
+  return typeof v === "string" && plain.test(v) ? v.replace(/\/$/, "") : null;
+}
+
 /** Null when the answer lacks what is needed. */
 export function readEntered(answer: unknown): Entered | null {
   if (typeof answer !== "object" || answer === null) return null;
@@ -59,6 +67,7 @@ export function readEntered(answer: unknown): Entered | null {
     password: a.password,
     participant: isSegment(a.participant) && roles.length > 0 ? a.participant : null,
     mqtt,
+    tcp: brokerUrl(a.tcp),
     topic,
     roles,
     token: isText(a.return, 500) ? a.return : null,

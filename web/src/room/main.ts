@@ -16,10 +16,12 @@ import { RoomClient } from "./room_client";
 import { Roster } from "./roster";
 import { loadRoomSettings, saveRoomSettings } from "./settings";
 import { SceneUi } from "./scene/ui";
+import { trackerCommand } from "./tracker_command";
 import { BoardView } from "./ui/board_view";
 import { ChatView } from "./ui/chat_view";
 import { Door, type Wish } from "./ui/door";
 import { People } from "./ui/people";
+import { RoomTab } from "./ui/room_tab";
 import { StatusLine } from "./ui/status";
 
 // The secret of the link leaves the address bar before anything else happens.
@@ -48,6 +50,11 @@ const chatIsOpen = (): boolean =>
 
 const people = new People();
 const chat = new ChatView((text) => client?.say(text) ?? "You are not in the room.");
+const roomTab = new RoomTab({
+  alter: async (change) => (await client?.alter(change)) ?? "You are not in the room.",
+  command: () => (client ? trackerCommand(client.entered, client.me?.state ?? null) : null),
+  announce: (words) => status.announce(words),
+});
 let why = "";
 const banner = new Banner(
   () => client?.tryNow(),
@@ -102,6 +109,8 @@ function showStatus(): void {
   byId("title", HTMLElement).textContent = title || "Telemime";
   document.title = title ? `${title} · Telemime` : "Room · Telemime";
   status.show(client.state, client.roster.here.length, client.me, client.roster.room.locked);
+  if (client.settled) roomTab.show(client.roster.room);
+  roomTab.tracked(client.me?.other?.kind === "tracker");
   chat.waiting(client.state.kind === "open" ? 0 : client.outbox.waiting.length);
 }
 
@@ -175,7 +184,10 @@ function start(entered: Entered, seat: number | null): void {
   client = c;
   scene.slate.add(null);
   chat.enable(c.me !== null);
-  boardView.allow(c.mayDraw, c.mayWipe);
+  boardView.allow(c.mayDraw, c.mayChair);
+  const mine = c.me?.state ?? null;
+  const look = mine?.avatar ?? {};
+  roomTab.enter(c.mayChair, trackerCommand(entered, mine) !== null, "look" in look);
   for (const radio of document.querySelectorAll<HTMLInputElement>('input[name="view"]'))
     radio.disabled = radio.value !== "orbit" && c.me === null;
   if (!c.me) setView("orbit");
@@ -189,6 +201,7 @@ function leave(words: string): void {
   scene.cast?.clear();
   boardView.toggle(false);
   boardView.allow(false, false);
+  roomTab.enter(false, false, false);
   chat.clear();
   people.show([]);
   banner.setState({ kind: "open" });
@@ -235,6 +248,7 @@ new Shortcuts(
     { key: "z", label: "Take your last line on the blackboard back", run: inRoom(() => boardView.undo()) },
     { key: "p", label: "Side panel", run: inRoom(() => panel.toggle()) },
     { key: "w", label: "Side panel: who is here", run: inRoom(() => panel.show("people")) },
+    { key: "r", label: "Side panel: the room and your camera", run: inRoom(() => panel.show("room")) },
     {
       key: "c",
       label: "Side panel: chat",

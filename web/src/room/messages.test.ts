@@ -10,6 +10,7 @@ import {
   readState,
   toBytes,
   writeState,
+  writeRoom,
 } from "./messages";
 
 const bytes = (text: string): Uint8Array => new TextEncoder().encode(text);
@@ -179,6 +180,12 @@ describe("what the room is", () => {
       epoch: 4,
       chairs: ["p01"],
       locked: true,
+      more: { more: 1 },
+    });
+    expect(JSON.parse(new TextDecoder().decode(writeRoom(readRoom(toBytes(m))!)))).toEqual({
+      v: 1,
+      ...m,
+      chairs: ["p01"],
     });
     expect(readRoom(toBytes({ epoch: 0, seats: 1e9 }))).toMatchObject({ title: "", seats: 8, locked: false });
     expect(readRoom(toBytes({ epoch: -1 }))).toBeNull();

@@ -12,6 +12,8 @@ export const MAX_NAME = 40; // characters
 export const MAX_TEXT = 500; // characters
 export const MAX_AVATAR = 64 * 1024 * 1024; // bytes
 export const MAX_SEATS = 100;
+export const MAX_TITLE = 60; // characters, as they are shown
+export const MAX_TITLE_BYTES = 200; // programs that open rooms take no longer ones
 const MAX_URL = 2048;
 
 export type AvatarChoice = { look: string } | { url: string; sha256: string; bytes: number };
@@ -59,6 +61,8 @@ export interface RoomMessage {
   epoch: number;
   chairs: string[];
   locked: boolean;
+  /** Members that are not known here: kept when the room is told anew. */
+  more: Readonly<Record<string, unknown>>;
 }
 
 type Json = Record<string, unknown>;
@@ -164,12 +168,14 @@ export function readBoard(payload: Uint8Array): BoardMessage | null {
 export function readRoom(payload: Uint8Array): RoomMessage | null {
   const m = read(payload, LIMITS.room);
   if (!m || !isEpoch(m.epoch)) return null;
+  const { v: _version, title, seats, epoch: _epoch, chairs, locked, ...more } = m;
   return {
-    title: typeof m.title === "string" ? m.title : "",
-    seats: whole(m.seats, 1, MAX_SEATS) ? m.seats : 8,
+    title: typeof title === "string" ? title : "",
+    seats: whole(seats, 1, MAX_SEATS) ? seats : 8,
     epoch: m.epoch,
-    chairs: Array.isArray(m.chairs) ? m.chairs.filter(isSegment) : [],
-    locked: m.locked === true,
+    chairs: Array.isArray(chairs) ? chairs.filter(isSegment) : [],
+    locked: locked === true,
+    more,
   };
 }
 
@@ -177,6 +183,12 @@ const utf8Writer = new TextEncoder();
 /** To what goes over the wire. */
 export const toBytes = (message: object): Uint8Array =>
   utf8Writer.encode(JSON.stringify({ v: 1, ...message }));
+
+/** What is written of a room. */
+export function writeRoom(r: RoomMessage): Uint8Array {
+  const { more, ...known } = r;
+  return toBytes({ ...more, ...known });
+}
 
 /** What is written of a state. */
 export function writeState(s: StateMessage): Uint8Array {

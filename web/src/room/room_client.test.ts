@@ -87,6 +87,7 @@ class Page {
       password: "x",
       participant: id,
       mqtt: "ws://localhost:1/",
+      tcp: null,
       topic: TOPIC,
       roles,
       token: null,
@@ -233,7 +234,7 @@ describe("when the broker dies and comes back with nothing", () => {
     broker.die();
     broker.up = true;
     await wait(5000);
-    expect(ana.client.roster.room).toEqual(room);
+    expect(ana.client.roster.room).toMatchObject(room);
     const late = new Page("p03", "Chidi");
     await wait(1000);
     expect(late.client.roster.room.title).toBe("Blue");
@@ -266,7 +267,7 @@ describe("the blackboard", () => {
     const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
     const bo = new Page("p02", "Bo");
     await wait(2000);
-    expect(bo.client.mayWipe).toBe(false);
+    expect(bo.client.mayChair).toBe(false);
     ana.client.draw("#ffd76a", 40, [0, 0, 0.5, 0.5]);
     bo.client.draw("#ff9280", 40, [0, 1, 1, 0]);
     bo.client.draw("#ff9280", 40, [0, 0.5, 1, 0.5]);
@@ -289,6 +290,41 @@ describe("the blackboard", () => {
     again.client.draw("#ff9280", 40, [0, 0, 1, 1]);
     await wait(1000);
     expect(ana.client.board.strokes.length).toBe(1);
+  });
+});
+
+describe("those who chair the room", () => {
+  const kept = () => JSON.parse(new TextDecoder().decode(broker.kept.get(`${TOPIC}/room`)));
+  const told = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
+  it("change its title, seats and lock, and leave all else as it is", async () => {
+    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page("p02", "Bo");
+    await wait(2000);
+    // The second before the first has come back.
+    const both = [ana.client.alter({ title: "Red", seats: 12 }), ana.client.alter({ locked: true })];
+    await wait(500);
+    expect(await Promise.all(both)).toEqual(["", ""]);
+    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true });
+    expect(bo.client.roster.room).toMatchObject({ title: "Red", seats: 12, locked: true });
+    ana.client.wipe();
+    await wait(500);
+    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true, epoch: 5 });
+    expect(await bo.client.alter({ title: "Mine" })).toContain("Only those who chair");
+    expect(kept().title).toBe("Red");
+  });
+  it("hear in words when the room does not take it", async () => {
+    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    const ana = new Page("p01", "Ana", ["speak", "chair"]);
+    await wait(2000);
+    const publish = broker.publish.bind(broker);
+    broker.publish = (topic, ...rest) => void (topic === `${TOPIC}/room` || publish(topic, ...rest)); // as one that drops it
+    const words = ana.client.alter({ locked: true });
+    await wait(10000);
+    expect(await words).toContain("did not take");
+    expect(ana.client.roster.room.locked).toBe(false);
+    broker.die();
+    expect(await ana.client.alter({ locked: true })).toContain("no connection");
   });
 });
 

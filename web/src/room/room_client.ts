@@ -4,10 +4,11 @@
 
 import { Board, OwnStrokes } from "./board";
 import { ChatLog, Outbox, type Line } from "./chat";
+import { RoomDesk, type RoomChange } from "./chair";
 import type { Entered } from "./entry";
 import { Link, anySession, type Dial, type LinkState } from "./link";
 import { Me, type MyState } from "./me";
-import { toBytes, type RoomMessage, type Stroke } from "./messages";
+import { writeRoom, type RoomMessage, type Stroke } from "./messages";
 import { Roster, type RoomEvent } from "./roster";
 import { freeSeat } from "./seats";
 import { boardTopic, parseTopic, topicOf } from "./topics";
@@ -43,6 +44,10 @@ export class RoomClient {
   readonly outbox = new Outbox(anySession());
   /** Null for those who only watch. */
   readonly me: Me | null;
+  private readonly desk = new RoomDesk(
+    () => this.roster.room,
+    (room) => this.tellRoom(room),
+  );
   /** What the broker keeps of the room is known. */
   settled = false;
   private readonly link: Link;
@@ -87,7 +92,8 @@ export class RoomClient {
     return this.me !== null && this.entered.roles.includes("board");
   }
 
-  get mayWipe(): boolean {
+  /** Those who may say what the room is. */
+  get mayChair(): boolean {
     return this.me !== null && this.entered.roles.includes("chair");
   }
 
@@ -144,7 +150,15 @@ export class RoomClient {
 
   /** For chairs: everybody's strokes go. */
   wipe(): void {
-    if (this.mayWipe) void this.tellRoom({ ...this.roster.room, epoch: this.roster.room.epoch + 1 });
+    void this.alter({ epoch: this.roster.room.epoch + 1 });
+  }
+
+  /** For chairs: changes what the room is. Empty when the room has taken it, or why not in words. */
+  alter(change: RoomChange): Promise<string> {
+    if (!this.mayChair) return Promise.resolve("Only those who chair the room can change it.");
+    if (!this.settled || this.link.state.kind !== "open")
+      return Promise.resolve("There is no connection to the room now. Try again when it is back.");
+    return this.desk.ask(change);
   }
 
   change(state: MyState): void {
@@ -156,7 +170,7 @@ export class RoomClient {
   }
 
   private tellRoom(room: RoomMessage): Promise<boolean> {
-    return this.tell(`${this.base}/room`, toBytes(room));
+    return this.tell(`${this.base}/room`, writeRoom(room));
   }
 
   private linked(s: LinkState): void {
@@ -184,7 +198,7 @@ export class RoomClient {
       this.sendPages();
       this.sendChat();
       // A broker that has lost what the room is hears it from its chairs.
-      if (!this.roomHeard && this.roomKnown && this.mayWipe) void this.tellRoom(this.roster.room);
+      if (!this.roomHeard && this.roomKnown && this.mayChair) void this.tellRoom(this.roster.room);
     }
     this.listener.mine();
   }
@@ -223,6 +237,7 @@ export class RoomClient {
         break;
       case "room":
         this.roomHeard = this.roomKnown = true;
+        this.desk.heard();
         this.setEpoch(this.roster.room.epoch);
         break;
       case "said": {

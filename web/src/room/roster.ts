@@ -49,6 +49,7 @@ export const DEFAULT_ROOM: Readonly<RoomMessage> = {
   epoch: 0,
   chairs: [],
   locked: false,
+  more: {},
 };
 
 export class Roster {

@@ -3,7 +3,7 @@
 
 export interface RoomSettings {
   panelClosed: boolean; // on a wide page
-  tab: "people" | "chat";
+  tab: "people" | "chat" | "room";
   keys: boolean; // single-key shortcuts
   /** Fetch avatars that participants keep at other web sites: those sites then see who asks. */
   strangers: boolean;
@@ -36,7 +36,7 @@ export function readRoomSettings(stored: string | null): RoomSettings {
     const v = g[key];
     if (typeof v === "boolean") out[key] = v;
   }
-  if (g.tab === "people" || g.tab === "chat") out.tab = g.tab;
+  if (g.tab === "people" || g.tab === "chat" || g.tab === "room") out.tab = g.tab;
   return out;
 }
 
