@@ -36,6 +36,7 @@ HOST = re.compile(r"[A-Za-z0-9.-]{1,253}")
 # Passwords are random and of 192 bits: nobody guesses them, so a hash need not be slow. A slow one would keep a node
 # busy when a whole room comes back at once (2^11, the usual cost, is 0.1 s for each).
 BCRYPT_COST = 5
+BOARD_PAGES = 64  # docs/room-protocol.md
 BCRYPT_DIGITS = "./ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
 
 NODE = """\
@@ -115,7 +116,9 @@ def bcrypt(password):
 def accounts_of(tenant, room, participants):
     """Who there is: name of the account -> topics that it may publish to, all below the room's own."""
     topic = f"r/{tenant}/{room}"
-    all_of = {f"p{i + 1:02d}": [f"{topic}/p/p{i + 1:02d}/#"] for i in range(participants)}
+    # One by one: with a wildcard somebody could have the cluster keep any number of messages.
+    own = ["pose", "state", "presence", "chat", *(f"board/{page}" for page in range(BOARD_PAGES))]
+    all_of = {p: [f"{topic}/p/{p}/{what}" for what in own] for p in (f"p{i + 1:02d}" for i in range(participants))}
     all_of["p01"].append(f"{topic}/room")
     return {**all_of, "watch": [], "service": [f"{topic}/#"]}
 

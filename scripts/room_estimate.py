@@ -27,7 +27,7 @@ ASSUMPTIONS = {
     "ethernet": (38, "bytes", "Ethernet with the gap between packets"),
     "acks": (0.5, "", "packets of pure acknowledgement for each packet; they go the other way and are counted with it"),
     "shared": (1.0, "", "messages for each packet and TLS record: 1 is the worst; brokers write what waits at once"),
-    "cores_per_million": (3.0, "cores", "of a broker for a million messages a second, in or out, unencrypted"),
+    "cores_per_million": (9.0, "cores", "of a broker for a million messages a second, in or out, unencrypted"),
     "tls_factor": (2.0, "", "more work for TLS and small packets of real networks"),
     "headroom": (0.5, "", "part of a node that is used at most, so that two of three can carry all"),
     "node_cores": (16, "cores", "of one node"),

@@ -104,13 +104,13 @@ def summarise(file):
             if record["kind"] == "state" and record["payload"]:
                 try:
                     names[record["participant"]].add(str(json.loads(record["payload"])["name"]))
-                except (ValueError, KeyError, TypeError):
+                except (ValueError, KeyError, TypeError, RecursionError):
                     pass
         else:
             others[record["kind"]] += record.get("count", 1)
     print(f"{last / 1e6:.1f} s")
     for participant, counts in sorted(people.items()):
-        title = " ".join([participant, *(json.dumps(n, ensure_ascii=False) for n in sorted(names[participant]))])
+        title = " ".join([participant, *(json.dumps(n) for n in sorted(names[participant]))])
         print(f"{title}: " + ", ".join(f"{counts[what]} {what}" for what in WHAT if counts[what]))
     for what, count in sorted(others.items()):
         if what not in ("end", "back"):

@@ -5,6 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
@@ -51,7 +52,16 @@ void run_record(const RecordArguments& arguments) {
   }
   SessionWriter writer(new_session_file(arguments.out), {login.room, date_now()});
   std::cout << "recording " << door.shown() << " to " << arguments.out << "   Ctrl-C ends" << std::endl;
-  const std::uint64_t end = recorder.record(writer);
+  std::uint64_t end = 0;
+  try {
+    end = recorder.record(writer);
+  } catch (...) {
+    if (writer.messages() == 0) {
+      std::error_code ignored;
+      std::filesystem::remove(arguments.out, ignored);  // so that the next try may make it
+    }
+    throw;
+  }
   writer.end(end);
   constexpr double kMega = 1e6;
   std::cout << std::fixed << std::setprecision(1) << static_cast<double>(end) / kMega << " s, "

@@ -110,9 +110,18 @@ export async function startRoom({
     };
     if (url.pathname === "/room/enter" && request.method === "POST") {
       let body = "";
-      request.on("data", (d) => (body += d));
+      request.on("data", (d) => {
+        body += d;
+        if (body.length > 4096) request.destroy();
+      });
       request.on("end", () => {
-        const [code, answer] = enter(JSON.parse(body));
+        let question = null;
+        try {
+          question = JSON.parse(body);
+        } catch {
+          // whatever it is, it is no question
+        }
+        const [code, answer] = question && typeof question === "object" ? enter(question) : [400, {}];
         send(code, "application/json", JSON.stringify(answer));
       });
       return undefined;

@@ -18,8 +18,10 @@ using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr milliseconds kLook{50};
-constexpr std::chrono::seconds kLongestStart{20};  // until all are connected
-constexpr std::chrono::seconds kLongestEnd{2};     // until the last words are said
+constexpr std::chrono::seconds kLongestStart{20};    // until all are connected
+constexpr std::chrono::seconds kLongestEnd{2};       // until the last words are said
+constexpr std::chrono::seconds kShortestPass{5};     // with loop
+constexpr double kLongestSession = 365.0 * 86400e6;  // us
 constexpr milliseconds kLead{100};  // from the start of a pass to its first message: none is late then
 
 using Stop = std::function<bool()>;
@@ -135,7 +137,8 @@ class Pass {
   /// False when it was stopped.
   bool run() {
     while (const auto record = reader_.next()) {
-      const std::chrono::duration<double, std::micro> passed(static_cast<double>(time_of(*record)) / speed_);
+      const std::chrono::duration<double, std::micro> passed(
+          std::min(static_cast<double>(time_of(*record)) / speed_, kLongestSession));
       const auto due = start_ + std::chrono::duration_cast<SteadyClock::duration>(passed);
       if (!wait_until(due, stop_, [] { return false; })) {
         return false;
@@ -206,7 +209,11 @@ std::vector<ReplayedPerson> replay_session(const ReplayOptions& options, const S
   }
   if (go_on) {
     say("replaying " + std::to_string(parts.size()) + (parts.size() == 1 ? " participant" : " participants"));
+    auto begun = SteadyClock::now();
     while (Pass(parts, options, stop).run() && options.loop) {
+      // Everybody in the room sees who comes and goes.
+      wait_until(begun + kShortestPass, stop, [] { return false; });
+      begun = SteadyClock::now();
       for (const Part& part : parts) {
         part.voice->leave();
       }

@@ -22,7 +22,9 @@ void add_message(RecordedPerson& person, const SessionMessage& message) {
     person.takes_part = person.takes_part || (presence && presence->here);
     return;
   }
-  person.takes_part = person.takes_part || !message.payload.empty();
+  // A state may be what the broker kept of somebody who is gone.
+  person.takes_part =
+      person.takes_part || (message.topic.kind != RoomTopicKind::state && !message.payload.empty());
   if (message.topic.kind == RoomTopicKind::state && person.names.size() < kMostNames) {
     if (const auto state = read_state(message.payload)) {
       person.names.insert(state->name);

@@ -25,6 +25,8 @@ TEST(SessionSummary, KnowsWhoTookPart) {
   summary.add(message(1, "", RoomTopicKind::room, "{}"));
   summary.add(message(1, "gone", RoomTopicKind::presence, write_presence({false, 3})));
   summary.add(message(1, "gone", RoomTopicKind::state, ""));
+  summary.add(message(1, "lost", RoomTopicKind::presence, write_presence({false, 4})));
+  summary.add(message(1, "lost", RoomTopicKind::state, state("Who was killed")));
   summary.add(message(2, "p1", RoomTopicKind::presence, write_presence({true, 3})));
   summary.add(message(3, "p1", RoomTopicKind::state, state("Ana")));
   summary.add(message(4, "p1", RoomTopicKind::state, state("Ana B")));
@@ -35,8 +37,9 @@ TEST(SessionSummary, KnowsWhoTookPart) {
   summary.add(SessionDropped{9, 4});
   summary.add(SessionEnd{12});
   EXPECT_EQ(summary.start.room.room, "studio");
-  ASSERT_EQ(summary.people.size(), 4U);
+  ASSERT_EQ(summary.people.size(), 5U);
   EXPECT_FALSE(summary.people.at("gone").takes_part) << "somebody of an earlier day";
+  EXPECT_FALSE(summary.people.at("lost").takes_part) << "what the broker kept of them is no sign of life";
   EXPECT_TRUE(summary.people.at("p1").takes_part);
   EXPECT_EQ(summary.people.at("p1").names, (std::set<std::string>{"Ana", "Ana B"}));
   EXPECT_EQ(summary.people.at("p1").others, 3U);
