@@ -13,7 +13,6 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,6 +23,7 @@
 #include "room_replay_command.h"
 #include "telemime/avatar/look.h"
 #include "telemime/core/errors.h"
+#include "telemime/hosting/avatar_folder.h"
 #include "telemime/hosting/room_host.h"
 #include "telemime/hosting/room_secrets.h"
 #include "telemime/live/avatar_shelf.h"
@@ -48,49 +48,6 @@ struct RoomCommand {
   std::filesystem::path avatars;
   double seconds = 0.0;
   bool quiet = false;
-};
-
-/// The avatars of the user's folder by their looks; "<look>-light.vrm" is the one for slow computers.
-class AvatarFolder {
- public:
-  explicit AvatarFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-    if (folder_.empty()) {
-      return;
-    }
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
-      const std::string look = entry.path().stem().string();
-      if (entry.path().extension() == ".vrm" && is_room_segment(look)) {
-        looks_.push_back(look);
-      }
-    }
-    if (error) {
-      throw Error(ErrorKind::usage,
-                  "the avatars in " + folder_.string() + " cannot be read: " + error.message(),
-                  "--avatars names a folder of files LOOK.vrm.");
-    }
-    std::sort(looks_.begin(), looks_.end());
-  }
-
-  const std::vector<std::string>& looks() const { return looks_; }
-
-  /// "/avatars/<look>.vrm"; a light one that there is not is the one itself.
-  std::optional<WebContent> file(const std::string& path) const {
-    for (const std::string& look : looks_) {
-      const bool light = path == "/avatars/" + look + "-light.vrm";
-      if (light || path == "/avatars/" + look + ".vrm") {
-        WebContent content;
-        content.type = "model/gltf-binary";
-        content.file = folder_ / (look + ".vrm");
-        return content;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<std::string> looks_;
 };
 
 /// Those that people choose from: the project's own, then the user's.

@@ -56,6 +56,14 @@ TEST(RoomEntry, ThePageHasItsPolicyAndNothingElseIsServed) {
   EXPECT_EQ(telemime::ask(port, "/ws").status, 426);
 }
 
+TEST(RoomEntry, TheLinkNamesTheAddressWhereItListens) {
+  OpenRoom room([](RoomPlan& plan) { plan.address = "127.0.0.2"; });
+  EXPECT_EQ(room.host().page(), "http://127.0.0.2:" + std::to_string(room.host().port()) + "/room");
+  RoomEntry entry;
+  entry.link = room.host().speak_link();
+  EXPECT_EQ(enter_room(entry).broker, "mqtt://127.0.0.2:" + std::to_string(room.host().mqtt_port()));
+}
+
 TEST(RoomEntry, WhoMayNotIsToldByTheRightNumber) {
   OpenRoom room([](RoomPlan& plan) { plan.most = 1; });
   const auto status = [&](const Json& question, const std::string& headers) {

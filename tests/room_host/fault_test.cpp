@@ -134,7 +134,8 @@ TEST(RoomFaults, LinksAndSeatsOutliveTheProgram) {
 
 TEST(RoomFaults, WhatCannotBeUsedIsToldInWords) {
   EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.broker.program = "/nothing/here"; }), "--mosquitto"));
-  EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.broker.program = "/bin/false"; }), "does not start"));
+  EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.broker.program = "/bin/false"; }),
+                  "the broker does not start: code 1"));
   EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.name = "A B"; }), "A B"));
   EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.seats = 0; }), "seats"));
   EXPECT_TRUE(has(refusal([](RoomPlan& plan) { plan.address = "there"; }), "'there'"));

@@ -7,19 +7,20 @@
 #include <algorithm>
 #include <chrono>
 #include <string_view>
+#include <utility>
 
 #include "telemime/network/testing_receivers.h"
 
 namespace telemime::testing_rooms {
 namespace {
 
-const std::string kRoom = "r/home/studio/";
 constexpr int kKeepAlive = 60;
 constexpr int kRefused = 0x80;  // MQTT 3.1.1, 3.9.3
 
 }  // namespace
 
-Ear::Ear(std::uint16_t port, const std::string& user, const std::string& password) {
+Ear::Ear(std::uint16_t port, const std::string& user, const std::string& password, std::string base)
+    : base_(std::move(base)) {
   mosquitto_lib_init();
   client_ = mosquitto_new(nullptr, true, this);
   mosquitto_connect_callback_set(client_, on_connect);
@@ -39,15 +40,15 @@ Ear::~Ear() {
   mosquitto_lib_cleanup();
 }
 
-void Ear::on_connect(mosquitto* client, void* /*self*/, int code) {
+void Ear::on_connect(mosquitto* client, void* self, int code) {
   EXPECT_EQ(code, 0);
-  mosquitto_subscribe(client, nullptr, (kRoom + "#").c_str(), 1);
+  mosquitto_subscribe(client, nullptr, (static_cast<Ear*>(self)->base_ + "#").c_str(), 1);
 }
 
 // A cluster that has just lost a node may be unable to grant more than QoS 0.
 void Ear::on_subscribe(mosquitto* client, void* self, int /*id*/, int /*count*/, const int* granted) {
   if (*granted == kRefused) {
-    mosquitto_subscribe(client, nullptr, (kRoom + "#").c_str(), 0);
+    mosquitto_subscribe(client, nullptr, (static_cast<Ear*>(self)->base_ + "#").c_str(), 0);
   } else {
     static_cast<Ear*>(self)->listens_ = true;
   }
@@ -56,11 +57,11 @@ void Ear::on_subscribe(mosquitto* client, void* self, int /*id*/, int /*count*/,
 void Ear::on_message(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
   auto& ear = *static_cast<Ear*>(self);
   const std::string_view topic(message->topic);
-  EXPECT_TRUE(topic.starts_with(kRoom));
+  EXPECT_TRUE(topic.starts_with(ear.base_));
   const auto size = static_cast<std::size_t>(message->payloadlen);
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
   const std::lock_guard lock(ear.mutex_);
-  ear.heard_.push_back({std::string(topic.substr(kRoom.size())),
+  ear.heard_.push_back({std::string(topic.substr(ear.base_.size())),
                         size == 0 ? "" : std::string(static_cast<const char*>(message->payload), size),
                         message->retain, now.count()});
 }
@@ -104,7 +105,7 @@ void Ear::forget() {
 }
 
 void Ear::say(const std::string& topic, const std::string& payload) {
-  EXPECT_EQ(mosquitto_publish(client_, nullptr, (kRoom + topic).c_str(), static_cast<int>(payload.size()),
+  EXPECT_EQ(mosquitto_publish(client_, nullptr, (base_ + topic).c_str(), static_cast<int>(payload.size()),
                               payload.data(), 1, /*retain=*/true),
             MOSQ_ERR_SUCCESS);
 }

@@ -23,13 +23,15 @@ namespace telemime::testing_rooms {
 class Ear {
  public:
   struct Heard {
-    std::string topic;  ///< behind "r/home/studio/"
+    std::string topic;  ///< behind the base
     std::string payload;
     bool retained;
     double at;  ///< s of the steady clock
   };
 
-  explicit Ear(std::uint16_t port, const std::string& user = "", const std::string& password = "");
+  /// `base`: what it hears instead of the room, "r/" for all rooms.
+  explicit Ear(std::uint16_t port, const std::string& user = "", const std::string& password = "",
+               std::string base = "r/home/studio/");
   Ear(const Ear&) = delete;
   Ear& operator=(const Ear&) = delete;
   ~Ear();
@@ -53,6 +55,7 @@ class Ear {
   static void on_subscribe(mosquitto* client, void* self, int id, int count, const int* granted);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
 
+  const std::string base_;
   mutable std::mutex mutex_;
   std::vector<Heard> heard_;
   std::atomic<bool> listens_ = false;

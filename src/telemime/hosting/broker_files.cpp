@@ -68,6 +68,7 @@ std::string broker_configuration(const BrokerSettings& settings) {
          "max_inflight_messages 20\n"
          "max_queued_messages 500\n"
          "max_queued_bytes 4194304\n"
+         "memory_limit 268435456\n"
          "persistent_client_expiration 1h\n"
          "set_tcp_nodelay true\n"
          "\nlistener 0 " +

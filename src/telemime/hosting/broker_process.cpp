@@ -3,6 +3,7 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,6 +34,25 @@ std::string words_of(int status) {
   return "code " + std::to_string(WEXITSTATUS(status));
 }
 
+/// The last line of what a program said that is no warning, without the time that Mosquitto writes before it
+/// (s and ": ").
+std::string last_line(std::string_view said) {
+  while (!said.empty()) {
+    said = said.substr(0, said.find_last_not_of(" \r\n") + 1);
+    const std::size_t start = said.rfind('\n') + 1;  // 0 where there is none
+    std::string_view line = said.substr(start);
+    said = said.substr(0, start);
+    const std::size_t digits = line.find_first_not_of("0123456789");
+    if (digits != 0 && digits != std::string_view::npos && line.substr(digits).starts_with(": ")) {
+      line.remove_prefix(digits + 2);
+    }
+    if (!line.empty() && !line.starts_with("Warning: ")) {
+      return std::string(line);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 BrokerProcess::BrokerProcess(std::filesystem::path program, std::filesystem::path configuration, Tell tell)
@@ -55,6 +75,7 @@ BrokerProcess::~BrokerProcess() {
 // The child belongs to this thread: the system kills it when the thread ends.
 void BrokerProcess::work() {
   int pause = kFirstPause;
+  std::string told;
   for (;;) {
     const auto begun = std::chrono::steady_clock::now();
     std::string why;
@@ -68,6 +89,10 @@ void BrokerProcess::work() {
     bool again = false;
     {
       const std::lock_guard lock(mutex_);
+      if (const std::string words = last_line(said_); !words.empty()) {
+        why += ": " + words;
+      }
+      ending_ = why;
       running_ = false;
       again = again_;
     }
@@ -82,8 +107,12 @@ void BrokerProcess::work() {
     }
     if (std::chrono::steady_clock::now() - begun > std::chrono::milliseconds(kLongestPause)) {
       pause = kFirstPause;
+      told.clear();
     }
-    tell_("the broker has ended (" + why + "); it is started anew");
+    if (why != told) {  // one that cannot start would say the same for ever
+      tell_("the broker has ended (" + why + "); it is started anew");
+      told = why;
+    }
     if (wait(pause)) {
       return;
     }
@@ -92,20 +121,25 @@ void BrokerProcess::work() {
 }
 
 void BrokerProcess::start() {
+  {
+    const std::lock_guard lock(mutex_);
+    said_.clear();
+  }
   const ChildProcess child = start_child({program_.string(), "-c", configuration_.string()});
   const std::lock_guard lock(mutex_);
   process_ = child.id;
   output_ = child.output;
+  end_ = static_cast<int>(::syscall(SYS_pidfd_open, child.id, 0));
   ++runs_;
   running_ = true;
-  said_.clear();
 }
 
-// Until the program has ended or we are to.
+// Until the program has ended or we are to. Closing its output is no end.
 void BrokerProcess::listen() {
   std::array<char, 1024> text{};
-  for (;;) {
-    std::array<pollfd, 2> entries{{{output_, POLLIN, 0}, {wake_, POLLIN, 0}}};
+  int output = output_;  // -1: closed; poll() passes over it
+  while (output >= 0 || end_ >= 0) {
+    std::array<pollfd, 3> entries{{{output, POLLIN, 0}, {wake_, POLLIN, 0}, {end_, POLLIN, 0}}};
     if (::poll(entries.data(), entries.size(), -1) < 0 && errno != EINTR) {
       return;
     }
@@ -116,9 +150,11 @@ void BrokerProcess::listen() {
     if (entries[0].revents != 0) {
       const ssize_t size = ::read(output_, text.data(), text.size());
       if (size == 0 || (size < 0 && errno != EINTR)) {
-        return;
+        output = -1;
       }
       hear(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    } else if (entries[2].revents != 0) {
+      return;  // and all that it said was read
     }
   }
 }
@@ -129,15 +165,21 @@ void BrokerProcess::hear(const char* text, std::size_t size) {
   said_.erase(0, said_.size() > kMostSaid ? said_.size() - kMostSaid : 0);
 }
 
+// Until it is waited for the number is its own: signal() must not find it afterwards.
 std::string BrokerProcess::end_of_run() {
+  siginfo_t about{};
+  while (::waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  const std::lock_guard lock(mutex_);
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
-  const std::lock_guard lock(mutex_);
-  ::close(output_);
-  output_ = -1;
   process_ = -1;
-  running_ = false;
+  for (int* const descriptor : {&output_, &end_}) {
+    if (*descriptor >= 0) {
+      ::close(std::exchange(*descriptor, -1));
+    }
+  }
   return words_of(status);
 }
 
@@ -185,6 +227,11 @@ pid_t BrokerProcess::process() const {
 std::string BrokerProcess::last_words() const {
   const std::lock_guard lock(mutex_);
   return said_;
+}
+
+std::string BrokerProcess::ending() const {
+  const std::lock_guard lock(mutex_);
+  return running_ ? "" : ending_;
 }
 
 std::filesystem::path find_mosquitto(const std::string& given, const char* path) {

@@ -26,7 +26,8 @@ class BrokerProcess {
   /// Asks it to end, and kills it when it has not after 3 s.
   ~BrokerProcess();
 
-  /// From now on it is started anew when it has ended, after pauses that grow to 5 s.
+  /// From now on it is started anew when it has ended, after pauses that grow to 5 s. The user is told why;
+  /// the same reason once, as long as no run lasts longer than 5 s.
   void keep_running();
   /// The number of the run that is under way, from 1; 0: none is. From any thread, as what follows.
   std::uint64_t run() const;
@@ -36,6 +37,9 @@ class BrokerProcess {
   pid_t process() const;
   /// The last that it said.
   std::string last_words() const;
+  /// How the last run ended, with the last line of what it said: "code 1: Error: Address already in use".
+  /// Empty while one is under way.
+  std::string ending() const;
 
  private:
   void work();
@@ -52,10 +56,12 @@ class BrokerProcess {
   mutable std::mutex mutex_;  ///< of what follows
   pid_t process_ = -1;
   int output_ = -1;
+  int end_ = -1;  ///< pidfd: readable when the program has ended
   std::uint64_t runs_ = 0;
   bool running_ = true;  ///< or about to be, until the thread says otherwise
   bool again_ = false;
   std::string said_;
+  std::string ending_;
   int wake_ = -1;  ///< eventfd: end
   std::thread thread_;
 };

@@ -8,6 +8,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
+#include <initializer_list>
 #include <system_error>
 
 #include "telemime/core/errors.h"
@@ -35,6 +37,12 @@ constexpr int kNotStarted = 127;
   ::dup2(output, STDERR_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
   ::execv(words[0], words);
+  // Of the names of errors this one alone may be asked for here (signal-safety(7)).
+  const char* const why = ::strerrordesc_np(errno);
+  for (const char* const part : std::initializer_list<const char*>{
+           words[0], " cannot be started: ", why == nullptr ? "" : why, "\n"}) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part, std::strlen(part));
+  }
   ::_exit(kNotStarted);
 }
 

@@ -16,7 +16,8 @@ struct ChildProcess {
 
 /// Starts a program with these words. It has no input, none of our files, and is no part of the terminal's
 /// foreground (Ctrl-C is ours). The system kills it when the calling thread ends: that must be one that lives
-/// as long as the child shall. Throws Error(output).
+/// as long as the child shall. Throws Error(output); what cannot be executed says so by its output and ends
+/// with 127.
 ChildProcess start_child(const std::vector<std::string>& words);
 
 }  // namespace telemime

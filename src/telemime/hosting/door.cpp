@@ -56,13 +56,12 @@ std::optional<EntryQuestion> read_question(std::string_view body) {
 
 Admission Door::enter(const std::optional<EntryQuestion>& question, const std::string& address, double now) {
   Admission admission;
-  if (!tries_.allow(address, now)) {
-    admission.answer = DoorAnswer::too_many_tries;
+  const auto miss = [&](DoorAnswer answer) {
+    admission.answer = tries_.miss(address, now) ? answer : DoorAnswer::too_many_tries;
     return admission;
-  }
+  };
   if (!question) {
-    tries_.miss(address, now);
-    return admission;
+    return miss(DoorAnswer::malformed);
   }
   const std::string invite = question->invite.value_or("");
   // All three, whichever it is.
@@ -77,8 +76,10 @@ Admission Door::enter(const std::optional<EntryQuestion>& question, const std::s
     }
   }
   if (question->invite ? !(speaks || watches || chairs) : !way) {
-    tries_.miss(address, now);
-    admission.answer = DoorAnswer::wrong_link;
+    return miss(DoorAnswer::wrong_link);
+  }
+  if (!tries_.allow(address, now)) {
+    admission.answer = DoorAnswer::too_many_tries;
     return admission;
   }
   const bool chair = chairs || (way && way->chair);
@@ -102,7 +103,7 @@ Admission Door::admit(unsigned number, bool chair, double now) {
       admission.answer = DoorAnswer::full;
       return admission;
     }
-    member = members_.emplace(id, Member{chair, false, now}).first;
+    member = members_.emplace(id, Member{chair, false, false, now}).first;
     admission.changed = true;
     secrets_.next = std::max(secrets_.next, number + 1);
   }
@@ -120,11 +121,19 @@ bool Door::make_room(double now, std::vector<std::string>& freed) {
   if (members_.size() < rules_.most) {
     return true;
   }
-  const auto leaves_first = [](const auto& a, const auto& b) {
-    return std::pair(a.second.here, a.second.last) < std::pair(b.second.here, b.second.last);
+  const auto may_go = [&](const Member& m) {
+    return !m.here &&
+           now - m.last >= (m.came ? rules_.keeps_seat : std::min(rules_.comes_within, rules_.keeps_seat));
   };
-  const auto gone = std::min_element(members_.begin(), members_.end(), leaves_first);
-  if (gone == members_.end() || gone->second.here || now - gone->second.last < rules_.keeps_seat) {
+  auto gone = members_.end();
+  for (auto it = members_.begin(); it != members_.end(); ++it) {
+    const Member& m = it->second;
+    if (may_go(m) && (gone == members_.end() ||
+                      std::pair(m.came, m.last) < std::pair(gone->second.came, gone->second.last))) {
+      gone = it;
+    }
+  }
+  if (gone == members_.end()) {
     return false;
   }
   freed.push_back(gone->first);
@@ -136,6 +145,7 @@ void Door::seen(const std::string& participant, bool here, double now) {
   const auto member = members_.find(participant);
   if (member != members_.end()) {
     member->second.here = here;
+    member->second.came = member->second.came || here;
     member->second.last = now;
   }
 }

@@ -45,17 +45,20 @@ struct Admission {
 struct DoorRules {
   std::size_t most = 40;      ///< participants who have an account at once
   double keeps_seat = 300.0;  ///< s that somebody may be away while others wait for an account
+  double comes_within =
+      30.0;  ///< s for which an account is kept for who has not come yet; at most keeps_seat
   TryRates rates;
 };
 
 /// Who may come in, and as whom. A newcomer is a participant that there never was before; who comes back is
-/// who they were. When there are no more accounts, those go who have been away longest; they can come back,
-/// too, as soon as there is room. Time is told, s, and never goes back.
+/// who they were. When there are no more accounts, those go who never came, then who have been away longest;
+/// they can come back, too, as soon as there is room. Time is told, s, and never goes back.
 class Door {
  public:
   struct Member {
     bool chair = false;
     bool here = false;  ///< as the broker tells
+    bool came = false;  ///< was here once
     double last = 0.0;  ///< s: came in, or was seen
   };
 

@@ -175,9 +175,31 @@ TEST(Door, WhoGuessesTooOftenWaits) {
     EXPECT_EQ(door.enter(with("guess"), "a", 0).answer, DoorAnswer::wrong_link);
   }
   EXPECT_EQ(door.enter(with("guess"), "a", 0).answer, DoorAnswer::too_many_tries);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 9).answer, DoorAnswer::too_many_tries);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "b", 9).answer, DoorAnswer::come_in) << "elsewhere";
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 11).answer, DoorAnswer::come_in);
+  EXPECT_EQ(door.enter(std::nullopt, "a", 9).answer, DoorAnswer::too_many_tries);
+  EXPECT_EQ(door.enter(with("guess"), "b", 9).answer, DoorAnswer::wrong_link) << "elsewhere";
+  EXPECT_EQ(door.enter(with("guess"), "a", 11).answer, DoorAnswer::wrong_link);
+}
+
+TEST(Door, WhoGuessesShutsNobodyOutBehindTheSameAddress) {
+  Door door(kSecrets, {});
+  for (int i = 0; i < 1000; ++i) {
+    door.enter(with("guess"), "proxy", 0);
+  }
+  EXPECT_EQ(door.enter(with(kSecrets.speak), "proxy", 0).answer, DoorAnswer::come_in);
+}
+
+TEST(Door, WhoNeverComesKeepsNobodyOut) {
+  Door door(kSecrets, rules(3));
+  const Admission here = door.enter(with(kSecrets.speak), "a", 0);
+  door.seen(here.participant, true, 1);
+  const Admission away = door.enter(with(kSecrets.speak), "a", 1);
+  door.seen(away.participant, true, 1);
+  door.seen(away.participant, false, 2);
+  const Admission lost = door.enter(with(kSecrets.speak), "a", 3);
+  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 32).answer, DoorAnswer::full);
+  const Admission next = door.enter(with(kSecrets.speak), "a", 33);
+  EXPECT_EQ(next.answer, DoorAnswer::come_in);
+  EXPECT_EQ(next.freed, std::vector<std::string>{lost.participant}) << "not who was here a while ago";
 }
 
 TEST(TryLimit, TriesComeBackWithTime) {

@@ -41,6 +41,7 @@ void EntryDesk::close() {
   if (thread_.joinable()) {
     thread_.join();
   }
+  broker_ = nullptr;
 }
 
 void EntryDesk::open(HostedBroker& broker) {
@@ -122,7 +123,8 @@ void EntryDesk::work() {
       return;
     }
     std::vector<Waiting> waiting = std::exchange(waiting_, {});
-    const std::vector<std::string> freed = std::exchange(freed_, {});
+    std::vector<std::string> freed = std::exchange(freed_, {});
+    std::erase_if(freed, [this](const std::string& id) { return door_.members().contains(id); });  // is back
     const std::vector<BrokerAccount> accounts = accounts_now();
     const RoomSecrets secrets = door_.secrets();
     std::vector<std::string> chairs;

@@ -8,6 +8,8 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -59,6 +61,18 @@ std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_
   return *other;
 }
 
+/// A copy that only its user may read: Mosquitto reads these files anew with the accounts, and what came to
+/// stand there later would be no longer what the page has.
+std::filesystem::path keep_copy(const std::filesystem::path& file, const std::filesystem::path& copy) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open() || in.bad()) {
+    throw Error(ErrorKind::usage, file.string() + " cannot be read");
+  }
+  write_private_file(copy, content);
+  return copy;
+}
+
 }  // namespace
 
 HostedBroker::HostedBroker(BrokerPlace place, const RoomAddress& room, std::vector<BrokerAccount> accounts,
@@ -72,8 +86,10 @@ HostedBroker::HostedBroker(BrokerPlace place, const RoomAddress& room, std::vect
   }
   settings_.folder = folder_.path();
   settings_.address = place.address;
-  settings_.certificate = place.certificate.empty() ? "" : std::filesystem::absolute(place.certificate);
-  settings_.key = place.key.empty() ? "" : std::filesystem::absolute(place.key);
+  if (!place.certificate.empty()) {
+    settings_.certificate = keep_copy(place.certificate, folder_.path() / "certificate.pem");
+    settings_.key = keep_copy(place.key, folder_.path() / "key.pem");
+  }
   settings_.most_connections = place.most_connections;
   settings_.user = user_when_root();
   write_accounts();
@@ -89,7 +105,7 @@ HostedBroker::HostedBroker(BrokerPlace place, const RoomAddress& room, std::vect
     }
     const bool taken = process_->last_words().find("in use") != std::string::npos;
     if (!taken || left == 1) {
-      throw Error(ErrorKind::output, "the broker does not start: " + process_->last_words());
+      throw Error(ErrorKind::output, "the broker does not start: " + why_not());
     }
   }
 }
@@ -109,6 +125,12 @@ bool HostedBroker::comes_up() const {
     std::this_thread::sleep_for(kAskAgain);
   }
   return false;
+}
+
+std::string HostedBroker::why_not() const {
+  const std::string words = process_->last_words();
+  const std::string ending = process_->has_ended() ? process_->ending() : "no answer";
+  return words.empty() ? ending : words;
 }
 
 void HostedBroker::write_accounts() {

@@ -53,6 +53,7 @@ class HostedBroker {
   void write_accounts();
   bool start(const std::filesystem::path& program);
   bool comes_up() const;
+  std::string why_not() const;
   bool knows_newest() const;
 
   const ScratchFolder folder_;

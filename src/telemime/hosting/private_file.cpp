@@ -30,15 +30,27 @@ int write_all(int file, const std::string& content) {
   return 0;
 }
 
+// So that the new name lasts, too. Some file systems cannot: then there is nothing to be done.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0) {
+    ::fsync(descriptor);
+    ::close(descriptor);
+  }
+}
+
 }  // namespace
 
-void write_private_file(const std::filesystem::path& file, const std::string& content) {
+void write_private_file(const std::filesystem::path& file, const std::string& content, bool lasting) {
   std::string other = file.string() + ".XXXXXX";
   const int descriptor = ::mkostemp(other.data(), O_CLOEXEC);  // new, and 0600
   if (descriptor < 0) {
     fail(file, errno);
   }
   int failure = write_all(descriptor, content);
+  if (failure == 0 && lasting && ::fsync(descriptor) != 0) {
+    failure = errno;
+  }
   if (::close(descriptor) != 0 && failure == 0) {
     failure = errno;
   }
@@ -48,6 +60,9 @@ void write_private_file(const std::filesystem::path& file, const std::string& co
   if (failure != 0) {
     ::unlink(other.c_str());
     fail(file, failure);
+  }
+  if (lasting) {
+    sync_folder(file.parent_path());
   }
 }
 

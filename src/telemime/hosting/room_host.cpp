@@ -94,7 +94,7 @@ std::string link_host(const RoomPlan& plan) {
   if (plan.address == "0.0.0.0") {
     return own_address();
   }
-  return plan.address.starts_with("127.") ? "localhost" : plan.address;
+  return plan.address == "127.0.0.1" ? "localhost" : plan.address;
 }
 
 }  // namespace
@@ -156,6 +156,8 @@ struct RoomHost::State {
       options.hosts = {host};
     }
     options.most_clients = 0;
+    // A browser opens up to six at once, and a class comes in at once, often from one address.
+    options.more_connections = 8 * plan.most + 200;
     options.certificate = plan.certificate;
     options.key = plan.key;
     return options;

@@ -85,7 +85,13 @@ SecretsFile::SecretsFile(fs::path path) : path_(std::move(path)) {
                 "--secrets names another file.");
   }
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    const int number = errno;
     ::close(lock_);
+    if (number != EWOULDBLOCK) {
+      throw Error(ErrorKind::output,
+                  lock.string() + " cannot be locked: " + std::generic_category().message(number),
+                  "--secrets names a file elsewhere.");
+    }
     throw Error(ErrorKind::usage, "this room is open already, by another program that uses " + path_.string(),
                 "End that one, or open another room: --name.");
   }
@@ -133,7 +139,7 @@ RoomSecrets SecretsFile::load() {
 void SecretsFile::save(const RoomSecrets& secrets) const {
   const Json json = {{"version", 1},           {"speak", secrets.speak}, {"watch", secrets.watch},
                      {"chair", secrets.chair}, {"key", secrets.key},     {"next", secrets.next}};
-  write_private_file(path_, json.dump(2) + "\n");
+  write_private_file(path_, json.dump(2) + "\n", /*lasting=*/true);
 }
 
 fs::path default_secrets_file(const std::string& name, const char* state, const char* home) {

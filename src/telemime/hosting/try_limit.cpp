@@ -48,16 +48,20 @@ void TryLimit::forget_one() {
 
 bool TryLimit::allow(const std::string& address, double now) {
   Left& left = of(address, now);
-  if (left.tries < 1.0 || left.misses < 1.0) {
+  if (left.tries < 1.0) {
     return false;
   }
   left.tries -= 1.0;
   return true;
 }
 
-void TryLimit::miss(const std::string& address, double now) {
+bool TryLimit::miss(const std::string& address, double now) {
   Left& left = of(address, now);
-  left.misses = std::max(0.0, left.misses - 1.0);
+  if (left.misses < 1.0) {
+    return false;
+  }
+  left.misses -= 1.0;
+  return true;
 }
 
 }  // namespace telemime

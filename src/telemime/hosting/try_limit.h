@@ -22,10 +22,11 @@ class TryLimit {
  public:
   explicit TryLimit(const TryRates& rates = {}) : rates_(rates) {}
 
-  /// Whether one more try is let pass; it is counted then.
+  /// Whether one more try with a right link is let pass; it is counted then.
   bool allow(const std::string& address, double now);
-  /// The last try of this address was with a wrong link.
-  void miss(const std::string& address, double now);
+  /// The same of a wrong one. Apart, so that who guesses shuts nobody out behind the same address: the
+  /// secrets are long, and a guess is only a waste of time.
+  bool miss(const std::string& address, double now);
 
  private:
   struct Left {

@@ -33,6 +33,7 @@ using boost::system::error_code;
 using Json = nlohmann::json;
 
 constexpr std::chrono::seconds kLongestVisit{10};
+constexpr std::chrono::milliseconds kLook{50};  // whether to give up
 constexpr std::size_t kLongestAnswer = 16 * 1024;
 constexpr std::size_t kLongestField = 500;
 constexpr int kDeepestAnswer = 4;
@@ -91,10 +92,10 @@ void expect(Secure& secure, const std::string& host) {
 /// One request to the room's server and its answer, with one limit of time for all of it.
 class Visit {
  public:
-  explicit Visit(const SendUrl& url, const std::filesystem::path& ca)
-      : url_(url), tcp_(io_), until_(std::chrono::steady_clock::now() + kLongestVisit) {
+  Visit(const SendUrl& url, const RoomEntry& entry)
+      : url_(url), entry_(entry), tcp_(io_), until_(std::chrono::steady_clock::now() + kLongestVisit) {
     if (url.scheme == "https") {
-      tls_.emplace(client_tls(ca));
+      tls_.emplace(client_tls(entry.ca));
     }
   }
 
@@ -122,7 +123,16 @@ class Visit {
     tcp_.expires_at(until_);
     begin([&ended](error_code error, auto&&...) { ended = error; });
     io_.restart();
-    while (!ended && io_.run_one() > 0) {
+    bool given_up = false;
+    while (!ended && !io_.stopped()) {
+      io_.run_one_for(kLook);
+      if (!given_up && entry_.stopped && entry_.stopped()) {
+        given_up = true;
+        tcp_.cancel();
+      }
+    }
+    if (given_up) {
+      unreachable(url_, "it was given up");
     }
     if (!ended || *ended == beast::error::timeout) {
       unreachable(url_, "no answer from there");
@@ -130,25 +140,29 @@ class Visit {
     return *ended;
   }
 
-  void connect() {
-    std::vector<std::string> addresses = {url_.host};
+  std::vector<std::string> addresses() const {
+    if (!entry_.addresses.empty()) {
+      return entry_.addresses;
+    }
     error_code no_address;
     asio::ip::make_address(url_.host, no_address);
     try {
-      if (no_address) {
-        addresses = system_lookup(url_.host);
-      }
+      return no_address ? system_lookup(url_.host) : std::vector<std::string>{url_.host};
     } catch (const LinkBroken& e) {
       unreachable(url_, e.what());
     }
+  }
+
+  void connect() {
     std::optional<error_code> first;
-    for (const std::string& address : addresses) {
+    for (const std::string& address : addresses()) {
       const asio::ip::tcp::endpoint there(asio::ip::make_address(address), *url_.port);
       const error_code error = run([&](auto note) { tcp_.async_connect(there, note); });
       if (!error) {
         return;
       }
       first = first.value_or(error);
+      tcp_.close();  // an IPv4 socket reaches no IPv6 address
     }
     unreachable(url_, first ? in_words(*first) : "no computer of that name is known");
   }
@@ -170,6 +184,7 @@ class Visit {
   }
 
   const SendUrl& url_;
+  const RoomEntry& entry_;
   asio::io_context io_{1};
   beast::tcp_stream tcp_;
   std::chrono::steady_clock::time_point until_;
@@ -276,7 +291,7 @@ RoomKey enter_room(const RoomEntry& entry) {
   request.set(http::field::connection, "close");
   request.body() = question.dump(-1, ' ', false, Json::error_handler_t::replace);
   request.prepare_payload();
-  const http::response<http::string_body> answer = Visit(url, entry.ca).ask(request);
+  const http::response<http::string_body> answer = Visit(url, entry).ask(request);
   if (answer.result_int() != 200) {
     unreachable(url, words_for(answer.result_int()));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct RoomEntry {
   bool watch = false;        ///< an account that only reads
   std::string way_back;      ///< RoomKey::way_back of an earlier entry; may be empty
   std::filesystem::path ca;  ///< PEM file of the authorities that https trusts; empty: this computer's
+  std::vector<std::string> addresses =
+      {};                              ///< of the link's host, where they are known; else it is looked up
+  std::function<bool()> stopped = {};  ///< asked now and then: true gives up within 0.1 s; may be empty
 };
 
 /// Whether the text is a room's link: http(s)://host[:port]/room#k=... Whether it can be used shows later.
@@ -33,7 +37,8 @@ bool is_room_link(std::string_view text);
 /// comes back as it is.
 std::string without_invite(const std::string& link);
 
-/// Asks the room's server for an account: POST /room/enter. Blocks for at most 10 s. Throws Error(usage) for
+/// Asks the room's server for an account: POST /room/enter. Blocks for at most 10 s, and for a look-up of the
+/// host's name. Throws Error(usage) for
 /// a link that cannot be understood, Error(input) with words for what the server says (403 404 409 423 429),
 /// for a server that cannot be reached or that is not trusted, and for an answer that is none. No words hold
 /// a secret.

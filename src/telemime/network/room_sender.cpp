@@ -2,8 +2,10 @@
 #include "telemime/network/room_sender.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
+#include <functional>
 #include <future>
 #include <optional>
 #include <thread>
@@ -12,6 +14,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/network/mqtt_room_link.h"
 #include "telemime/network/mqtt_sender.h"
+#include "telemime/network/resolve.h"
 #include "telemime/network/room_entry.h"
 #include "telemime/network/send_queue.h"
 
@@ -41,6 +44,23 @@ std::string in_one_line(std::string words) {
   std::replace(words.begin(), words.end(), '\n', ' ');
   return words;
 }
+
+/// A thread that is told to give up, and waited for.
+class Visitor {
+ public:
+  Visitor(std::atomic<bool>& give_up, std::function<void()> work)
+      : give_up_(give_up), thread_(std::move(work)) {}
+  Visitor(const Visitor&) = delete;
+  Visitor& operator=(const Visitor&) = delete;
+  ~Visitor() {
+    give_up_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::atomic<bool>& give_up_;
+  std::thread thread_;
+};
 
 /// Takes part by the key that the room's server gave.
 class RoomDoorLink final : public Link {
@@ -74,18 +94,22 @@ class RoomDoorLink final : public Link {
   }
 
  private:
-  // In a thread that may outlive the sender: it shares nothing but the promise.
+  // Not a thread that is left behind: OpenSSL, which it uses, is taken down when the program ends.
   RoomKey enter() {
-    auto promise = std::make_shared<std::promise<RoomKey>>();
-    std::future<RoomKey> key = promise->get_future();
-    std::thread([promise, entry = entry_, wake = loop_.waker()] {
+    std::atomic<bool> given_up = false;
+    RoomEntry entry = entry_;
+    entry.addresses = resolve(loop_, url_.host);
+    entry.stopped = [&given_up] { return given_up.load(); };
+    std::promise<RoomKey> promise;
+    std::future<RoomKey> key = promise.get_future();
+    const Visitor visitor(given_up, [&promise, &entry, wake = loop_.waker()] {
       try {
-        promise->set_value(enter_room(entry));
+        promise.set_value(enter_room(entry));
       } catch (...) {
-        promise->set_exception(std::current_exception());
+        promise.set_exception(std::current_exception());
       }
       wake();
-    }).detach();
+    });
     const auto ready = [&key] { return key.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
     if (!loop_.wait(ready, kLongestEntry)) {
       throw LinkBroken("the room's server does not answer");

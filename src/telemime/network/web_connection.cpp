@@ -209,6 +209,9 @@ void WebConnection::wait() {
 }
 
 void WebConnection::write() {
+  if (hub_->crowded()) {
+    answer_.message.keep_alive(false);
+  }
   serializer_.emplace(answer_.message);
   write_some();
 }

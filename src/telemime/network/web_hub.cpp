@@ -11,9 +11,6 @@
 namespace telemime {
 namespace {
 
-// Beyond the WebSockets: requests for the page, and connections that browsers keep open for later.
-constexpr std::size_t more_connections = 96;
-
 /// docs/live-protocol.md.
 std::string error_message(const std::string& words) {
   const nlohmann::json message = {{"type", "message"}, {"level", "error"}, {"words", words}};
@@ -31,11 +28,15 @@ WebHub::WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames n
       tls_(std::move(tls)) {}
 
 std::shared_ptr<void> WebHub::ticket() {
-  if (*connections_ >= options_.most_clients + more_connections) {
+  if (*connections_ >= options_.most_clients + options_.more_connections) {
     return nullptr;
   }
   ++*connections_;
   return {connections_.get(), [open = connections_](std::size_t*) { --*open; }};
+}
+
+bool WebHub::crowded() const {
+  return *connections_ > options_.most_clients + options_.more_connections * 3 / 4;
 }
 
 std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& client, bool from_here) {

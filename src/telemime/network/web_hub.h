@@ -40,6 +40,8 @@ class WebHub {
 
   /// To be kept by a connection as long as it is open; nothing when too many are.
   std::shared_ptr<void> ticket();
+  /// So many are open that none is to be kept for another request.
+  bool crowded() const;
 
   /// Keeps a connection that waits for other threads, until it is let go or the server ends.
   void hold(const std::shared_ptr<void>& connection) { held_.insert(connection); }

@@ -123,6 +123,9 @@ void WebListener::welcome(ip::tcp::socket socket) {
     std::make_shared<WebConnection>(hub_, std::move(ticket), std::move(socket))->start();
     return;
   }
+  if (hub_->tls()) {
+    return;  // words before the handshake would only look like a broken server
+  }
   constexpr std::string_view full =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: text/plain\r\n"
       "Content-Length: 47\r\n\r\nToo many pages are open. Close one, try again.\n";

@@ -46,6 +46,9 @@ struct WebServerOptions {
   std::vector<std::string> hosts;     ///< further names under which the page may be called (Host, Origin):
                                       ///< "studio", or "studio:8080" when a proxy has another port
   std::size_t most_clients = 32;      ///< open WebSockets; more are refused in words
+  /// Connections in all, beside the clients: requests, and those that browsers keep open for the next one.
+  /// From three quarters of them on none is kept open.
+  std::size_t more_connections = 96;
   std::size_t most_bytes_in = 64 * 1024;  ///< of one WebSocket message; a longer one closes the connection
   std::size_t most_posted = 4 * 1024;     ///< bytes of a POST; a longer one is refused (413)
   std::chrono::milliseconds request_within{10'000};  ///< for a whole request to come; idle connections, too
