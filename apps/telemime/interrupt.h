@@ -3,7 +3,8 @@
 
 namespace telemime {
 
-/// From now on Ctrl-C and SIGTERM are noted, to end in order; the second one ends the program at once.
+/// From now on Ctrl-C and SIGTERM are noted, to end in order; the second one ends the program at once:
+/// whatever hangs would be waited for else.
 void note_interrupts();
 
 /// Whether one was noted.

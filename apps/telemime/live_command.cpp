@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live_command.h"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iomanip>
@@ -17,6 +14,7 @@
 #include <utility>
 
 #include "data_folder.h"
+#include "interrupt.h"
 #include "open_page.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
@@ -33,16 +31,6 @@ namespace {
 constexpr std::chrono::seconds kReload{3};
 // That a browser may take to start and to show the page, when it was asked for.
 constexpr std::chrono::seconds kFirstPage{30};
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-// The second time it ends at once: whatever hangs would be waited for else.
-void on_interrupt(int) {
-  if (interrupt_requested != 0) {
-    ::_exit(128 + SIGINT);
-  }
-  interrupt_requested = 1;
-}
 
 struct LiveCommand {
   TrackOptions track;
@@ -102,7 +90,7 @@ void wait_for_end(const LiveCommand& command, const LiveProgram& program, const 
   auto last_use = start;
   bool expected = command.open;  // a page that has not come yet
   bool told = false;
-  while (interrupt_requested == 0) {
+  while (!interrupted()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const auto now = Clock::now();
     if (command.seconds > 0.0 && std::chrono::duration<double>(now - start).count() >= command.seconds) {
@@ -178,8 +166,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
   };
   // Until the input is open nothing is lost, and Ctrl-C need not wait for a camera or a network.
   auto source = open_live(command, left_behind);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  note_interrupts();
   LiveProgram program(command.live, std::move(source), say);
   const std::string url = page_url(command.live.web, program.port());
   std::cout << "the page: " << url << "   Ctrl-C ends" << std::endl;

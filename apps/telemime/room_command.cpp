@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "room_command.h"
 
-#include <unistd.h>
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -18,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "interrupt.h"
 #include "room_people_command.h"
 #include "room_record_command.h"
 #include "room_replay_command.h"
@@ -32,16 +30,6 @@
 
 namespace telemime {
 namespace {
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-// The second time it ends at once: whatever hangs would be waited for else. The system ends the broker then.
-void on_interrupt(int) {
-  if (interrupt_requested != 0) {
-    ::_exit(128 + SIGINT);
-  }
-  interrupt_requested = 1;
-}
 
 struct RoomCommand {
   RoomPlan plan;
@@ -99,8 +87,7 @@ void run(RoomCommand command) {
       std::cerr << words << '\n';
     }
   };
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  note_interrupts();
   RoomHost room(plan, tell);
   print_links(room, command);
   if (!plan.address.starts_with("127.") && plan.address != "localhost" && plan.certificate.empty()) {
@@ -110,7 +97,7 @@ void run(RoomCommand command) {
          "in\n  --certificate FILE --key FILE encrypt it.");
   }
   const auto start = std::chrono::steady_clock::now();
-  while (interrupt_requested == 0) {
+  while (!interrupted()) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     if (command.seconds > 0.0 && passed.count() >= command.seconds) {
       break;
