@@ -46,20 +46,27 @@ class NewFile {
       if (count < 0 && errno != EINTR) {
         const int error = errno;
         take_back();
-        throw Error(ErrorKind::output, file_.string() + " cannot be written: " + words(error),
-                    "What was recorded before can be used.");
+        fail(error);
       }
       done += count > 0 ? static_cast<std::size_t>(count) : 0;
     }
     size_ += static_cast<off_t>(bytes.size());
     if (const auto now = SteadyClock::now(); now - on_disk_ > kToDisk) {
-      ::fdatasync(descriptor_);
+      // Some disks (over a network, or with a quota) say only now that they are full. EINVAL: it cannot be
+      // synced.
+      if (::fdatasync(descriptor_) != 0 && errno != EINVAL) {
+        fail(errno);
+      }
       on_disk_ = now;
     }
   }
 
  private:
   static std::string words(int error) { return std::generic_category().message(error); }
+  [[noreturn]] void fail(int error) const {
+    throw Error(ErrorKind::output, file_.string() + " cannot be written: " + words(error),
+                "What was recorded before can be used.");
+  }
   // Were it not possible, readers would leave out what is no whole record.
   void take_back() const {
     if (::ftruncate(descriptor_, size_) != 0) {
