@@ -21,5 +21,5 @@ export default defineConfig({
       "/room/enter": "http://127.0.0.1:7080",
     },
   },
-  test: { include: ["src/**/*.test.ts"], environment: "node" },
+  test: { include: ["src/**/*.test.ts"], environment: "node", testTimeout: 20000 }, // on busy machines, too
 });

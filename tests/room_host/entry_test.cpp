@@ -174,7 +174,7 @@ TEST(RoomEntry, RubbishDoesNoHarm) {
     } else {
       body.resize(static_cast<std::size_t>(random.uniform(0, 300)));
       for (char& c : body) {
-        c = static_cast<char>(random.uniform(0, 256));
+        c = static_cast<char>(static_cast<unsigned char>(random.uniform(0, 256)));
       }
     }
     ++answers[room.ask(body, type).status];

@@ -2,6 +2,7 @@
 // A sender in a room: what it tells, and how often.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "broker.h"
@@ -98,12 +99,28 @@ TEST_F(Room, StateAndPresenceAreTold) {
   EXPECT_LT((*state->bones[4] - humanoid_skeleton(header.body).position[4]).norm(), 2e-5);
   EXPECT_TRUE(presence->here);
   EXPECT_EQ(presence->session, state->session);
+  EXPECT_EQ(presence->every, 1.25);
 
   Ear late(broker_.port());  // who comes later hears the same
   ASSERT_TRUE(comes_true([&] { return late.newest("p/p07/state") && late.newest("p/p07/presence"); }));
   EXPECT_EQ(late.newest("p/p07/state")->payload, ear_.newest("p/p07/state")->payload);
   EXPECT_TRUE(late.newest("p/p07/state")->retained);
-  EXPECT_TRUE(late.newest("p/p07/presence")->retained);
+  const std::vector<Ear::Heard> heard = late.all();
+  EXPECT_TRUE(std::any_of(heard.begin(), heard.end(),
+                          [](const auto& one) { return one.topic == "p/p07/presence" && one.retained; }));
+}
+
+TEST_F(Room, WithoutFramesItIsHeardOf) {
+  const auto sender = make_sender(broker_.url());
+  ASSERT_TRUE(is_sending(*sender)) << sender->status().words;
+  ear_.forget();
+  const auto breaths = [&] {
+    const std::vector<Ear::Heard> heard = ear_.all();
+    return std::count_if(heard.begin(), heard.end(), [](const Ear::Heard& one) {
+      return one.topic == "p/tracker/presence" && !one.retained && read_presence(one.payload)->here;
+    });
+  };
+  EXPECT_TRUE(comes_true([&] { return breaths() >= 3; }));
 }
 
 TEST_F(Room, AMirroredPersonIsToldMirrored) {

@@ -246,17 +246,24 @@ test("avatars from elsewhere are those that were told, or are not shown", LONG, 
   quiet();
 });
 
-test("a tab that stalls holds nobody up, and goes on when it is let", LONG, async () => {
+test("a tab that stalls holds nobody up, is taken for gone, and goes on when it is let", LONG, async () => {
   const { opened, ids } = await processesOf(browser, () => inTheRoom(browser, room, { name: "Stalled" }));
   assert.ok(ids.length > 0, "the page has a process of its own");
   await dressed(opened.page, [ana.participant]);
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara", "Stalled"]);
   for (const id of ids) process.kill(id, "SIGSTOP");
+  const stopped = performance.now();
   try {
     for (let n = 0; n < 3; n++) assert.ok((await motionError(guest.page, ana, 10)).mean <= MOST);
+    await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+    const took = (performance.now() - stopped) / 1000;
+    console.log(`a tab that stalls is gone after ${took.toFixed(1)} s`);
+    assert.ok(took < 14, "before the broker says so");
   } finally {
     for (const id of ids) process.kill(id, "SIGCONT");
   }
   await isIn(opened.page);
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara", "Stalled"]);
   assert.ok((await motionError(opened.page, ana)).mean <= MOST);
   await opened.page.locator("#leave").click();
   await opened.page.locator("#door").waitFor();

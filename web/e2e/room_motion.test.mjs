@@ -141,3 +141,27 @@ test("three pages show the recorded motion when it is replayed", LONG, async () 
   }
   for (const visit of [chair, guest, watcher]) assert.deepEqual(visit.complaints, []);
 });
+
+test("a tracker that vanishes is gone before its broker says so, and comes back", LONG, async () => {
+  const live = await startProgram([
+    join(DEMO, "video.mp4"),
+    ...["--background", join(DEMO, "background.mp4"), "--loop", "--no-guide", "--no-settings", ...LIGHT],
+    ...["--send", room.link("speak").replace("#", "?name=Emeka#")],
+  ]);
+  const others = ["Ana", "Bo", "Chidi", "Dara"];
+  const pages = [chair.page, guest.page, watcher.page];
+  for (const page of pages) await shows(page, [...others, "Emeka"]);
+  process.kill(live.pid, "SIGSTOP"); // its connection stands; nothing comes from it
+  const stopped = performance.now();
+  try {
+    await Promise.all(pages.map((page) => shows(page, others)));
+  } finally {
+    process.kill(live.pid, "SIGCONT");
+  }
+  const took = (performance.now() - stopped) / 1000;
+  console.log(`a tracker that vanishes is gone after ${took.toFixed(1)} s`);
+  assert.ok(took < 7.5, "half as long again as its keep-alive of 5 s");
+  for (const page of pages) await shows(page, [...others, "Emeka"]);
+  await live.stop();
+  for (const page of pages) await shows(page, others);
+});

@@ -57,7 +57,7 @@ TEST(Question, RandomBytesDoNoHarm) {
     std::string text = good;
     for (int n = 0; n < 3; ++n) {
       text[static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size()))] =
-          static_cast<char>(random.uniform() * 256.0);
+          static_cast<char>(static_cast<unsigned char>(random.uniform() * 256.0));
     }
     read_question(text);
   }

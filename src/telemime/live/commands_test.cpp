@@ -74,7 +74,7 @@ TEST(Commands, RandomChangesAreReadOrRefused) {
     std::string text = valid;
     for (int change = 0; change < 1 + i % 4; ++change) {
       const auto at = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(text.size())));
-      text[at] = static_cast<char>(random.uniform(0.0, 256.0));
+      text[at] = static_cast<char>(static_cast<unsigned char>(random.uniform(0.0, 256.0)));
     }
     refused += refusal(text).empty() ? 0 : 1;
   }

@@ -20,6 +20,10 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr milliseconds kLongestAnswer{3000};
 constexpr milliseconds kSlowWrite{1000};
 constexpr milliseconds kLongestWrite{4000};  // after that
+/// What others can rely on, s: frames may not come for a while.
+constexpr double kPromise = 1.25;
+constexpr double kLongestSilence = 1.0;  // s: there is time to be late
+constexpr double kShortestWait = 0.1;    // s, while a connection takes nothing
 constexpr double kMicrosecondsPerMillisecond = 1000.0;
 
 double seconds_now() {
@@ -51,14 +55,16 @@ RoomLink::RoomLink(SendLoop& loop, RoomOutput output)
       pose_topic_(topic(RoomTopicKind::pose)),
       last_words_{presence(false), MqttMessage{topic(RoomTopicKind::state), ""}},
       connection_(loop, output_.server, [this](const MqttMessage& message) { hear(message); }),
-      timer_(loop.io()) {}
+      timer_(loop.io()),
+      breath_(loop.io()) {}
 
 std::string RoomLink::topic(RoomTopicKind kind) const {
   return topic_text(output_.room, {kind, output_.participant, 0});
 }
 
 MqttMessage RoomLink::presence(bool here) const {
-  return {topic(RoomTopicKind::presence), write_presence({here, session_})};
+  const std::optional<double> every = here ? std::optional(kPromise) : std::nullopt;
+  return {topic(RoomTopicKind::presence), write_presence({here, session_, every})};
 }
 
 MqttMessage RoomLink::state() const {
@@ -106,6 +112,8 @@ void RoomLink::open() {
   }
   loop_.sending(words());
   count_participants();
+  said_ = seconds_now();
+  breathe_when_silent();
 }
 
 void RoomLink::person(const std::shared_ptr<const StreamHeader>& person) {
@@ -132,6 +140,7 @@ bool RoomLink::frame(const MotionFrame& raw, double taken) {
 void RoomLink::close() noexcept {
   boost::system::error_code ignored;
   timer_.cancel(ignored);
+  breath_.cancel(ignored);
   waiting_.reset();
   connection_.goodbye(last_words_);
   connection_.close();
@@ -216,8 +225,26 @@ void RoomLink::send_when_due() {
   waiting_->still = pace_.still(*waiting_);
   connection_.tell(pose_topic_, encode(*waiting_));
   pace_.sent(*waiting_, now);
+  said_ = now;
   waiting_.reset();
   ++uncounted_;
+}
+
+// The broker tells others late that somebody has vanished; that they are silent is heard at once.
+void RoomLink::breathe_when_silent() {
+  const double now = seconds_now();
+  if (now >= said_ + kLongestSilence && connection_.drained()) {
+    const MqttMessage breath = presence(true);
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(breath.payload.data());
+    connection_.tell(breath.topic, {bytes, breath.payload.size()});
+    said_ = now;
+  }
+  breath_.expires_at(at_seconds(std::max(said_ + kLongestSilence, now + kShortestWait)));
+  breath_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) {
+      breathe_when_silent();
+    }
+  });
 }
 
 }  // namespace telemime

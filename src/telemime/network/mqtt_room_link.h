@@ -55,6 +55,7 @@ class RoomLink final : public Link {
   void count_participants();
   void drain();
   void send_when_due();
+  void breathe_when_silent();
 
   SendLoop& loop_;
   const RoomOutput output_;
@@ -63,6 +64,8 @@ class RoomLink final : public Link {
   const std::array<MqttMessage, 2> last_words_;
   MqttConnection connection_;
   boost::asio::steady_timer timer_;
+  boost::asio::steady_timer breath_;
+  double said_ = 0.0;  ///< when something was said last, s of the steady clock
   std::optional<PersonMotion> motion_;
   std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
   PublishPace pace_;

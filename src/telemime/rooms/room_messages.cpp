@@ -84,6 +84,10 @@ bool is_file(const AvatarFile& file) {
   return is_file_url(file.url) && is_hash(file.sha256) && file.bytes >= 1 && file.bytes <= kLargestAvatar;
 }
 
+bool is_promise(double seconds) {
+  return seconds >= kShortestPromise && seconds <= kLongestPromise;
+}
+
 bool is_place(const Eigen::Vector3d& place) {
   return place.allFinite() && place.cwiseAbs().maxCoeff() <= kFarthest;
 }
@@ -283,7 +287,12 @@ std::string write_state(const ParticipantState& state) {
 
 std::string write_presence(const ParticipantPresence& presence) {
   require(presence.session != 0, "the session is 0");
-  return Json{{"v", kVersion}, {"here", presence.here}, {"session", presence.session}}.dump();
+  Json message{{"v", kVersion}, {"here", presence.here}, {"session", presence.session}};
+  if (presence.every) {
+    require(is_promise(*presence.every), "so often nobody says something");
+    message["every"] = *presence.every;
+  }
+  return message.dump();
 }
 
 Outcome<ParticipantState, MessageFault> read_state(std::string_view bytes) {
@@ -318,7 +327,12 @@ Outcome<ParticipantPresence, MessageFault> read_presence(std::string_view bytes)
     if (!here.is_boolean()) {
       refuse("here is neither true nor false");
     }
-    return ParticipantPresence{here.get<bool>(), session_of(message)};
+    ParticipantPresence presence{here.get<bool>(), session_of(message), std::nullopt};
+    const Json& every = member(message, "every");
+    if (every.is_number() && is_promise(every.get<double>())) {
+      presence.every = every.get<double>();
+    }
+    return presence;
   } catch (const Refused& refused) {
     return MessageFault{refused.words};
   }

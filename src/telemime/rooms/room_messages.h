@@ -55,7 +55,12 @@ struct ParticipantState {
 struct ParticipantPresence {
   bool here = false;
   std::uint16_t session = 1;  ///< not 0
+  /// Something is said at least so often, s, kShortestPromise to kLongestPromise; nothing: no promise.
+  std::optional<double> every = std::nullopt;
 };
+
+inline constexpr double kShortestPromise = 0.5;  // s
+inline constexpr double kLongestPromise = 60.0;  // s
 
 /// Why bytes are no such message, in words.
 struct MessageFault {

@@ -183,7 +183,15 @@ TEST(RoomMessages, WhatCannotBeSaidIsNotWritten) {
 }
 
 TEST(RoomMessages, PresenceIsHereOrNot) {
-  EXPECT_EQ(write_presence({true, 7}), R"({"v":1,"here":true,"session":7})");
+  EXPECT_EQ(write_presence({true, 7, {}}), R"({"v":1,"here":true,"session":7})");
+  EXPECT_EQ(write_presence({true, 7, 1.25}), R"({"v":1,"here":true,"session":7,"every":1.25})");
+  EXPECT_EQ(read_presence(R"({"v":1,"here":true,"session":7,"every":1.25})")->every, 1.25);
+  for (const char* none : {"0.4", "61", "-1", "null", "\"2\"", "[1]"}) {
+    const auto read = read_presence(R"({"v":1,"here":true,"session":7,"every":)" + std::string(none) + "}");
+    ASSERT_TRUE(read) << none;
+    EXPECT_FALSE(read->every) << none;
+  }
+  EXPECT_THROW(write_presence({true, 7, 0.1}), Error);
   for (const bool here : {false, true}) {
     const auto read = read_presence(write_presence({here, 65535}));
     ASSERT_TRUE(read);

@@ -51,13 +51,9 @@ class NewFile {
       done += count > 0 ? static_cast<std::size_t>(count) : 0;
     }
     size_ += static_cast<off_t>(bytes.size());
-    if (const auto now = SteadyClock::now(); now - on_disk_ > kToDisk) {
-      // Some disks (over a network, or with a quota) say only now that they are full. EINVAL: it cannot be
-      // synced.
-      if (::fdatasync(descriptor_) != 0 && errno != EINVAL) {
-        fail(errno);
-      }
-      on_disk_ = now;
+    synced_ = synced_ && bytes.empty();
+    if (bytes.empty() || SteadyClock::now() - on_disk_ > kToDisk) {
+      sync();
     }
   }
 
@@ -66,6 +62,15 @@ class NewFile {
   [[noreturn]] void fail(int error) const {
     throw Error(ErrorKind::output, file_.string() + " cannot be written: " + words(error),
                 "What was recorded before can be used.");
+  }
+  void sync() {
+    // Some disks (over a network, or with a quota) say only now that they are full. EINVAL: it cannot be
+    // synced.
+    if (!synced_ && ::fdatasync(descriptor_) != 0 && errno != EINVAL) {
+      fail(errno);
+    }
+    synced_ = true;
+    on_disk_ = SteadyClock::now();
   }
   // Were it not possible, readers would leave out what is no whole record.
   void take_back() const {
@@ -77,6 +82,7 @@ class NewFile {
   std::filesystem::path file_;
   int descriptor_;
   off_t size_ = 0;  ///< of what was appended whole
+  bool synced_ = true;
   SteadyClock::time_point on_disk_ = SteadyClock::now();
 };
 
@@ -116,7 +122,6 @@ void SessionWriter::finish() {
   if (thread_.joinable()) {
     thread_.join();
   }
-  write_ = nullptr;  // closes the file
 }
 
 void SessionWriter::add(SessionRecord record) {
@@ -146,6 +151,8 @@ void SessionWriter::end(std::uint64_t at) {
   if (const auto words = failure()) {
     throw Error(ErrorKind::output, *words);
   }
+  write_({});
+  write_ = nullptr;  // closes the file
 }
 
 std::string SessionWriter::encoded(std::deque<SessionRecord>& records) {
@@ -166,8 +173,9 @@ std::string SessionWriter::encoded(std::deque<SessionRecord>& records) {
 void SessionWriter::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return over_ || !queue_.empty(); });
-    if (queue_.empty()) {
+    // Nothing for a while: what there is shall be on the disk.
+    changed_.wait_for(lock, kToDisk, [this] { return over_ || !queue_.empty(); });
+    if (over_ && queue_.empty()) {
       return;
     }
     std::deque<SessionRecord> records = std::exchange(queue_, {});

@@ -16,11 +16,11 @@
 
 namespace telemime {
 
-/// Appends bytes; throws when they cannot be written.
+/// Appends bytes; throws when they cannot be written. No bytes ask that what was appended be kept for good.
 using WriteBytes = std::function<void(std::string_view)>;
 
 /// Writes to a new file that only its owner may read. When the disk is full, what was appended before stays
-/// and the rest is taken back. What was written reaches the disk within 10 s, and when this is destroyed.
+/// and the rest is taken back. What was written reaches the disk within 20 s, and when it is asked for.
 /// Throws Error(output) when there can be no such file, also when there is one already.
 WriteBytes new_session_file(const std::filesystem::path& file);
 

@@ -120,6 +120,18 @@ TEST(SessionWriter, ASlowDiskLosesPosesFirstAndBlocksNobody) {
   EXPECT_EQ(missing + there, 1 + kPoses + 1 + 1000);
 }
 
+TEST(SessionWriter, WhatTheDiskRefusesAtTheEndIsTold) {
+  SessionWriter writer(
+      [](std::string_view bytes) {
+        if (bytes.empty()) {
+          throw Error(ErrorKind::output, "the disk is full");
+        }
+      },
+      kStart);
+  writer.add(message(0, RoomTopicKind::pose, 100));
+  EXPECT_THROW(writer.end(1), Error);
+}
+
 TEST(SessionWriter, AFullDiskIsToldAndKeepsWhatIsThere) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");

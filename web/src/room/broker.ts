@@ -4,12 +4,13 @@
 import mqtt, { type ErrorWithReasonCode, type IClientOptions } from "mqtt";
 import type { Entered } from "./entry";
 import type { Closed, Dial } from "./link";
+import { EVERY } from "./me";
 import { steadyTimer } from "./ticker";
 
 const KEEP_ALIVE = 10; // s
 const PATIENCE = 8000; // ms for an answer of the broker
-/** Between signs of life, ms: far more often than must be, as a busy computer may be late with them. */
-const SIGN_OF_LIFE = 4000;
+/** Between signs of life, ms: the broker asks for fewer, but a busy computer may be late with them. */
+const SIGN_OF_LIFE = 1000 * EVERY;
 
 const REFUSED: Record<number, string> = {
   1: "The room's broker speaks another version of MQTT.",
@@ -48,7 +49,9 @@ export function brokerDial(
     let opened = false;
     let why: Closed | null = null;
     const pulse = steadyTimer.set(() => {
-      if (client.connected) client.sendPing();
+      if (!client.connected) return;
+      client.sendPing();
+      if (opened) events.pulse();
     }, SIGN_OF_LIFE);
     const closed = (): void => {
       if (over) return;

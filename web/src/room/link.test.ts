@@ -34,7 +34,11 @@ beforeEach(() => {
   heard = [];
   link = new Link(
     broker.dial,
-    { state: (s) => states.push(s), message: (topic) => heard.push(topic) },
+    {
+      state: (s) => states.push(s),
+      message: (topic) => heard.push(topic),
+      pulse: () => heard.push("pulse"),
+    },
     () => 0.5,
   );
 });
@@ -120,7 +124,7 @@ describe("the connection", () => {
       () => {
         throw new Error("bad address");
       },
-      { state: (s) => states.push(s), message: () => undefined },
+      { state: (s) => states.push(s), message: () => undefined, pulse: () => undefined },
     );
     refusing.open();
     expect(refusing.state).toMatchObject({ kind: "refused" });

@@ -20,6 +20,8 @@ export interface WireEvents {
   /** Connected, and what is said in the room is heard. */
   open(): void;
   message(topic: string, payload: Uint8Array): void;
+  /** Every few seconds while connected (me.ts says how few), in a hidden page, too. */
+  pulse(): void;
   /** Comes once, and nothing after it. */
   closed(why: Closed): void;
 }
@@ -37,6 +39,7 @@ export type Dial = (session: number, events: WireEvents) => Wire;
 export interface LinkListener {
   state(s: LinkState): void;
   message(topic: string, payload: Uint8Array): void;
+  pulse(): void;
 }
 
 /** An open connection that lasted so long was a good one: the pauses start anew, ms. */
@@ -89,6 +92,9 @@ export class Link {
         },
         message: (topic, payload) => {
           if (mine()) this.listener.message(topic, payload);
+        },
+        pulse: () => {
+          if (mine()) this.listener.pulse();
         },
         closed: (why) => {
           if (mine()) this.closed(why);

@@ -8,10 +8,10 @@ const STATE = { name: "Ana", avatar: { look: "plain" }, seat: 2 };
 
 function make() {
   const said: string[] = [];
-  const me = new Me(BASE, "p01", STATE, (topic, payload) => {
-    const kind = topic.split("/").at(-1)!;
+  const me = new Me(BASE, "p01", STATE, (topic, payload, keep) => {
+    const kind = topic.split("/").at(-1)! + (keep ? "" : " once");
     if (payload.length === 0) said.push(`${kind} -`);
-    else if (kind === "presence")
+    else if (kind.startsWith("presence"))
       said.push(`${kind} ${readPresence(payload)!.here} ${readPresence(payload)!.session}`);
     else said.push(`${kind} ${readState(payload)!.name} ${readState(payload)!.session}`);
   });
@@ -95,6 +95,25 @@ describe("this page as a participant", () => {
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
     me.hear("presence", new Uint8Array(0));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+  });
+  it("breathes while it is here and nobody else speaks for it", () => {
+    const { me, take } = make();
+    me.breathe();
+    me.connected(7);
+    me.breathe();
+    expect(take()).toEqual([]);
+    me.settled();
+    take();
+    me.breathe();
+    expect(take()).toEqual(["presence once true 7"]);
+    me.hear("presence", presence(true, 50));
+    me.breathe();
+    me.hear("presence", presence(false, 50));
+    take();
+    me.leave();
+    take();
+    me.breathe();
+    expect(take()).toEqual([]);
   });
   it("says nothing after goodbye", () => {
     const { me, take } = make();

@@ -12,14 +12,17 @@ import {
 } from "./messages";
 import { topicOf } from "./topics";
 
+/** This page says something at least so often, s. */
+export const EVERY = 3;
+
 export interface MyState {
   name: string;
   avatar: AvatarChoice | null;
   seat: number | null;
 }
 
-/** Tells the room; retained. */
-type Tell = (topic: string, payload: Uint8Array) => void;
+/** Tells the room, which keeps it or not. */
+type Tell = (topic: string, payload: Uint8Array, keep: boolean) => void;
 
 export class Me {
   /** Another client of this participant is here and has its say: a tracker, or another window. */
@@ -90,8 +93,8 @@ export class Me {
     this.ready = false;
     if (!this.here || this.other) return;
     this.here = false;
-    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: false, session: this.session }));
-    this.tell(topicOf(this.base, this.id, "state"), new Uint8Array(0));
+    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: false, session: this.session }), true);
+    this.tell(topicOf(this.base, this.id, "state"), new Uint8Array(0), true);
   }
 
   get will(): { topic: string; payload: (session: number) => Uint8Array } {
@@ -101,10 +104,20 @@ export class Me {
     };
   }
 
+  /** To be called every EVERY seconds: the others see by it that this page has not vanished. */
+  breathe(): void {
+    if (this.here && !this.other) this.tellPresence(false);
+  }
+
   private announce(): void {
     this.here = true;
-    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: true, session: this.session }));
+    this.tellPresence(true);
     this.tellState();
+  }
+
+  private tellPresence(keep: boolean): void {
+    const bytes = toBytes({ here: true, session: this.session, every: EVERY });
+    this.tell(topicOf(this.base, this.id, "presence"), bytes, keep);
   }
 
   private tellState(): void {
@@ -117,6 +130,7 @@ export class Me {
         stature: null,
         bones: new Map(),
       }),
+      true,
     );
   }
 }

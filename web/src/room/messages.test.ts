@@ -112,7 +112,16 @@ describe("any message", () => {
 
 describe("presence", () => {
   it("is here or not", () => {
-    expect(readPresence(toBytes({ here: true, session: 9 }))).toEqual({ here: true, session: 9 });
+    expect(readPresence(toBytes({ here: true, session: 9 }))).toEqual({
+      here: true,
+      session: 9,
+      every: null,
+    });
+    const every = (v: unknown) => readPresence(toBytes({ here: true, session: 9, every: v }))?.every;
+    expect([0.5, 1.25, 60, 0.4, 61, -1, "2", null, NaN].map(every)).toEqual([
+      ...[0.5, 1.25, 60],
+      ...[null, null, null, null, null, null],
+    ]);
     expect(readPresence(toBytes({ here: "yes", session: 9 }))).toBeNull();
   });
   it("fits in its limit, spaces and all", () => {

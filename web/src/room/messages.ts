@@ -34,6 +34,8 @@ export interface StateMessage {
 export interface PresenceMessage {
   here: boolean;
   session: number;
+  /** Something is said at least so often, s; null: nothing is promised. */
+  every: number | null;
 }
 
 export interface ChatMessage {
@@ -138,9 +140,9 @@ export function readState(payload: Uint8Array): StateMessage | null {
 
 export function readPresence(payload: Uint8Array): PresenceMessage | null {
   const m = read(payload, LIMITS.presence);
-  return m && typeof m.here === "boolean" && isSession(m.session)
-    ? { here: m.here, session: m.session }
-    : null;
+  if (!m || typeof m.here !== "boolean" || !isSession(m.session)) return null;
+  const every = typeof m.every === "number" && m.every >= 0.5 && m.every <= 60 ? m.every : null;
+  return { here: m.here, session: m.session, every };
 }
 
 export function readChat(payload: Uint8Array): ChatMessage | null {

@@ -13,7 +13,7 @@ class FakeBroker {
   readonly kept = new Map<string, Uint8Array>();
   private readonly there = new Set<{ events: WireEvents; will: (() => void) | null }>();
   up = true;
-  told = 0;
+  told = 0; // what is kept
 
   dialer =
     (will: { topic: string; payload: (session: number) => Uint8Array } | null): Dial =>
@@ -29,6 +29,10 @@ class FakeBroker {
         }
         this.there.add(one);
         events.open();
+        const pulse = setInterval(() => {
+          if (this.there.has(one)) one.events.pulse();
+          else clearInterval(pulse);
+        }, 3000);
         for (const [topic, bytes] of this.kept) events.message(topic, bytes);
       });
       return {
@@ -44,7 +48,7 @@ class FakeBroker {
   publish(topic: string, bytes: Uint8Array, retain: boolean): void {
     if (retain && bytes.length) this.kept.set(topic, bytes);
     if (retain && !bytes.length) this.kept.delete(topic);
-    this.told++;
+    if (retain) this.told++;
     // It takes a while, for who has said it, too.
     setTimeout(() => {
       for (const one of [...this.there]) one.events.message(topic, bytes);
@@ -58,6 +62,11 @@ class FakeBroker {
     const all = [...this.there];
     this.there.clear();
     for (const one of all) one.events.closed({ refused: false, words: "lost" });
+  }
+
+  /** The newest connection's page vanishes: nobody is told. */
+  lose(): void {
+    this.there.delete([...this.there].at(-1)!);
   }
 
   /** The newest connection breaks. */
@@ -238,6 +247,21 @@ describe("when the broker dies and comes back with nothing", () => {
     const late = new Page("p03", "Chidi");
     await wait(1000);
     expect(late.client.roster.room.title).toBe("Blue");
+  });
+});
+
+describe("a page that vanishes", () => {
+  it("is gone within its keep-alive of 10 s, whenever the broker notices", async () => {
+    const ana = new Page("p01", "Ana");
+    new Page("p02", "Bo");
+    await wait(40000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    broker.lose();
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual(["* Bo came in.", "* Bo left."]);
   });
 });
 

@@ -77,10 +77,13 @@ export class RoomClient {
     this.roster = new Roster(this.base);
     const id = entered.participant;
     this.me =
-      id && state ? new Me(this.base, id, state, (topic, bytes) => void this.tell(topic, bytes)) : null;
+      id && state
+        ? new Me(this.base, id, state, (topic, bytes, keep) => void this.link.publish(topic, bytes, keep))
+        : null;
     this.link = new Link(dialer(this.me?.will ?? null), {
       state: (s) => this.linked(s),
       message: (topic, payload) => this.hear(topic, payload),
+      pulse: () => this.me?.breathe(),
     });
   }
 

@@ -112,6 +112,67 @@ describe("who is here", () => {
   });
 });
 
+describe("somebody who vanishes", () => {
+  const breath = { here: true, session: 5, every: 2 };
+  /** Steps as the page does, twice a second; what happened. */
+  const pass = (r: Room, seconds: number, meanwhile?: () => void): RoomEvent[] => {
+    const events: RoomEvent[] = [];
+    for (const end = r.now + seconds; r.now < end;) {
+      r.now += 0.5;
+      meanwhile?.();
+      events.push(...r.roster.step(r.now));
+    }
+    return events;
+  };
+  it("is gone when three promised signs of life are missing, and back with the next", () => {
+    const r = new Room();
+    expect(r.say("p01", "presence", breath)).toEqual([{ kind: "came", id: "p01" }]);
+    expect(pass(r, 6)).toEqual([]);
+    expect(pass(r, 0.5)).toEqual([{ kind: "left", id: "p01" }]);
+    expect(r.say("p01", "presence", breath)).toEqual([{ kind: "came", id: "p01" }]);
+    expect(pass(r, 7)).toEqual([{ kind: "left", id: "p01" }]);
+    expect(r.say("p01", "pose", pose(0))).toEqual([{ kind: "came", id: "p01" }]);
+    expect(pass(r, 6)).toEqual([]);
+    expect(pass(r, 0.5)).toEqual([{ kind: "left", id: "p01" }]);
+    expect(r.say("p01", "presence", { here: false, session: 5 })).toEqual([]);
+  });
+  it("is here while anything is heard, and without a promise for ever", () => {
+    const r = new Room();
+    r.say("p01", "presence", breath);
+    r.say("p02", "presence", { here: true, session: 5 });
+    let n = 0;
+    const talk = () => {
+      if (++n % 10 === 0) r.say("p01", "pose", pose(n));
+      if (n % 10 === 5) r.say("p01", "presence", breath);
+    };
+    expect(pass(r, 100, talk)).toEqual([]);
+  });
+  it("is not anybody who was silent while this page stood still", () => {
+    const r = new Room();
+    r.say("p01", "presence", breath);
+    pass(r, 1);
+    r.now += 60; // a tab that was stopped
+    expect(r.roster.step(r.now)).toEqual([]);
+    expect(r.say("p01", "presence", breath)).toEqual([]);
+  });
+  it("has time to come back when the connection was lost", () => {
+    const r = new Room();
+    r.roster.connected(r.now);
+    r.say("p01", "presence", breath);
+    pass(r, 1);
+    r.roster.connected(r.now);
+    r.say("p01", "presence", breath); // what the broker has kept
+    expect(pass(r, COME_BACK)).toEqual([]);
+    expect(pass(r, 1)).toEqual([{ kind: "left", id: "p01" }]);
+  });
+  it("is gone as soon in the first seconds of a connection", () => {
+    const r = new Room();
+    r.roster.connected(r.now);
+    r.say("p01", "presence", breath);
+    expect(pass(r, 7)).toEqual([{ kind: "left", id: "p01" }]);
+  });
+});
+
 describe("a lost connection", () => {
   it("makes nobody leave who comes back in time", () => {
     const r = new Room();

@@ -19,6 +19,10 @@ import { parseTopic } from "./topics";
 export const MOST_PARTICIPANTS = 128;
 /** Whose presence nobody has told is here as long as frames come, s. */
 const UNTOLD = 5;
+/** Who promised to say something every so many seconds and was silent for so many times that has gone. */
+const MISSED = 3;
+/** A page that stood still heard nothing: of the time between two of its steps so much counts, s. */
+const LONGEST_STEP = 1;
 /** After a lost connection the others, whose connection may be lost too, have so long to come back, s. */
 export const COME_BACK = 25;
 
@@ -28,6 +32,10 @@ export interface Participant {
   state: StateMessage | null;
   /** The session that says that it is here. */
   presence: number | null;
+  /** It has promised to say something as often, s. */
+  every: number | null;
+  /** When it said something last, s of the roster's own clock. */
+  heard: number;
   here: boolean;
   /** Its presence was told since the connection is there. */
   confirmed: boolean;
@@ -61,6 +69,10 @@ export class Roster {
   private readonly all = new Map<string, Participant>();
   /** Until then those who were here before the connection was lost count as here. */
   private deadline = Infinity;
+  /** Until then nobody is taken for gone because of silence. */
+  private patientUntil = -Infinity;
+  /** A clock that stands still while this page does. */
+  private awake = { seconds: 0, at: -Infinity };
 
   constructor(private readonly base: string) {}
 
@@ -98,6 +110,7 @@ export class Roster {
       this.ignored++;
       return [];
     }
+    p.heard = this.tick(now);
     switch (place.kind) {
       case "pose":
         return p.stream.hear(payload, now) === "taken" ? this.look(p, now) : [];
@@ -123,6 +136,7 @@ export class Roster {
 
   /** Who has gone without a word. To be asked while the room is connected. */
   step(now: number): RoomEvent[] {
+    this.tick(now);
     const late = now > this.deadline;
     if (late) this.deadline = Infinity;
     const events: RoomEvent[] = [];
@@ -141,6 +155,8 @@ export class Roster {
   /** The connection is there anew. What was known of the others holds until they had time to tell it again. */
   connected(now: number): void {
     this.deadline = now + COME_BACK;
+    // What the broker has kept of them is said in their place: their silence counts later.
+    if (this.all.size > 0) this.patientUntil = this.deadline;
     for (const p of this.all.values()) p.confirmed = false;
   }
 
@@ -157,6 +173,8 @@ export class Roster {
       stream: new PoseStream(),
       state: null,
       presence: null,
+      every: null,
+      heard: 0,
       here: false,
       confirmed: false,
       refused: 0,
@@ -196,6 +214,7 @@ export class Roster {
     }
     if (m?.here) {
       p.presence = m.session;
+      p.every = m.every;
       p.confirmed = true;
     } else {
       // Of an older session: the newer one stays. An empty one clears whoever is there.
@@ -206,9 +225,19 @@ export class Roster {
   }
 
   private look(p: Participant, now: number): RoomEvent[] {
-    const here = p.presence !== null || p.stream.alive(now, UNTOLD);
+    const here = p.presence !== null ? !this.silent(p, now) : p.stream.alive(now, UNTOLD);
     if (here === p.here) return [];
     p.here = here;
     return [{ kind: here ? "came" : "left", id: p.id }];
+  }
+
+  private silent(p: Participant, now: number): boolean {
+    return p.every !== null && now > this.patientUntil && this.awake.seconds - p.heard > MISSED * p.every;
+  }
+
+  private tick(now: number): number {
+    const step = now - this.awake.at;
+    this.awake = { seconds: this.awake.seconds + Math.min(Math.max(step, 0), LONGEST_STEP), at: now };
+    return this.awake.seconds;
   }
 }
