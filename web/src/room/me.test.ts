@@ -115,6 +115,21 @@ describe("this page as a participant", () => {
     me.breathe();
     expect(take()).toEqual([]);
   });
+  it("breathes for two windows that came in the same moment in just one of them", () => {
+    const window = (session: number) =>
+      toBytes({ session, kind: "browser", name: "Ana", seat: 2, avatar: null });
+    const breaths = [7, 8].map((session) => {
+      const { me, take } = make();
+      me.connected(session);
+      me.settled();
+      take();
+      me.hear("presence", presence(true, 15 - session));
+      me.hear("state", window(15 - session));
+      me.breathe();
+      return take();
+    });
+    expect(breaths).toEqual([[], ["presence once true 8"]]);
+  });
   it("says nothing after goodbye", () => {
     const { me, take } = make();
     me.connected(7);

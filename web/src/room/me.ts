@@ -106,7 +106,11 @@ export class Me {
 
   /** To be called every EVERY seconds: the others see by it that this page has not vanished. */
   breathe(): void {
-    if (this.here && !this.other) this.tellPresence(false);
+    if (!this.here) return;
+    // Two windows that came in the same moment have both stepped back for each other: one of them goes on.
+    const o = this.other;
+    if (o && (o.kind !== "browser" || o.session > this.session)) return;
+    this.tellPresence(false);
   }
 
   private announce(): void {
