@@ -12,7 +12,8 @@ namespace {
 volatile std::sig_atomic_t interrupt_noted = 0;
 
 void on_interrupt(int signal) {
-  if (interrupt_noted != 0) {
+  // A terminal that closes may say so twice.
+  if (interrupt_noted != 0 && signal != SIGHUP) {
     ::_exit(128 + signal);
   }
   interrupt_noted = 1;

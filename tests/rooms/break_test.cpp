@@ -159,11 +159,41 @@ TEST(BrokenRooms, WhatWasClearedAwayIsToldAgain) {
   EXPECT_TRUE(comes_true([&] { return !ear.newest("p/tracker/state")->payload.empty(); }));
 }
 
+/// How often "tracker" has said that it is here; without frames it does so once a second.
+std::ptrdiff_t breaths(const Ear& ear) {
+  const std::vector<Ear::Heard> heard = ear.all();
+  return std::count_if(heard.begin(), heard.end(),
+                       [](const Ear::Heard& one) { return one.topic == "p/tracker/presence"; });
+}
+
+TEST(BrokenRooms, APageThatMakesRoomIsNobodyElse) {
+  Broker broker;
+  Ear ear(broker.port());
+  ASSERT_TRUE(comes_true([&] { return ear.listens(); }));
+  const auto sender = make_sender(broker.url());
+  ASSERT_TRUE(is_sending(*sender) && says_here(ear, true));
+  const std::uint16_t session = ear.json("p/tracker/presence").at("session");
+  const std::uint16_t page = session == 1 ? 2 : 1;
+  ear.say("p/tracker/presence", write_presence({true, page, 3.0}));  // was on its way
+  ASSERT_TRUE(comes_true([&] { return breaths(ear) >= 4; }));
+  EXPECT_EQ(sender->status().words, "");
+  // It had taken the place of a tracker that was not heard for a while, and gives it back.
+  ear.say("p/tracker/presence", write_presence({true, page, 3.0}));
+  ASSERT_TRUE(comes_true([&] { return sender->status().words.find("somebody else") == 0; }));
+  ear.forget();
+  ear.say("p/tracker/presence", write_presence({false, page}));
+  EXPECT_TRUE(comes_true([&] { return sender->status().words.empty(); })) << sender->status().words;
+  EXPECT_TRUE(comes_true([&] { return ear.newest("p/tracker/state").has_value(); }));
+  EXPECT_TRUE(says_here(ear, true));
+  EXPECT_EQ(ear.json("p/tracker/presence").at("session"), session);
+}
+
 TEST(BrokenRooms, TwoOfOneNameAreTold) {
   Broker broker;
   const auto sender = make_sender(broker.url());
   ASSERT_TRUE(is_sending(*sender));
   Ear ear(broker.port());
+  ASSERT_TRUE(comes_true([&] { return breaths(ear) >= 3; }));
   {
     const auto twin = make_sender(broker.url());
     ASSERT_TRUE(comes_true([&] {

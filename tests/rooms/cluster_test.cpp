@@ -72,7 +72,9 @@ TEST_F(ClusterRoom, WhoComesLateHearsWhatIsKept) {
   const auto late = ear_at(1);
   ASSERT_TRUE(comes_true([&] { return late->newest("p/p02/state") && late->newest("p/p02/presence"); }));
   EXPECT_TRUE(late->newest("p/p02/state")->retained);
-  EXPECT_TRUE(late->newest("p/p02/presence")->retained);
+  const std::vector<Ear::Heard> heard = late->all();  // a sign of life may have followed
+  EXPECT_TRUE(std::any_of(heard.begin(), heard.end(),
+                          [](const auto& one) { return one.topic == "p/p02/presence" && one.retained; }));
   EXPECT_EQ(late->newest("p/p02/state")->payload, first->newest("p/p02/state")->payload);
   EXPECT_TRUE(comes_true([&] { return !late->frames("p02").empty(); }));
 }

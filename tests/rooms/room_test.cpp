@@ -115,12 +115,21 @@ TEST_F(Room, WithoutFramesItIsHeardOf) {
   ASSERT_TRUE(is_sending(*sender)) << sender->status().words;
   ear_.forget();
   const auto breaths = [&] {
-    const std::vector<Ear::Heard> heard = ear_.all();
-    return std::count_if(heard.begin(), heard.end(), [](const Ear::Heard& one) {
-      return one.topic == "p/tracker/presence" && !one.retained && read_presence(one.payload)->here;
-    });
+    std::vector<double> times;  // s
+    for (const Ear::Heard& one : ear_.all()) {
+      if (one.topic == "p/tracker/presence" && !one.retained && read_presence(one.payload)->here) {
+        times.push_back(one.at);
+      }
+    }
+    return times;
   };
-  EXPECT_TRUE(comes_true([&] { return breaths() >= 3; }));
+  ASSERT_TRUE(comes_true([&] { return breaths().size() >= 4; }));
+  const std::vector<double> times = breaths();
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    const double gap = times[i] - times[i - 1];
+    EXPECT_GT(gap, 0.5) << "no more often than needed";
+    EXPECT_LT(gap, 3 * 1.25) << "nobody takes it for gone";
+  }
 }
 
 TEST_F(Room, AMirroredPersonIsToldMirrored) {

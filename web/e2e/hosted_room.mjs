@@ -65,7 +65,10 @@ export async function startHostedRoom(program, { title = "Blue room", args = [] 
         return brokers()[0];
       },
       kill() {
-        for (const pid of brokers()) process.kill(pid, "SIGKILL");
+        this.signal("SIGKILL");
+      },
+      signal(name) {
+        for (const pid of brokers()) process.kill(pid, name);
       },
       again() {}, // by itself
     },

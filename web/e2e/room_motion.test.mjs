@@ -165,3 +165,65 @@ test("a tracker that vanishes is gone before its broker says so, and comes back"
   await live.stop();
   for (const page of pages) await shows(page, others);
 });
+
+test(
+  "a tracker that stands still leaves the avatar to its person's page, and takes it back",
+  LONG,
+  async () => {
+    const { page } = guest;
+    await page.locator("#room-canvas").focus();
+    await page.keyboard.press("r");
+    await page.locator("#camera-show").click();
+    const [, address] = /--send '([^'\s]+)'$/.exec(await page.locator("#camera-command").innerText());
+    await page.locator("#camera-show").click();
+    await page.keyboard.press("Escape");
+    const live = await startProgram([
+      join(DEMO, "video.mp4"),
+      ...["--background", join(DEMO, "background.mp4"), "--loop", "--no-guide", "--no-settings", ...LIGHT],
+      ...["--send", address.replace("name=Dara", "name=Moving")],
+    ]);
+    const others = ["Ana", "Bo", "Chidi"];
+    const pages = [chair.page, page, watcher.page];
+    const all = (name) => Promise.all(pages.map((p) => shows(p, [...others, name])));
+    await all("Moving");
+    process.kill(live.pid, "SIGSTOP");
+    try {
+      await all("Dara");
+    } finally {
+      process.kill(live.pid, "SIGCONT");
+    }
+    await all("Moving");
+    await live.stop();
+    await all("Dara");
+  },
+);
+
+test("a broker that stands still for 6 s makes nobody leave", LONG, async () => {
+  const pages = [chair.page, guest.page, watcher.page];
+  const all = ["Ana", "Bo", "Chidi", "Dara"];
+  for (const page of pages) {
+    await page.evaluate((wanted) => {
+      globalThis.fewest = wanted;
+      const look = () => {
+        const here = window.telemimeRoom.participants.length;
+        globalThis.fewest = Math.min(globalThis.fewest, here);
+      };
+      globalThis.looking = setInterval(look, 50);
+    }, all.length);
+  }
+  room.broker.signal("SIGSTOP");
+  await new Promise((resolve) => setTimeout(resolve, 6000));
+  room.broker.signal("SIGCONT");
+  const again = listener.frames.size && [...listener.frames.values()].map((f) => f.length);
+  await chair.page.waitForTimeout(4000);
+  for (const page of pages) {
+    await shows(page, all);
+    assert.equal(await page.evaluate(() => globalThis.fewest), all.length);
+    await page.evaluate(() => clearInterval(globalThis.looking));
+  }
+  const now = [...listener.frames.values()].map((f) => f.length);
+  assert.ok(
+    now.some((n, i) => n > again[i]),
+    "it goes on",
+  );
+});

@@ -24,6 +24,8 @@ constexpr milliseconds kLongestWrite{4000};  // after that
 constexpr double kPromise = 1.25;
 constexpr double kLongestSilence = 1.0;  // s: there is time to be late
 constexpr double kShortestWait = 0.1;    // s, while a connection takes nothing
+/// What a page on our seat says so soon after we came in was on its way, s: it then makes room.
+constexpr double kCrossing = 1.0;
 constexpr double kMicrosecondsPerMillisecond = 1000.0;
 
 double seconds_now() {
@@ -98,7 +100,7 @@ std::string RoomLink::words() const {
 
 void RoomLink::open() {
   here_ = {};
-  confirmed_ = false;
+  confirmed_.reset();
   twin_ = false;
   waiting_.reset();
   connection_.open(any_client_id(output_.participant), presence(false));
@@ -106,7 +108,7 @@ void RoomLink::open() {
   connection_.keep(presence(true));
   connection_.keep(state());
   // MQTT 3.1.1 has no word for what a broker does not let pass. What it lets pass comes back to us.
-  if (!loop_.wait([this] { return confirmed_; }, kLongestAnswer)) {
+  if (!loop_.wait([this] { return confirmed_.has_value(); }, kLongestAnswer)) {
     throw LinkBroken("it lets nothing pass that we say as \"" + output_.participant +
                      "\": the account may not publish there");
   }
@@ -142,6 +144,7 @@ void RoomLink::close() noexcept {
   timer_.cancel(ignored);
   breath_.cancel(ignored);
   waiting_.reset();
+  confirmed_.reset();
   connection_.goodbye(last_words_);
   connection_.close();
 }
@@ -166,8 +169,8 @@ void RoomLink::hear_of_oneself(const ParticipantPresence& presence) {
   if (!presence.here) {
     hear_that_we_are_gone();
   } else if (presence.session == session_) {
-    confirmed_ = true;
-  } else if (confirmed_) {  // else it was left by an earlier run
+    confirmed_ = confirmed_ ? confirmed_ : seconds_now();
+  } else if (confirmed_ && seconds_now() > *confirmed_ + kCrossing) {  // else it was left by an earlier run
     twin_ = true;
     loop_.sending(words());
   }
@@ -241,7 +244,7 @@ void RoomLink::breathe_when_silent() {
   }
   breath_.expires_at(at_seconds(std::max(said_ + kLongestSilence, now + kShortestWait)));
   breath_.async_wait([this](const boost::system::error_code& error) {
-    if (!error) {
+    if (!error && confirmed_) {  // what was due when the connection was closed comes all the same
       breathe_when_silent();
     }
   });

@@ -74,8 +74,9 @@ class RoomLink final : public Link {
   std::uint32_t sequence_ = 0;
   std::uint64_t captured_ = 0;  ///< us, of the last frame that was sent
   int uncounted_ = 0;           ///< frames that were sent and not yet told by frame()
-  bool confirmed_ = false;      ///< our presence came back: what we publish is taken
-  bool twin_ = false;           ///< somebody else takes part under our name
+  /// When our presence came back, s of the steady clock: what we publish is taken.
+  std::optional<double> confirmed_;
+  bool twin_ = false;  ///< somebody else takes part under our name
 };
 
 }  // namespace telemime

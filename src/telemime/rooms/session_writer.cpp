@@ -185,7 +185,9 @@ void SessionWriter::run() {
     std::optional<std::string> failure;
     try {
       written = encoded(records);
-      write_(written);
+      if (!written.empty() || records.empty()) {  // else it would say: to the disk
+        write_(written);
+      }
     } catch (const std::exception& e) {
       failure = e.what();
     }

@@ -5,9 +5,11 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <future>
+#include <thread>
 
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
@@ -63,6 +65,31 @@ TEST(SessionWriter, WhatIsAddedIsInTheFile) {
   struct stat about {};
   ASSERT_EQ(::stat(file.c_str(), &about), 0);
   EXPECT_EQ(about.st_mode & 0777U, 0600U) << "what people do and say is nobody else's";
+}
+
+TEST(SessionWriter, WhatIsLeftOutIsNoReasonToBringAllToTheDisk) {
+  std::vector<std::size_t> sizes;
+  const auto write = [&](std::string_view bytes) { sizes.push_back(bytes.size()); };
+  {
+    SessionWriter writer(write, kStart);
+    SessionMessage one = message(1, RoomTopicKind::pose, 10);
+    SessionEncoder encoder;
+    std::uint64_t size = writer.bytes();
+    for (std::size_t i = 0; i < kMostSessionParticipants; ++i) {
+      one.topic.participant = "p" + std::to_string(i);
+      writer.add(one);
+      size += encoder.encode(one)->size();
+    }
+    while (writer.bytes() < size) {
+      std::this_thread::yield();
+    }
+    one.topic.participant = "late";
+    writer.add(one);
+    while (writer.dropped() == 0) {
+      std::this_thread::yield();
+    }
+  }
+  EXPECT_EQ(std::count(sizes.begin(), sizes.end(), 0U), 0);
 }
 
 TEST(SessionWriter, AnotherFileIsNotWrittenOver) {

@@ -9,8 +9,11 @@ import { steadyTimer } from "./ticker";
 
 const KEEP_ALIVE = 10; // s
 const PATIENCE = 8000; // ms for an answer of the broker
-/** Between signs of life, ms: the broker asks for fewer, but a busy computer may be late with them. */
-const SIGN_OF_LIFE = 1000 * EVERY;
+/**
+ * Between pings, ms. The broker asks for fewer, but a busy computer may be late with them; and their answers tell whether
+ * the others' silence is theirs or the connection's (roster.ts).
+ */
+const PING = 1500;
 
 const REFUSED: Record<number, string> = {
   1: "The room's broker speaks another version of MQTT.",
@@ -48,15 +51,15 @@ export function brokerDial(
     let over = false;
     let opened = false;
     let why: Closed | null = null;
-    const pulse = steadyTimer.set(() => {
-      if (!client.connected) return;
-      client.sendPing();
-      if (opened) events.pulse();
-    }, SIGN_OF_LIFE);
+    const timers = [
+      steadyTimer.set(() => void (client.connected && client.sendPing()), PING),
+      steadyTimer.set(() => void (client.connected && opened && events.pulse()), 1000 * EVERY),
+    ];
+    const stopTimers = (): void => timers.forEach((t) => steadyTimer.clear(t));
     const closed = (): void => {
       if (over) return;
       over = true;
-      steadyTimer.clear(pulse);
+      stopTimers();
       client.end(true);
       events.closed(
         why ?? {
@@ -80,8 +83,11 @@ export function brokerDial(
       });
     };
     client.on("connect", () => listen(1));
-    client.on("message", (topic, payload) => {
-      if (!over) events.message(topic, payload);
+    client.on("packetreceive", () => {
+      if (!over) events.alive();
+    });
+    client.on("message", (topic, payload, packet) => {
+      if (!over) events.message(topic, payload, packet.retain);
     });
     client.on("error", (e: Error | ErrorWithReasonCode) => {
       const code = "code" in e && typeof e.code === "number" ? e.code : 0;
@@ -95,7 +101,7 @@ export function brokerDial(
       },
       close: () => {
         over = true;
-        steadyTimer.clear(pulse);
+        stopTimers();
         client.on("error", () => undefined);
         client.end(); // after what waits was sent
       },

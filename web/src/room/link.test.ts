@@ -36,7 +36,8 @@ beforeEach(() => {
     broker.dial,
     {
       state: (s) => states.push(s),
-      message: (topic) => heard.push(topic),
+      message: (topic, _, kept) => heard.push(topic + (kept ? " kept" : "")),
+      alive: () => heard.push("alive"),
       pulse: () => heard.push("pulse"),
     },
     () => 0.5,
@@ -51,10 +52,13 @@ describe("the connection", () => {
     link.open();
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
     broker.last.events.open();
-    broker.last.events.message("r/a/b/room", new Uint8Array(1));
+    broker.last.events.alive();
+    broker.last.events.message("r/a/b/room", new Uint8Array(1), true);
+    broker.last.events.message("r/a/b/p/p01/chat", new Uint8Array(1), false);
+    broker.last.events.pulse();
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(true);
     expect(kinds()).toEqual(["connecting", "open"]);
-    expect(heard).toEqual(["r/a/b/room"]);
+    expect(heard).toEqual(["alive", "r/a/b/room kept", "r/a/b/p/p01/chat", "pulse"]);
     expect(broker.last.session).toBe(link.session);
     broker.fails = true;
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
@@ -107,7 +111,9 @@ describe("the connection", () => {
     const old = broker.last.events;
     old.closed(GONE);
     link.tryNow();
-    old.message("old", new Uint8Array(1));
+    old.message("old", new Uint8Array(1), false);
+    old.alive();
+    old.pulse();
     old.open();
     old.closed(GONE);
     expect(heard).toEqual([]);
@@ -124,7 +130,12 @@ describe("the connection", () => {
       () => {
         throw new Error("bad address");
       },
-      { state: (s) => states.push(s), message: () => undefined, pulse: () => undefined },
+      {
+        state: (s) => states.push(s),
+        message: () => undefined,
+        alive: () => undefined,
+        pulse: () => undefined,
+      },
     );
     refusing.open();
     expect(refusing.state).toMatchObject({ kind: "refused" });

@@ -19,7 +19,10 @@ export interface Closed {
 export interface WireEvents {
   /** Connected, and what is said in the room is heard. */
   open(): void;
-  message(topic: string, payload: Uint8Array): void;
+  /** `kept`: the broker has kept it for those who come. */
+  message(topic: string, payload: Uint8Array, kept: boolean): void;
+  /** Before each message, and with each answer to a ping, of which there is one in every 1.5 s. */
+  alive(): void;
   /** Every few seconds while connected (me.ts says how few), in a hidden page, too. */
   pulse(): void;
   /** Comes once, and nothing after it. */
@@ -38,7 +41,8 @@ export type Dial = (session: number, events: WireEvents) => Wire;
 
 export interface LinkListener {
   state(s: LinkState): void;
-  message(topic: string, payload: Uint8Array): void;
+  message(topic: string, payload: Uint8Array, kept: boolean): void;
+  alive(): void;
   pulse(): void;
 }
 
@@ -90,8 +94,11 @@ export class Link {
           this.openedAt = performance.now();
           this.set({ kind: "open" });
         },
-        message: (topic, payload) => {
-          if (mine()) this.listener.message(topic, payload);
+        message: (topic, payload, kept) => {
+          if (mine()) this.listener.message(topic, payload, kept);
+        },
+        alive: () => {
+          if (mine()) this.listener.alive();
         },
         pulse: () => {
           if (mine()) this.listener.pulse();

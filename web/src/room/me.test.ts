@@ -107,7 +107,9 @@ describe("this page as a participant", () => {
     me.breathe();
     expect(take()).toEqual(["presence once true 7"]);
     me.hear("presence", presence(true, 50));
+    me.hear("state", tracker(50));
     me.breathe();
+    expect(take()).toEqual([]);
     me.hear("presence", presence(false, 50));
     take();
     me.leave();
@@ -115,20 +117,47 @@ describe("this page as a participant", () => {
     me.breathe();
     expect(take()).toEqual([]);
   });
-  it("breathes for two windows that came in the same moment in just one of them", () => {
+  it("speaks for two windows that came in the same moment in just one of them", () => {
     const window = (session: number) =>
       toBytes({ session, kind: "browser", name: "Ana", seat: 2, avatar: null });
-    const breaths = [7, 8].map((session) => {
-      const { me, take } = make();
-      me.connected(session);
-      me.settled();
-      take();
-      me.hear("presence", presence(true, 15 - session));
-      me.hear("state", window(15 - session));
-      me.breathe();
-      return take();
-    });
-    expect(breaths).toEqual([[], ["presence once true 8"]]);
+    for (const told of [true, false]) {
+      const said = [7, 8].map((session) => {
+        const { me, take } = make();
+        me.connected(session);
+        me.settled();
+        take();
+        me.hear("presence", presence(true, 15 - session));
+        if (told) me.hear("state", window(15 - session));
+        me.breathe();
+        me.change({ ...STATE, name: "Anna" });
+        me.leave();
+        return take();
+      });
+      expect(said).toEqual([[], ["presence once true 8", "state Anna 8", "presence false 8", "state -"]]);
+    }
+  });
+  it("takes the place of somebody who has vanished, and gives it back when their frames come again", () => {
+    const { me, take } = make();
+    me.connected(7);
+    me.hear("presence", presence(true, 50));
+    me.hear("state", tracker(50));
+    me.vanished(); // while the room still tells what it knows
+    expect(take()).toEqual([]);
+    me.hear("presence", presence(true, 50));
+    me.settled();
+    expect(take()).toEqual([]);
+    me.vanished();
+    expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+    me.vanished(); // nobody else is there
+    expect(take()).toEqual([]);
+    me.tracked(50);
+    expect(take()).toEqual(["presence false 7"]); // the tracker then tells what it is
+    expect(me.other).toEqual({ session: 50, kind: "tracker" });
+    me.hear("presence", presence(false, 7));
+    me.tracked(50);
+    me.breathe();
+    me.leave();
+    expect(take()).toEqual([]);
   });
   it("says nothing after goodbye", () => {
     const { me, take } = make();

@@ -61,6 +61,22 @@ export class Me {
     if (!this.other) this.announce();
   }
 
+  /** Frames of this participant were taken: pages send none, so that a tracker is there. */
+  tracked(session: number): void {
+    if (this.other?.session === session && this.other.kind !== null) return;
+    const spoke = this.speaks;
+    this.other = { session, kind: "tracker" };
+    // It was taken for gone, as this page took its place: it tells anew who it is when it hears this.
+    if (spoke) this.goodbye();
+  }
+
+  /** The others take whoever speaks for this seat for gone, who has not said goodbye. */
+  vanished(): void {
+    if (!this.other) return;
+    this.other = null;
+    if (this.ready) this.announce();
+  }
+
   /** A message on this participant's own state or presence topic. */
   hear(kind: "state" | "presence", payload: Uint8Array): void {
     if (kind === "state") {
@@ -85,15 +101,14 @@ export class Me {
   /** The person has chosen something else. */
   change(state: MyState): void {
     this.state = state;
-    if (this.here && !this.other) this.tellState();
+    if (this.speaks) this.tellState();
   }
 
   /** Says goodbye. */
   leave(): void {
     this.ready = false;
-    if (!this.here || this.other) return;
-    this.here = false;
-    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: false, session: this.session }), true);
+    if (!this.speaks) return;
+    this.goodbye();
     this.tell(topicOf(this.base, this.id, "state"), new Uint8Array(0), true);
   }
 
@@ -106,11 +121,19 @@ export class Me {
 
   /** To be called every EVERY seconds: the others see by it that this page has not vanished. */
   breathe(): void {
-    if (!this.here) return;
-    // Two windows that came in the same moment have both stepped back for each other: one of them goes on.
+    if (this.speaks) this.tellPresence(false);
+  }
+
+  /** This page has said that it is here, and nobody else speaks for the same seat. */
+  private get speaks(): boolean {
     const o = this.other;
-    if (o && (o.kind !== "browser" || o.session > this.session)) return;
-    this.tellPresence(false);
+    // Two windows that came in the same moment have both stepped back for each other: one of them goes on.
+    return this.here && (!o || (o.kind !== "tracker" && o.session < this.session));
+  }
+
+  private goodbye(): void {
+    this.here = false;
+    this.tell(topicOf(this.base, this.id, "presence"), toBytes({ here: false, session: this.session }), true);
   }
 
   private announce(): void {

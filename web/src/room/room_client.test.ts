@@ -1,82 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Line } from "./chat";
-import type { Entered, Role } from "./entry";
-import type { Dial, WireEvents } from "./link";
+import { encodeFrame } from "./frame";
 import { toBytes } from "./messages";
-import { RoomClient } from "./room_client";
-
-const TOPIC = "r/lab/main";
-
-/** A broker in memory: keeps what is retained, tells everybody, speaks last wills. */
-class FakeBroker {
-  readonly kept = new Map<string, Uint8Array>();
-  private readonly there = new Set<{ events: WireEvents; will: (() => void) | null }>();
-  up = true;
-  told = 0; // what is kept
-
-  dialer =
-    (will: { topic: string; payload: (session: number) => Uint8Array } | null): Dial =>
-    (session, events) => {
-      const one = {
-        events,
-        will: will && (() => this.publish(will.topic, will.payload(session), true)),
-      };
-      queueMicrotask(() => {
-        if (!this.up) {
-          events.closed({ refused: false, words: "down" });
-          return;
-        }
-        this.there.add(one);
-        events.open();
-        const pulse = setInterval(() => {
-          if (this.there.has(one)) one.events.pulse();
-          else clearInterval(pulse);
-        }, 3000);
-        for (const [topic, bytes] of this.kept) events.message(topic, bytes);
-      });
-      return {
-        publish: (topic, bytes, retain) => {
-          if (!this.there.has(one)) return Promise.reject(new Error("gone"));
-          this.publish(topic, bytes, retain);
-          return Promise.resolve();
-        },
-        close: () => void this.there.delete(one),
-      };
-    };
-
-  publish(topic: string, bytes: Uint8Array, retain: boolean): void {
-    if (retain && bytes.length) this.kept.set(topic, bytes);
-    if (retain && !bytes.length) this.kept.delete(topic);
-    if (retain) this.told++;
-    // It takes a while, for who has said it, too.
-    setTimeout(() => {
-      for (const one of [...this.there]) one.events.message(topic, bytes);
-    }, 30);
-  }
-
-  /** Dies with all that it knew; nobody's will is spoken. */
-  die(): void {
-    this.up = false;
-    this.kept.clear();
-    const all = [...this.there];
-    this.there.clear();
-    for (const one of all) one.events.closed({ refused: false, words: "lost" });
-  }
-
-  /** The newest connection's page vanishes: nobody is told. */
-  lose(): void {
-    this.there.delete([...this.there].at(-1)!);
-  }
-
-  /** The newest connection breaks. */
-  cut(): void {
-    const one = [...this.there].at(-1)!;
-    this.there.delete(one);
-    one.events.closed({ refused: false, words: "lost" });
-    one.will?.();
-  }
-}
+import { FakeBroker, Page, TOPIC } from "./testing_room";
 
 let broker: FakeBroker;
 beforeEach(() => {
@@ -87,51 +13,11 @@ afterEach(() => vi.useRealTimers());
 
 const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
 
-class Page {
-  readonly lines: Line[] = [];
-  readonly client: RoomClient;
-  constructor(id: string | null, name: string, roles: Role[] = ["speak", "board"]) {
-    const entered: Entered = {
-      user: `main.${id}`,
-      password: "x",
-      participant: id,
-      mqtt: "ws://localhost:1/",
-      tcp: null,
-      topic: TOPIC,
-      roles,
-      token: null,
-      looks: [],
-    };
-    this.client = new RoomClient(
-      entered,
-      id ? { name, avatar: { look: "plain" }, seat: null } : null,
-      broker.dialer,
-      {
-        link: () => undefined,
-        event: () => undefined,
-        line: (l) => this.lines.push(l),
-        strokes: () => undefined,
-        mine: () => undefined,
-      },
-    );
-    this.client.start();
-  }
-  get said(): string[] {
-    return this.lines.map((l) => (l.kind === "note" ? `* ${l.text}` : `${l.name}: ${l.text}`));
-  }
-  get names(): string[] {
-    return [...this.client.roster.names.values()];
-  }
-  get seats(): Record<string, number> {
-    return Object.fromEntries(this.client.roster.seats);
-  }
-}
-
 describe("a page in a room", () => {
   it("sees others come, speak and go, on seats of their own", async () => {
-    const ana = new Page("p01", "Ana");
+    const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
-    const bo = new Page("p02", "Bo");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     expect(ana.names).toEqual(["Ana", "Bo"]);
     expect(bo.names).toEqual(["Ana", "Bo"]);
@@ -147,7 +33,7 @@ describe("a page in a room", () => {
     expect([...broker.kept.keys()]).not.toContain(`${TOPIC}/p/p02/state`);
   });
   it("does not tell again and again of one who comes and goes all the time", async () => {
-    const ana = new Page("p01", "Ana");
+    const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     for (let i = 0; i < 60; i++) {
       broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: i % 2 === 0, session: 5 }), true);
@@ -157,14 +43,14 @@ describe("a page in a room", () => {
     expect(ana.said.slice(0, 2)).toEqual(["* p09 came in.", "* p09 left."]);
   });
   it("numbers the same names", async () => {
-    const pages = [new Page("p02", "Ana"), new Page("p01", "Ana")]; // at the same moment
+    const pages = [new Page(broker, "p02", "Ana"), new Page(broker, "p01", "Ana")]; // at the same moment
     await wait(3000);
     for (const p of pages) expect(p.names).toEqual(["Ana (1)", "Ana (2)"]);
     expect(Object.values(pages[0]!.seats).sort()).toEqual([0, 1]);
     expect(pages[0]!.seats).toEqual(pages[1]!.seats);
   });
   it("asks for the seat that it was given when somebody with a smaller id wants its own", async () => {
-    const bo = new Page("p02", "Bo");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(1000);
     expect(bo.seats).toEqual({ p02: 0 });
     broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 5 }), true);
@@ -182,14 +68,14 @@ describe("a page in a room", () => {
       const state = { session: 5, kind: "tracker", name: `T${i}`, seat: null, avatar: null };
       broker.publish(`${TOPIC}/p/${id}/state`, toBytes(state), true);
     }
-    const bo = new Page("p02", "Bo");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     expect(bo.seats).toEqual({ p02: 2, p13: 0, p14: 1 });
     expect(broker.told).toBe(6); // and no dispute with oneself
   });
   it("only watches without a seat", async () => {
-    new Page("p01", "Ana");
-    const watcher = new Page(null, "");
+    new Page(broker, "p01", "Ana");
+    const watcher = new Page(broker, null, "");
     await wait(2000);
     expect(watcher.names).toEqual(["Ana"]);
     expect(watcher.client.say("hi")).toContain("only watch");
@@ -199,8 +85,8 @@ describe("a page in a room", () => {
 
 describe("when the broker dies and comes back with nothing", () => {
   it("everybody is there again without a word, and what was said meanwhile is said", async () => {
-    const ana = new Page("p01", "Ana");
-    const bo = new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     bo.client.draw("#ffffff", 40, [0, 0, 1, 1]);
     await wait(500);
@@ -217,14 +103,14 @@ describe("when the broker dies and comes back with nothing", () => {
     expect(bo.said.at(-1)).toBe("Ana: are you there?");
     expect(ana.names).toEqual(["Ana", "Bo"]);
     expect(ana.client.board.strokes.length).toBe(2);
-    const late = new Page("p03", "Chidi");
+    const late = new Page(broker, "p03", "Chidi");
     await wait(1000);
     expect(late.client.board.strokes.length).toBe(2);
     expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
   });
   it("who does not come back has left", async () => {
-    const ana = new Page("p01", "Ana");
-    const bo = new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     broker.die();
     bo.client.stop();
@@ -238,13 +124,13 @@ describe("when the broker dies and comes back with nothing", () => {
   it("chairs tell what the room is", async () => {
     const room = { title: "Blue", seats: 5, epoch: 3, chairs: ["p01"], locked: false };
     broker.publish(`${TOPIC}/room`, toBytes(room), true);
-    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
     await wait(1000);
     broker.die();
     broker.up = true;
     await wait(5000);
     expect(ana.client.roster.room).toMatchObject(room);
-    const late = new Page("p03", "Chidi");
+    const late = new Page(broker, "p03", "Chidi");
     await wait(1000);
     expect(late.client.roster.room.title).toBe("Blue");
   });
@@ -252,8 +138,8 @@ describe("when the broker dies and comes back with nothing", () => {
 
 describe("a page that vanishes", () => {
   it("is gone within its keep-alive of 10 s, whenever the broker notices", async () => {
-    const ana = new Page("p01", "Ana");
-    new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana");
+    new Page(broker, "p02", "Bo");
     await wait(40000);
     expect(ana.names).toEqual(["Ana", "Bo"]);
     broker.lose();
@@ -265,11 +151,38 @@ describe("a page that vanishes", () => {
   });
 });
 
+describe("a broker that is not heard for a while", () => {
+  it("makes nobody leave", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    new Page(broker, "p02", "Bo");
+    await wait(10000);
+    broker.deaf = true;
+    await wait(15000);
+    broker.deaf = false;
+    await wait(10000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(ana.said).toEqual(["* Bo came in."]);
+  });
+});
+
+describe("somebody whom only the broker still knows", () => {
+  it("is not seen for long, and leaves without a word", async () => {
+    broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: true, session: 5, every: 1.25 }), true);
+    await wait(100);
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    expect(ana.names).toEqual(["Ana", "p09"]);
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual([]);
+  });
+});
+
 describe("one connection that breaks", () => {
   it("is told to others, and mended without a trace of the late will", async () => {
-    const ana = new Page("p01", "Ana");
+    const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
-    const bo = new Page("p02", "Bo");
+    const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     broker.cut();
     await wait(20000);
@@ -278,7 +191,7 @@ describe("one connection that breaks", () => {
     // The will of the old connection comes only now: Bo is here none the less, for those who come later, too.
     broker.publish(`${TOPIC}/p/p02/presence`, toBytes({ here: false, session: 1 }), true);
     await wait(2000);
-    const late = new Page("p03", "Chidi");
+    const late = new Page(broker, "p03", "Chidi");
     await wait(1000);
     expect(ana.names).toEqual(["Ana", "Bo", "Chidi"]);
     expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
@@ -288,8 +201,8 @@ describe("one connection that breaks", () => {
 
 describe("the blackboard", () => {
   it("is the same for all, late ones and those who come back", async () => {
-    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
-    const bo = new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page(broker, "p02", "Bo");
     await wait(2000);
     expect(bo.client.mayChair).toBe(false);
     ana.client.draw("#ffd76a", 40, [0, 0, 0.5, 0.5]);
@@ -298,7 +211,7 @@ describe("the blackboard", () => {
     await wait(1000);
     for (const p of [ana, bo]) expect(p.client.board.strokes.length).toBe(3);
     bo.client.stop();
-    const again = new Page("p02", "Bo");
+    const again = new Page(broker, "p02", "Bo");
     await wait(2000);
     expect(again.client.board.strokes.length).toBe(3);
     again.client.undo();
@@ -322,8 +235,8 @@ describe("those who chair the room", () => {
   const told = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
   it("change its title, seats and lock, and leave all else as it is", async () => {
     broker.publish(`${TOPIC}/room`, toBytes(told), true);
-    const ana = new Page("p01", "Ana", ["speak", "board", "chair"]);
-    const bo = new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page(broker, "p02", "Bo");
     await wait(2000);
     // The second before the first has come back.
     const both = [ana.client.alter({ title: "Red", seats: 12 }), ana.client.alter({ locked: true })];
@@ -339,7 +252,7 @@ describe("those who chair the room", () => {
   });
   it("hear in words when the room does not take it", async () => {
     broker.publish(`${TOPIC}/room`, toBytes(told), true);
-    const ana = new Page("p01", "Ana", ["speak", "chair"]);
+    const ana = new Page(broker, "p01", "Ana", ["speak", "chair"]);
     await wait(2000);
     const publish = broker.publish.bind(broker);
     broker.publish = (topic, ...rest) => void (topic === `${TOPIC}/room` || publish(topic, ...rest)); // as one that drops it
@@ -354,8 +267,8 @@ describe("those who chair the room", () => {
 
 describe("a tracker on the same seat", () => {
   it("has its say; the page goes on to chat and to draw", async () => {
-    const ana = new Page("p01", "Ana");
-    const other = new Page("p02", "Bo");
+    const ana = new Page(broker, "p01", "Ana");
+    const other = new Page(broker, "p02", "Bo");
     await wait(2000);
     broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 77 }), true);
     const state = { session: 77, kind: "tracker", name: "Ana T", seat: 0, avatar: { look: "robot" } };
@@ -367,6 +280,47 @@ describe("a tracker on the same seat", () => {
     await wait(500);
     expect(other.said.at(-1)).toBe("Ana T: moving");
     broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: false, session: 77 }), true);
+    await wait(3000);
+    expect(other.names).toEqual(["Ana", "Bo"]);
+  });
+  it("is followed by the page when it vanishes, and has its say again when it was only late", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    const other = new Page(broker, "p02", "Bo");
+    await wait(2000);
+    const here = (yes: boolean) => toBytes({ here: yes, session: 77, ...(yes ? { every: 1.25 } : {}) });
+    const state = { session: 77, kind: "tracker", name: "Ana T", seat: 0, avatar: null };
+    const enter = () => {
+      broker.publish(`${TOPIC}/p/p01/presence`, here(true), true);
+      broker.publish(`${TOPIC}/p/p01/state`, toBytes(state), true);
+    };
+    const frame = (sequence: number) =>
+      encodeFrame({
+        tracked: true,
+        still: false,
+        session: 77,
+        sequence,
+        captured: BigInt(sequence * 33333),
+        hips: [0, 1, 0],
+        bones: [],
+      });
+    enter();
+    broker.publish(`${TOPIC}/p/p01/pose`, frame(1), false);
+    await wait(500);
+    expect(other.names).toEqual(["Ana T", "Bo"]);
+    await wait(6000);
+    expect(other.names).toEqual(["Ana", "Bo"]);
+    expect(ana.client.me!.other).toBeNull();
+    expect(other.said).toEqual(["* Ana came in.", "* Ana T left.", "* Ana came in."]);
+    broker.publish(`${TOPIC}/p/p01/pose`, frame(2), false);
+    await wait(100);
+    expect(ana.client.me!.other).toEqual({ session: 77, kind: "tracker" });
+    expect(broker.presenceOf("p01")).toEqual({ v: 1, here: false, session: expect.any(Number) });
+    enter(); // as trackers do that hear of it
+    await wait(500);
+    expect(other.names).toEqual(["Ana T", "Bo"]);
+    expect(other.said.length).toBe(3);
+    broker.publish(`${TOPIC}/p/p01/presence`, here(false), true);
+    broker.publish(`${TOPIC}/p/p01/pose`, frame(3), false); // was on its way
     await wait(3000);
     expect(other.names).toEqual(["Ana", "Bo"]);
   });

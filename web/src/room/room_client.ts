@@ -20,6 +20,7 @@ const GATHER = 12;
 /** Between messages with pages of the board, ms. */
 const PAGES = 200;
 const STEP = 500; // ms
+const JUST_NOW = 1e-3; // s
 /** Of one participant so much coming and going is told at once, and one more every so many seconds. */
 const NOTES = 6;
 const NOTE_EVERY = 20;
@@ -82,7 +83,8 @@ export class RoomClient {
         : null;
     this.link = new Link(dialer(this.me?.will ?? null), {
       state: (s) => this.linked(s),
-      message: (topic, payload) => this.hear(topic, payload),
+      message: (topic, payload, kept) => this.hear(topic, payload, kept),
+      alive: () => this.roster.alive(seconds()),
       pulse: () => this.me?.breathe(),
     });
   }
@@ -216,16 +218,25 @@ export class RoomClient {
     me.change({ ...me.state, seat: freeSeat(others, this.roster.room.seats, before) });
   }
 
-  private hear(topic: string, payload: Uint8Array): void {
+  private hear(topic: string, payload: Uint8Array, kept: boolean): void {
     const now = seconds();
     const place = parseTopic(this.base, topic);
-    if (this.me && place && "participant" in place && place.participant === this.me.id) {
-      if (place.kind === "state" || place.kind === "presence") {
-        this.me.hear(place.kind, payload);
-        this.listener.mine();
-      }
+    const own =
+      this.me && place && "participant" in place && place.participant === this.me.id ? place.kind : null;
+    if (own === "state" || own === "presence") {
+      this.me!.hear(own, payload);
+      this.listener.mine();
     }
-    for (const e of this.roster.hear(topic, payload, now)) this.happened(e, now);
+    for (const e of this.roster.hear(topic, payload, now, kept)) this.happened(e, now);
+    if (own === "pose") this.tracked(now);
+  }
+
+  private tracked(now: number): void {
+    const { id, other } = this.me!;
+    const stream = this.roster.get(id)?.stream;
+    if (!stream?.alive(now, JUST_NOW) || stream.playing === null) return;
+    this.me!.tracked(stream.playing);
+    if (this.me!.other !== other) this.listener.mine();
   }
 
   private happened(e: RoomEvent, now: number): void {
@@ -235,6 +246,10 @@ export class RoomClient {
         break;
       case "left":
         this.farewell(e.id);
+        if (e.id === this.me?.id && this.me.other) {
+          this.me.vanished();
+          this.listener.mine();
+        }
         break;
       case "changed":
         break;
@@ -294,7 +309,9 @@ export class RoomClient {
 
   private farewell(id: string): void {
     const unseen = this.greeted.delete(id);
-    if (!unseen && id !== this.me?.id) this.note(id, `${this.names.get(id) ?? id} left.`);
+    // Of whom only the broker had told may have gone long before.
+    const met = this.roster.get(id)?.met ?? false;
+    if (!unseen && met && id !== this.me?.id) this.note(id, `${this.names.get(id) ?? id} left.`);
     this.names.delete(id);
   }
 

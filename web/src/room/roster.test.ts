@@ -22,9 +22,14 @@ class Room {
   readonly roster = new Roster(BASE);
   now = 100;
 
-  say(id: string, what: string, payload: object | Uint8Array): RoomEvent[] {
+  say(id: string, what: string, payload: object | Uint8Array, kept = false): RoomEvent[] {
     const bytes = payload instanceof Uint8Array ? payload : toBytes(payload);
-    return this.roster.hear(`${BASE}/p/${id}/${what}`, bytes, this.now);
+    return this.roster.hear(`${BASE}/p/${id}/${what}`, bytes, this.now, kept);
+  }
+
+  /** What the broker has kept. */
+  kept(id: string, what: string, payload: object | Uint8Array): RoomEvent[] {
+    return this.say(id, what, payload, true);
   }
 
   enter(id: string, name: string, more: object = {}): RoomEvent[] {
@@ -114,26 +119,29 @@ describe("who is here", () => {
 
 describe("somebody who vanishes", () => {
   const breath = { here: true, session: 5, every: 2 };
-  /** Steps as the page does, twice a second; what happened. */
+  const CAME = [{ kind: "came", id: "p01" }];
+  const LEFT = [{ kind: "left", id: "p01" }];
+  /** Steps as the page does, twice a second, while the broker answers pings; what happened. */
   const pass = (r: Room, seconds: number, meanwhile?: () => void): RoomEvent[] => {
     const events: RoomEvent[] = [];
     for (const end = r.now + seconds; r.now < end;) {
       r.now += 0.5;
-      meanwhile?.();
+      if (meanwhile) meanwhile();
+      else if (r.now % 1.5 === 0) r.roster.alive(r.now);
       events.push(...r.roster.step(r.now));
     }
     return events;
   };
   it("is gone when three promised signs of life are missing, and back with the next", () => {
     const r = new Room();
-    expect(r.say("p01", "presence", breath)).toEqual([{ kind: "came", id: "p01" }]);
+    expect(r.say("p01", "presence", breath)).toEqual(CAME);
     expect(pass(r, 6)).toEqual([]);
-    expect(pass(r, 0.5)).toEqual([{ kind: "left", id: "p01" }]);
-    expect(r.say("p01", "presence", breath)).toEqual([{ kind: "came", id: "p01" }]);
-    expect(pass(r, 7)).toEqual([{ kind: "left", id: "p01" }]);
-    expect(r.say("p01", "pose", pose(0))).toEqual([{ kind: "came", id: "p01" }]);
+    expect(pass(r, 0.5)).toEqual(LEFT);
+    expect(r.say("p01", "presence", breath)).toEqual(CAME);
+    expect(pass(r, 7)).toEqual(LEFT);
+    expect(r.say("p01", "pose", pose(0))).toEqual(CAME);
     expect(pass(r, 6)).toEqual([]);
-    expect(pass(r, 0.5)).toEqual([{ kind: "left", id: "p01" }]);
+    expect(pass(r, 0.5)).toEqual(LEFT);
     expect(r.say("p01", "presence", { here: false, session: 5 })).toEqual([]);
   });
   it("is here while anything is heard, and without a promise for ever", () => {
@@ -161,15 +169,65 @@ describe("somebody who vanishes", () => {
     r.say("p01", "presence", breath);
     pass(r, 1);
     r.roster.connected(r.now);
-    r.say("p01", "presence", breath); // what the broker has kept
+    r.kept("p01", "presence", breath);
     expect(pass(r, COME_BACK)).toEqual([]);
-    expect(pass(r, 1)).toEqual([{ kind: "left", id: "p01" }]);
-  });
-  it("is gone as soon in the first seconds of a connection", () => {
-    const r = new Room();
+    expect(pass(r, 1)).toEqual(LEFT);
     r.roster.connected(r.now);
+    expect(r.kept("p01", "presence", breath)).toEqual([]); // nothing new of who has gone
+    expect(r.kept("p01", "presence", { ...breath, session: 6 })).toEqual(CAME);
+  });
+  it("is gone as soon in the first seconds of a connection, even when the broker has kept it", () => {
+    for (const kept of [true, false]) {
+      const r = new Room();
+      r.roster.connected(r.now);
+      expect(r.say("p01", "presence", breath, kept)).toEqual(CAME);
+      expect(pass(r, 7)).toEqual(LEFT);
+      expect(r.roster.get("p01")!.met).toBe(!kept);
+    }
+  });
+  it("is not anybody who was silent while the broker was, too: it is the connection that is dead", () => {
+    const r = new Room();
     r.say("p01", "presence", breath);
-    expect(pass(r, 7)).toEqual([{ kind: "left", id: "p01" }]);
+    expect(pass(r, 2)).toEqual([]);
+    expect(pass(r, 15, () => undefined)).toEqual([]);
+    r.roster.alive(r.now);
+    expect(r.roster.step(r.now)).toEqual([]);
+    expect(pass(r, 1)).toEqual([]);
+    expect(r.say("p01", "presence", breath)).toEqual([]);
+    expect(pass(r, 7)).toEqual(LEFT);
+  });
+  it("is back with anything said, not with what others clear or the broker has kept", () => {
+    const words: [string, object][] = [
+      ["chat", { id: "5-1", text: "hi" }],
+      ["board/0", { epoch: 0, strokes: [{ c: "#ffffff", w: 4, p: [1, 2, 3, 4] }] }],
+      ["state", { session: 5, kind: "browser", name: "Ana", seat: null, avatar: null }],
+      ["presence", breath],
+    ];
+    for (const [what, message] of words) {
+      const r = new Room();
+      r.say("p01", "presence", breath);
+      expect(pass(r, 7)).toEqual(LEFT);
+      expect(r.say("p01", what, { ...message, broken: undefined, v: 2 })).toEqual([]);
+      expect(r.say("p01", "state", NOTHING)).toEqual([]);
+      expect(r.say("p01", "board/0", NOTHING).filter((e) => e.kind === "came")).toEqual([]);
+      if (what !== "chat") expect(r.kept("p01", what, message).filter((e) => e.kind === "came")).toEqual([]);
+      expect(r.say("p01", what, message)[0]).toEqual(CAME[0]);
+    }
+  });
+  it("does not stay when an older session still says what was on its way", () => {
+    const r = new Room();
+    const tracker = { ...breath, session: 50, every: 1.25 };
+    r.say("p01", "presence", breath);
+    r.say("p01", "presence", tracker);
+    r.now += 0.1;
+    expect(r.say("p01", "presence", breath)).toEqual([]); // a page's, that has not yet heard of the tracker
+    expect(r.roster.get("p01")).toMatchObject({ presence: 50, every: 1.25 });
+    expect(r.say("p01", "presence", { here: false, session: 50 })).toEqual(LEFT);
+    expect(r.say("p01", "presence", breath)).toEqual(CAME);
+    r.say("p01", "presence", tracker);
+    pass(r, 2, () => r.roster.alive(r.now));
+    r.say("p01", "presence", breath);
+    expect(r.roster.get("p01")).toMatchObject({ presence: 5, every: 2 });
   });
 });
 

@@ -23,6 +23,10 @@ const UNTOLD = 5;
 const MISSED = 3;
 /** A page that stood still heard nothing: of the time between two of its steps so much counts, s. */
 const LONGEST_STEP = 1;
+/** Nor did one whose connection is dead and not known to be: so long after the broker's last word time counts, s. */
+const DEAF = 2;
+/** What a session still says so soon after another has taken its place was on its way, s. */
+const LEFTOVERS = 1;
 /** After a lost connection the others, whose connection may be lost too, have so long to come back, s. */
 export const COME_BACK = 25;
 
@@ -36,6 +40,10 @@ export interface Participant {
   every: number | null;
   /** When it said something last, s of the roster's own clock. */
   heard: number;
+  /** It said something while this page was there: not all that is known of it is what the broker kept. */
+  met: boolean;
+  /** The session whose place another has taken last. */
+  replaced: { session: number; at: number } | null;
   here: boolean;
   /** Its presence was told since the connection is there. */
   confirmed: boolean;
@@ -71,8 +79,10 @@ export class Roster {
   private deadline = Infinity;
   /** Until then nobody is taken for gone because of silence. */
   private patientUntil = -Infinity;
-  /** A clock that stands still while this page does. */
-  private awake = { seconds: 0, at: -Infinity };
+  /** A clock that stands still while this page does, or hears nothing of the broker. */
+  private awake = { seconds: 0, at: 0 };
+  /** When the broker was heard last. */
+  private brokerHeard = -Infinity;
 
   constructor(private readonly base: string) {}
 
@@ -97,8 +107,15 @@ export class Roster {
     );
   }
 
-  /** A message of the broker; `now` in s of our clock. */
-  hear(topic: string, payload: Uint8Array, now: number): RoomEvent[] {
+  /** Anything came from the broker, if only an answer to a ping; `now` in s of our clock, here and below. */
+  alive(now: number): void {
+    this.tick(now);
+    this.brokerHeard = now;
+  }
+
+  /** A message of the broker. `kept`: not said now, but what it has kept for those who come. */
+  hear(topic: string, payload: Uint8Array, now: number, kept = false): RoomEvent[] {
+    this.alive(now);
     const place = parseTopic(this.base, topic);
     if (!place) {
       this.ignored++;
@@ -110,18 +127,18 @@ export class Roster {
       this.ignored++;
       return [];
     }
-    p.heard = this.tick(now);
+    if (!kept) p.met = true;
     switch (place.kind) {
       case "pose":
-        return p.stream.hear(payload, now) === "taken" ? this.look(p, now) : [];
+        return p.stream.hear(payload, now) === "taken" ? this.saidSomething(p, now) : [];
       case "state":
-        return this.hearState(p, payload, now);
+        return this.hearState(p, payload, now, kept);
       case "presence":
-        return this.hearPresence(p, payload, now);
+        return this.hearPresence(p, payload, now, kept);
       case "chat": {
         const message = readChat(payload);
         if (!message) p.refused++;
-        return message ? [{ kind: "said", id: p.id, message }] : [];
+        return message ? [...this.saidSomething(p, now), { kind: "said", id: p.id, message }] : [];
       }
       case "board": {
         const content = payload.byteLength ? readBoard(payload) : null;
@@ -129,9 +146,16 @@ export class Roster {
           p.refused++;
           return [];
         }
-        return [{ kind: "page", id: p.id, page: place.page, content }];
+        const event: RoomEvent = { kind: "page", id: p.id, page: place.page, content };
+        return kept || !content ? [event] : [...this.saidSomething(p, now), event];
       }
     }
+  }
+
+  /** A sign of life. What is kept is none, nor what is cleared: others may do that for somebody who has gone. */
+  private saidSomething(p: Participant, now: number): RoomEvent[] {
+    p.heard = this.awake.seconds;
+    return this.look(p, now);
   }
 
   /** Who has gone without a word. To be asked while the room is connected. */
@@ -174,7 +198,9 @@ export class Roster {
       state: null,
       presence: null,
       every: null,
-      heard: 0,
+      heard: this.awake.seconds,
+      met: false,
+      replaced: null,
       here: false,
       confirmed: false,
       refused: 0,
@@ -193,7 +219,7 @@ export class Roster {
     return [{ kind: "room" }];
   }
 
-  private hearState(p: Participant, payload: Uint8Array, now: number): RoomEvent[] {
+  private hearState(p: Participant, payload: Uint8Array, now: number, kept: boolean): RoomEvent[] {
     const state = payload.byteLength ? readState(payload) : null;
     if (payload.byteLength && !state) {
       p.refused++;
@@ -202,26 +228,31 @@ export class Roster {
     // An empty one comes when somebody leaves: their name is still needed to say so.
     if (!state && p.here) return [];
     p.state = state;
-    const seen = this.look(p, now);
+    const seen = state && !kept ? this.saidSomething(p, now) : this.look(p, now);
     return seen.length || !p.here ? seen : [{ kind: "changed", id: p.id }];
   }
 
-  private hearPresence(p: Participant, payload: Uint8Array, now: number): RoomEvent[] {
+  private hearPresence(p: Participant, payload: Uint8Array, now: number, kept: boolean): RoomEvent[] {
     const m = payload.byteLength ? readPresence(payload) : null;
     if (payload.byteLength && !m) {
       p.refused++;
       return [];
     }
-    if (m?.here) {
-      p.presence = m.session;
-      p.every = m.every;
-      p.confirmed = true;
-    } else {
+    if (!m?.here) {
       // Of an older session: the newer one stays. An empty one clears whoever is there.
       if (!m || m.session === p.presence) p.presence = null;
       if (m) p.stream.leave(m.session, now);
+      return this.look(p, now);
     }
-    return this.look(p, now);
+    const late = p.replaced?.session === m.session && now < p.replaced.at + LEFTOVERS;
+    if (m.session !== p.presence && !(late && p.here)) {
+      if (p.presence !== null) p.replaced = { session: p.presence, at: now };
+      p.presence = m.session;
+      p.heard = this.awake.seconds; // even when it is kept: nobody knows for how long
+    }
+    if (m.session === p.presence) p.every = m.every;
+    p.confirmed = true;
+    return kept ? this.look(p, now) : this.saidSomething(p, now);
   }
 
   private look(p: Participant, now: number): RoomEvent[] {
@@ -232,12 +263,12 @@ export class Roster {
   }
 
   private silent(p: Participant, now: number): boolean {
-    return p.every !== null && now > this.patientUntil && this.awake.seconds - p.heard > MISSED * p.every;
+    if (p.every === null || this.awake.seconds - p.heard <= MISSED * p.every) return false;
+    return !p.here || now > this.patientUntil;
   }
 
-  private tick(now: number): number {
-    const step = now - this.awake.at;
+  private tick(now: number): void {
+    const step = Math.min(now, this.brokerHeard + DEAF) - this.awake.at;
     this.awake = { seconds: this.awake.seconds + Math.min(Math.max(step, 0), LONGEST_STEP), at: now };
-    return this.awake.seconds;
   }
 }

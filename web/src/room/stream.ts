@@ -79,9 +79,14 @@ export class PoseStream {
 
   /** Whether frames came within the last `seconds` from a publisher that has not left. */
   alive(now: number, seconds: number): boolean {
-    if (this.left && this.left.session === this.session) return false;
+    if (this.playing === null) return false;
     const silent = this.arrivals.silent(now);
     return silent !== null && silent < seconds;
+  }
+
+  /** The session whose frames are taken, when that has not left; null when none is. */
+  get playing(): number | null {
+    return this.left && this.left.session === this.session ? null : this.session;
   }
 
   /** The pose to be shown. */
