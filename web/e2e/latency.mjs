@@ -12,26 +12,34 @@ const { page, close } = await openPage(browser, program, {
   viewport: { width: 1280, height: 800 },
   deviceScaleFactor: 1,
 });
-let status = null;
 await hasAvatar(page, "Plain");
 await inPhase(page, "tracking");
-const session = await page.context().newCDPSession(page);
-await session.send("Network.enable");
-session.on("Network.webSocketFrameReceived", ({ response }) => {
-  if (response.opcode === 1 && response.payloadData.includes('"type":"status"')) {
-    status = JSON.parse(response.payloadData);
-  }
-});
-const drawnBefore = await page.evaluate(() => window.telemime.counters.drawnSent);
+const whole = await browser.newBrowserCDPSession();
+/** Processor time of all processes of the browser, s. */
+const browserTime = async () =>
+  (await whole.send("SystemInfo.getProcessInfo")).processInfo.reduce((sum, p) => sum + p.cpuTime, 0);
+const drawnSoFar = () => page.evaluate(() => window.telemime.counters.drawnSent);
+const [drawnBefore, timeBefore, begin] = [await drawnSoFar(), await browserTime(), performance.now()];
 await page.waitForTimeout(seconds * 1000);
-const drawn = (await page.evaluate(() => window.telemime.counters.drawnSent)) - drawnBefore;
+const [drawnAfter, timeAfter, end] = [await drawnSoFar(), await browserTime(), performance.now()];
+const drawn = (1000 * (drawnAfter - drawnBefore)) / (end - begin);
+const cores = (1000 * (timeAfter - timeBefore)) / (end - begin);
+// Only now: to look into all that comes costs time, too.
+const session = await page.context().newCDPSession(page);
+const status = await new Promise((resolve) => {
+  session.on("Network.webSocketFrameReceived", ({ response }) => {
+    if (response.opcode !== 1 || !response.payloadData.includes('"type":"status"')) return;
+    resolve(JSON.parse(response.payloadData));
+  });
+  void session.send("Network.enable");
+});
 await close();
 await browser.close();
 await program.stop();
 
 const { ms, latency, fps, cpu, dropped } = status;
 const load = readFileSync("/proc/loadavg", "utf8").split(" ")[0];
-console.log(`frames: camera ${fps.input}, tracked ${fps.tracked}, drawn ${(drawn / seconds).toFixed(1)} a second; ${dropped} dropped
+console.log(`frames: camera ${fps.input}, tracked ${fps.tracked}, drawn ${drawn.toFixed(1)} a second; ${dropped} dropped
 ms: wait ${ms.wait}, features ${ms.features}, queue ${ms.queue}, search ${ms.search}; camera to pose ${ms.total}
 camera to avatar drawn: median ${latency.median}, 95 % ${latency.p95} ms
-processor: ${cpu} cores of the program; load of the machine ${load}`);
+processor: ${cpu} cores of the program, ${cores.toFixed(2)} of the browser; load of the machine ${load}`);

@@ -1,35 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // The place where the avatar stands: light, floor, camera, and the loop's one step.
 
-import {
-  CircleGeometry,
-  DirectionalLight,
-  HemisphereLight,
-  Mesh,
-  MeshBasicMaterial,
-  PerspectiveCamera,
-  Scene,
-  Spherical,
-  Vector3,
-} from "three";
+import { PerspectiveCamera, Scene, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { drawsInSoftware } from "../graphics";
 import type { Shown } from "./driver";
 import type { Avatar } from "./load";
 import { Painter } from "./painter";
-import { spot } from "./spot";
+import { SoftBody, isPlain } from "./soft_body";
+import { SoftPainter } from "./soft_painter";
+import { FLOOR, LIGHT, SHADOW, lights, spotMesh } from "./surroundings";
 
 const FOV = 26; // degrees, vertical
 const SLOW_BREATH = 0.1; // s between pictures of an avatar at rest, in software
 
 export class Stage {
   /** Every picture costs a lot: fewer and coarser ones. */
-  readonly software: boolean;
-  private readonly painter: Painter;
+  readonly software = drawsInSoftware();
+  /** Without a graphics card: draws plain bodies. */
+  private readonly soft: SoftPainter | null = null;
+  /** Draws everything; without a graphics card it is there once it was needed, on a canvas of its own. */
+  private painter: Painter | null = null;
+  private over: HTMLCanvasElement | null = null;
+  private body: SoftBody | null = null;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FOV, 1, 0.05, 60);
   private readonly controls: OrbitControls;
-  private readonly floor: Mesh<CircleGeometry, MeshBasicMaterial>;
-  private readonly shadow: Mesh<CircleGeometry, MeshBasicMaterial>;
+  private readonly shadow = spotMesh(SHADOW, -1);
   private readonly scratch = new Vector3();
   private avatar: Avatar | null = null;
   private dirty = true;
@@ -39,34 +36,14 @@ export class Stage {
   private lastDraw = 0;
 
   /** Throws when the browser has no WebGL. */
-  constructor(canvas: HTMLCanvasElement, box: HTMLElement) {
-    this.painter = new Painter(canvas, box, (aspect) => this.resized(aspect));
-    this.software = this.painter.software;
-
-    const key = new DirectionalLight(0xffffff, 2.2);
-    key.position.set(0.8, 1.6, 2.2);
-    const rim = new DirectionalLight(0xdfe9ff, 0.7);
-    rim.position.set(-1.5, 1.2, -1.8);
-    this.scene.add(new HemisphereLight(0xffffff, 0x8a8f98, 1.35), key, rim);
-
-    const flat = { transparent: true, depthWrite: false };
-    this.floor = new Mesh(
-      new CircleGeometry(1.3, 48),
-      new MeshBasicMaterial({
-        ...flat,
-        map: spot("rgba(255,255,255,1)", "rgba(255,255,255,0)", 8),
-        opacity: 0.16,
-      }),
-    );
-    this.shadow = new Mesh(
-      new CircleGeometry(0.42, 32),
-      new MeshBasicMaterial({ ...flat, map: spot("rgba(0,0,0,0.55)", "rgba(0,0,0,0)", 2) }),
-    );
-    for (const m of [this.floor, this.shadow]) m.rotation.x = -Math.PI / 2;
-    this.shadow.position.y = 0.002;
-    this.floor.renderOrder = -2;
-    this.shadow.renderOrder = -1;
-    this.scene.add(this.floor, this.shadow);
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly box: HTMLElement,
+  ) {
+    const resized = (aspect: number): void => this.resized(aspect);
+    if (this.software) this.soft = new SoftPainter(canvas, box, resized);
+    else this.painter = new Painter(canvas, box, resized);
+    this.scene.add(...lights(), spotMesh(FLOOR, -2), this.shadow);
 
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
@@ -75,7 +52,7 @@ export class Stage {
     this.controls.addEventListener("change", () => (this.dirty = true));
     this.controls.addEventListener("start", () => (this.touched = true));
     canvas.addEventListener("keydown", (e) => this.key(e));
-    this.painter.resize();
+    (this.soft ?? this.painter)!.resize();
     this.resetView();
   }
 
@@ -84,21 +61,36 @@ export class Stage {
   }
 
   get pictures(): number {
-    return this.painter.pictures;
+    return (this.soft?.pictures ?? 0) + (this.painter?.pictures ?? 0);
   }
 
   get ratio(): number {
-    return this.painter.ratio;
+    return (this.body ? this.soft : this.painter)?.ratio ?? 0;
   }
 
   setAvatar(avatar: Avatar): void {
     if (this.avatar) {
       this.scene.remove(this.avatar.scene);
+      this.body?.dispose();
       this.avatar.dispose();
     }
     this.avatar = avatar;
     this.scene.add(avatar.scene);
+    this.body = this.soft && isPlain(avatar.scene) ? new SoftBody(avatar.scene) : null;
+    if (this.soft) this.chooseCanvas();
     this.resetView();
+  }
+
+  /** Without a graphics card: the page's canvas is for plain bodies, another one over it for the others. */
+  private chooseCanvas(): void {
+    if (!this.body) this.soft!.clear();
+    if (!this.body && !this.over) {
+      this.over = document.createElement("canvas");
+      this.canvas.after(this.over);
+      this.painter = new Painter(this.over, this.box, (aspect) => this.resized(aspect));
+      this.painter.resize();
+    }
+    if (this.over) this.over.hidden = this.body !== null;
   }
 
   /** From the front, the upper body and raised hands in the picture. */
@@ -166,7 +158,7 @@ export class Stage {
 
   /** Waits until the last picture is drawn, where the browser draws in software. */
   settle(): void {
-    this.painter.settle();
+    if (!this.body) this.painter?.settle();
   }
 
   /** Shows this; true when a picture was drawn (nothing is drawn when nothing moved). `now` in seconds. */
@@ -175,7 +167,7 @@ export class Stage {
     this.lastStep = now;
     const inARow = this.drewLast;
     this.drewLast = false;
-    if (this.painter.blind || !this.avatar) return false;
+    if (!this.avatar || (!this.body && this.painter?.blind)) return false;
     if (!shown.moving && !this.dirty && !this.avatar.hasSprings) return false;
     if (this.software && shown.rest === 1 && !this.dirty && now - this.lastDraw < SLOW_BREATH) return false;
     const dt = Math.min(0.1, now - this.lastDraw);
@@ -184,9 +176,19 @@ export class Stage {
     const hips = this.avatar.hipsPosition(this.scratch);
     this.shadow.position.x = hips.x;
     this.shadow.position.z = hips.z;
-    this.painter.draw(this.scene, this.camera, inARow ? since : null);
+    this.paint(hips, inARow ? since : null);
     this.dirty = false;
     this.drewLast = true;
     return true;
+  }
+
+  private paint(hips: Vector3, since: number | null): void {
+    if (this.body) {
+      this.body.update(LIGHT, hips);
+      const spots = [FLOOR, { ...SHADOW, x: hips.x, z: hips.z }];
+      this.soft!.draw(spots, this.body.surfaces, this.camera, since);
+    } else {
+      this.painter!.draw(this.scene, this.camera, since);
+    }
   }
 }

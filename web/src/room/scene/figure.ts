@@ -4,12 +4,12 @@
 import { Group, Vector3, type Object3D } from "three";
 import type { Avatar } from "../../avatar/load";
 import { relaxedFingers } from "../../avatar/rest";
+import { SoftBody } from "../../avatar/soft_body";
 import { angleBetween, IDENTITY, type Quat, type Vec3 } from "../../quaternion";
 import type { Place } from "../seats";
 import { legsFor, legsOf, restBlend, seatedRest, seatedSway, sit, type Seated } from "../sitting";
 import type { StreamPose } from "../stream";
 import type { Light } from "./light";
-import { SoftBody } from "./soft_body";
 
 const STILL = 2e-4; // rad: below it nothing can be seen to move
 const BACK = 0.05; // m: hips are this far behind the middle of the seat

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { Matrix4, Vector3 } from "three";
-import { lightOf, shine } from "./light";
-import { DAY } from "./palette";
+import { shine } from "./light";
 import { MATRIX, putMatrix, skin, tidyWeights, type RestSurface } from "./skinning";
-
-const LIGHT = lightOf(DAY);
+import { LIGHT } from "./surroundings";
 
 function surface(bone: number[], weight: number[]): RestSurface {
   return {

@@ -7,10 +7,12 @@ import {
   BufferGeometry,
   Color,
   DynamicDrawUsage,
+  FrontSide,
   Group,
   Matrix3,
   Mesh,
   MeshBasicMaterial,
+  MeshLambertMaterial,
   SkinnedMesh,
   Sphere,
   Vector3,
@@ -21,6 +23,7 @@ import {
 } from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import type { Light } from "./light";
+import type { Surface } from "./raster";
 import { INFLUENCES, MATRIX, putMatrix, skin, tidyWeights, type RestSurface } from "./skinning";
 
 /** Around a seated figure, m: what is not in the picture is not drawn. */
@@ -166,6 +169,15 @@ function restsOf(meshes: readonly Mesh[], first: ReadonlyMap<Lead, number>): Res
   return rests;
 }
 
+/** Whether nothing is lost when a body is but coloured triangles: no pictures on it, no toon shading, no own shape. */
+export function isPlain(root: Object3D): boolean {
+  return meshesOf(root).every(({ material: m, morphTargetInfluences }) => {
+    if (!(m instanceof MeshLambertMaterial) || morphTargetInfluences?.some((w) => w !== 0)) return false;
+    const pictures = m.map || m.alphaMap || m.emissiveMap;
+    return !pictures && !m.vertexColors && !m.transparent && m.alphaTest === 0 && m.side === FrontSide;
+  });
+}
+
 export class SoftBody {
   /** To be put in the scene itself: its corners are in the world. */
   readonly object = new Group();
@@ -208,6 +220,15 @@ export class SoftBody {
     mesh.matrixAutoUpdate = false;
     this.object.add(mesh);
     return { rest, mesh, position, colour };
+  }
+
+  /** Of a plain body: what it looks like since the last update(). */
+  get surfaces(): Surface[] {
+    return this.parts.map(({ rest, position, colour }) => ({
+      index: rest.index.array,
+      position: position.array as Float32Array,
+      colour: colour.array as Float32Array,
+    }));
   }
 
   /** After the bones have moved. `middle`: about the figure's, m. */
