@@ -171,6 +171,7 @@ std::string SessionWriter::encoded(std::deque<SessionRecord>& records) {
 }
 
 void SessionWriter::run() {
+  SteadyClock::time_point wrote = SteadyClock::now();
   std::unique_lock lock(mutex_);
   for (;;) {
     // Nothing for a while: what there is shall be on the disk.
@@ -185,8 +186,10 @@ void SessionWriter::run() {
     std::optional<std::string> failure;
     try {
       written = encoded(records);
-      if (!written.empty() || records.empty()) {  // else it would say: to the disk
+      // Nothing says: to the disk.
+      if (!written.empty() || records.empty() || SteadyClock::now() - wrote > kToDisk) {
         write_(written);
+        wrote = SteadyClock::now();
       }
     } catch (const std::exception& e) {
       failure = e.what();

@@ -159,6 +159,44 @@ describe("this page as a participant", () => {
     me.leave();
     expect(take()).toEqual([]);
   });
+  it("gives the place back to a tracker that says so before its frames come, or whose will came late", () => {
+    for (const why of ["silent", "late will"]) {
+      const { me, take } = make();
+      me.connected(7);
+      me.hear("presence", presence(true, 50));
+      me.hear("state", tracker(50));
+      me.settled();
+      if (why === "silent") me.vanished();
+      else me.hear("presence", presence(false, 50)); // of its older connection
+      expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+      me.hear("presence", presence(true, 50));
+      expect(take()).toEqual(["presence false 7"]);
+      me.hear("presence", presence(false, 7));
+      me.hear("presence", presence(true, 50)); // and its state: it has heard that it is gone
+      me.tracked(50);
+      me.breathe();
+      expect(take()).toEqual([]);
+      me.hear("presence", presence(false, 50));
+      expect(take()).toEqual(["presence true 7", "state Ana 7"]);
+    }
+  });
+  it("is silent while a tracker speaks, whatever other windows say", () => {
+    const { me, take } = make();
+    me.connected(9);
+    me.settled();
+    take();
+    me.tracked(50);
+    expect(take()).toEqual(["presence false 9"]);
+    for (const here of [true, false]) me.hear("presence", presence(here, 7));
+    me.tracked(50);
+    me.breathe();
+    expect(take()).toEqual([]);
+    me.tracked(51); // started anew
+    me.hear("presence", presence(false, 50)); // the will of the old one
+    expect(take()).toEqual([]);
+    me.hear("presence", presence(false, 51));
+    expect(take()).toEqual(["presence true 9", "state Ana 9"]);
+  });
   it("says nothing after goodbye", () => {
     const { me, take } = make();
     me.connected(7);

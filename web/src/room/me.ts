@@ -27,6 +27,8 @@ type Tell = (topic: string, payload: Uint8Array, keep: boolean) => void;
 export class Me {
   /** Another client of this participant is here and has its say: a tracker, or another window. */
   other: { session: number; kind: StateMessage["kind"] | null } | null = null;
+  /** Whose place this page has taken: they may have been only late. */
+  private missed: number | null = null;
   private here = false;
   private ready = false;
   private session = 0;
@@ -63,18 +65,14 @@ export class Me {
 
   /** Frames of this participant were taken: pages send none, so that a tracker is there. */
   tracked(session: number): void {
-    if (this.other?.session === session && this.other.kind !== null) return;
-    const spoke = this.speaks;
-    this.other = { session, kind: "tracker" };
-    // It was taken for gone, as this page took its place: it tells anew who it is when it hears this.
-    if (spoke) this.goodbye();
+    const known = this.other?.session === session && this.other.kind === "tracker";
+    if (!known) this.other = { session, kind: "tracker" };
+    this.makeRoom();
   }
 
   /** The others take whoever speaks for this seat for gone, who has not said goodbye. */
   vanished(): void {
-    if (!this.other) return;
-    this.other = null;
-    if (this.ready) this.announce();
+    if (this.other) this.takeOver();
   }
 
   /** A message on this participant's own state or presence topic. */
@@ -88,14 +86,16 @@ export class Me {
     const m = readPresence(payload);
     if (m?.here) {
       if (this.mine.has(m.session)) return; // one's own words
+      // Another window: the tracker speaks for all of them.
+      if (this.other?.kind === "tracker" && m.session !== this.other.session) return;
       const known = this.stated?.session === m.session ? this.stated.kind : null;
       this.other = { session: m.session, kind: known };
+      if (m.session === this.missed) this.makeRoom();
       return;
     }
     // Somebody has gone, or was thought to have: this page is still here.
     if (m && this.other && m.session !== this.other.session) return;
-    this.other = null;
-    if (this.ready) this.announce();
+    this.takeOver();
   }
 
   /** The person has chosen something else. */
@@ -129,6 +129,17 @@ export class Me {
     const o = this.other;
     // Two windows that came in the same moment have both stepped back for each other: one of them goes on.
     return this.here && (!o || (o.kind !== "tracker" && o.session < this.session));
+  }
+
+  private takeOver(): void {
+    this.missed = this.other?.session ?? null;
+    this.other = null;
+    if (this.ready) this.announce();
+  }
+
+  /** For somebody who was here all the time, and who says anew who they are when they hear that this page goes. */
+  private makeRoom(): void {
+    if (this.here) this.goodbye();
   }
 
   private goodbye(): void {

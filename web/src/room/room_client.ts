@@ -85,7 +85,10 @@ export class RoomClient {
       state: (s) => this.linked(s),
       message: (topic, payload, kept) => this.hear(topic, payload, kept),
       alive: () => this.roster.alive(seconds()),
-      pulse: () => this.me?.breathe(),
+      pulse: () => {
+        this.step(); // in a hidden page the other timer may rest
+        this.me?.breathe();
+      },
     });
   }
 
@@ -246,10 +249,6 @@ export class RoomClient {
         break;
       case "left":
         this.farewell(e.id);
-        if (e.id === this.me?.id && this.me.other) {
-          this.me.vanished();
-          this.listener.mine();
-        }
         break;
       case "changed":
         break;
@@ -298,6 +297,10 @@ export class RoomClient {
     if (this.link.state.kind !== "open") return;
     for (const e of this.roster.step(now)) this.happened(e, now);
     if (!this.everSettled) return;
+    if (this.settled && this.me?.other && !this.roster.get(this.me.id)?.here) {
+      this.me.vanished();
+      this.listener.mine();
+    }
     if (this.outbox.waiting.length > this.sending.size) this.sendChat();
     for (const [id, since] of [...this.greeted]) {
       // Whose name is not known yet gets a moment to tell it.

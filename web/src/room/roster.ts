@@ -245,7 +245,7 @@ export class Roster {
       return this.look(p, now);
     }
     const late = p.replaced?.session === m.session && now < p.replaced.at + LEFTOVERS;
-    if (m.session !== p.presence && !(late && p.here)) {
+    if (m.session !== p.presence && !(late && p.here && p.presence !== null)) {
       if (p.presence !== null) p.replaced = { session: p.presence, at: now };
       p.presence = m.session;
       p.heard = this.awake.seconds; // even when it is kept: nobody knows for how long

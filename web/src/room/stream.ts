@@ -74,6 +74,8 @@ export class PoseStream {
 
   /** The publisher of that session has said that it leaves, or the broker has said so for it. */
   leave(session: number, now: number): void {
+    // Somebody without frames leaves after the tracker: its last ones are still over.
+    if (session !== this.session && this.left?.session === this.session) return;
     this.left = { session, at: now };
   }
 

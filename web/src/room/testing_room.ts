@@ -10,7 +10,7 @@ export const TOPIC = "r/lab/main";
 /** A broker in memory: keeps what is retained, tells everybody, speaks last wills. */
 export class FakeBroker {
   readonly kept = new Map<string, Uint8Array>();
-  private readonly there = new Set<{ events: WireEvents; will: (() => void) | null }>();
+  private readonly there = new Set<{ topic: string; events: WireEvents; will: (() => void) | null }>();
   up = true;
   told = 0; // what is kept
   deaf = false; // takes everything, says nothing
@@ -20,6 +20,7 @@ export class FakeBroker {
     (session, events) => {
       const one = {
         events,
+        topic: will?.topic ?? "",
         will: will && (() => this.publish(will.topic, will.payload(session), true)),
       };
       queueMicrotask(() => {
@@ -83,9 +84,9 @@ export class FakeBroker {
     this.there.delete([...this.there].at(-1)!);
   }
 
-  /** The newest connection breaks. */
-  cut(): void {
-    const one = [...this.there].at(-1)!;
+  /** The newest connection breaks; or that of a participant. */
+  cut(id = ""): void {
+    const one = [...this.there].filter((o) => o.topic.includes(`/${id}`)).at(-1)!;
     this.there.delete(one);
     one.events.closed({ refused: false, words: "lost" });
     one.will?.();
