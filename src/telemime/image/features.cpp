@@ -237,6 +237,10 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   Pictures p = pictures_of(frame);
   Observation out;
   const std::optional<TrackedFace> face = head_.update(p.face, search_area(p), face_test(p));
+  if (face && head_.replaced()) {
+    // The outline led so far: the head is as large as it was, around another square.
+    shape_ = carried(shape_, *head_.replaced(), *face);
+  }
   out.head = region_of(face, p);
   const BackgroundEnergy background = background_of(p, out.head);
   if (out.head && !stands_out(background, *out.head)) {

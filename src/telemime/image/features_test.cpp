@@ -186,5 +186,40 @@ TEST(FeatureExtractor, FindsTheEmptyStartOfAClip) {
   EXPECT_TRUE(features.status().person);
 }
 
+TEST(FeatureExtractor, AHeadKeepsItsSizeWhenItsFaceIsFirstSeen) {
+  const std::filesystem::path clip = data_folder() / "dev_practical/enter_leave/video.mp4";
+  if (!std::filesystem::exists(clip)) {
+    GTEST_SKIP() << "no test clip at " << clip;
+  }
+  const auto frames = frames_of(clip, 76);
+  ImageConfig config;
+  config.width = 320;
+  config.height = 240;
+  FeatureExtractor features(config);
+  features.bootstrap(frames);
+  // Walking in, seen from the side: the outline leads until the detector knows the face.
+  std::size_t f = 35;
+  while (f < frames.size() && !features.begin_person(frames[f]).accepted) {
+    ++f;
+  }
+  ASSERT_LT(f, 50U);
+  bool by_outline = false;
+  bool by_face = false;
+  double before = 0.0;
+  for (; f < frames.size(); ++f) {
+    const Observation seen = features.extract(frames[f]);
+    ASSERT_TRUE(seen.head.has_value()) << f;
+    by_outline = by_outline || !seen.head->detected;
+    by_face = by_face || (by_outline && seen.head->detected);
+    const double area = seen.head->radii.x() * seen.head->radii.y();
+    if (before > 0.0) {
+      EXPECT_NEAR(area / before, 1.0, 0.2) << f;
+    }
+    before = area;
+  }
+  EXPECT_TRUE(by_outline);
+  EXPECT_TRUE(by_face);
+}
+
 }  // namespace
 }  // namespace telemime

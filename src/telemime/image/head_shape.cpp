@@ -10,6 +10,19 @@
 namespace telemime {
 namespace {
 
+// What a HeadShape may hold.
+struct Range {
+  double least;
+  double most;
+};
+constexpr Range kShift{-0.25, 0.25};
+constexpr Range kHalfWidth{0.34, 0.62};
+constexpr Range kCrown{0.5, 1.0};
+
+double within(const Range& range, double value) {
+  return std::clamp(value, range.least, range.most);
+}
+
 std::optional<double> quantile(std::vector<double> values, double share) {
   if (values.size() < 3) {
     return std::nullopt;
@@ -127,6 +140,15 @@ HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double s
   return head;
 }
 
+HeadShape carried(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to) {
+  const double larger = from.side / to.side;
+  HeadShape out = shape;
+  out.shift = within(kShift, shape.shift * larger + (from.centre.x - to.centre.x) / to.side);
+  out.half_width = within(kHalfWidth, shape.half_width * larger);
+  out.crown = within(kCrown, shape.crown * larger - (from.centre.y - to.centre.y) / to.side);
+  return out;
+}
+
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate) {
   // Pixels of a side, from the region that the shape made.
   const double side_x = head.radii.x() / shape.half_width;
@@ -171,17 +193,17 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
   // The square's centre, in working pixels.
   const double face_x = head.centre.x() - shape.shift * side_x;
   const double face_y = head.centre.y() - 0.5 * (shape.chin - shape.crown) * side_y;
-  const auto move = [rate](double& value, double measured, double least, double most) {
-    value += rate * (std::clamp(measured, least, most) - value);
+  const auto move = [rate](double& value, double measured, const Range& range) {
+    value += rate * (within(range, measured) - value);
   };
   if (const auto top = quantile(tops, 0.7)) {
-    move(out.crown, (face_y - (head.centre.y() - *top)) / side_y, 0.5, 1.0);
+    move(out.crown, (face_y - (head.centre.y() - *top)) / side_y, kCrown);
   }
   const auto left = quantile(lefts, 0.4);
   const auto right = quantile(rights, 0.6);
   if (left && right) {
-    move(out.shift, (0.5 * (*left + *right) - face_x) / side_x, -0.25, 0.25);
-    move(out.half_width, 0.5 * (*right - *left) / side_x, 0.34, 0.62);
+    move(out.shift, (0.5 * (*left + *right) - face_x) / side_x, kShift);
+    move(out.half_width, 0.5 * (*right - *left) / side_x, kHalfWidth);
   }
   return out;
 }

@@ -25,6 +25,10 @@ HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double s
 /// `head`, the region that `shape` gave. Rows and columns where something else touches the head are left out.
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate);
 
+/// The shape around the square `to` of the head that `shape` had around the square `from`, within what heads
+/// may have.
+HeadShape carried(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to);
+
 /// The head of an upright person whose face is not seen (turned away, a mask, too small), from the outline
 /// alone: the top of the largest piece of the silhouette, down to where it widens into shoulders. Working
 /// pixels, not `detected`. Nothing when no such shape is there.

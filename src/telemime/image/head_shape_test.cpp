@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -36,6 +37,32 @@ TEST(HeadShape, SquareAndEllipseAreInverse) {
   EXPECT_NEAR(square.x + 0.5 * (square.width - 1), 100.25, 1e-9);
   EXPECT_NEAR(square.y + 0.5 * (square.height - 1), 60.5, 1e-9);
   EXPECT_TRUE(head.detected);
+}
+
+TEST(HeadShape, CarriedToAnotherSquareItIsTheSameHead) {
+  const HeadShape shape{-0.05, 0.48, 0.72, 0.57};
+  const TrackedFace outline{{100.0, 60.0}, 40.0, false, 1.0};
+  const TrackedFace seen{{96.0, 63.0}, 33.0, true, 1.0};
+  const HeadRegion before = head_region(outline, shape, 0.5, 0.5);
+  const HeadRegion after = head_region(seen, carried(shape, outline, seen), 0.5, 0.5);
+  EXPECT_NEAR(after.centre.x(), before.centre.x(), 1e-9);
+  EXPECT_NEAR(after.radii.x(), before.radii.x(), 1e-9);
+  EXPECT_NEAR(after.centre.y() - after.radii.y(), before.centre.y() - before.radii.y(), 1e-9) << "the crown";
+}
+
+TEST(HeadShape, CarriedItStaysWithinWhatHeadsHave) {
+  const HeadShape shape;
+  const TrackedFace outline{{100.0, 60.0}, 40.0, false, 1.0};
+  const HeadShape small = carried(shape, outline, {{200.0, 90.0}, 400.0, true, 1.0});
+  const HeadShape large = carried(shape, outline, {{0.0, 90.0}, 4.0, true, 1.0});
+  for (const HeadShape& s : {small, large}) {
+    EXPECT_LE(std::abs(s.shift), 0.25);
+    EXPECT_GE(s.half_width, 0.34);
+    EXPECT_LE(s.half_width, 0.62);
+    EXPECT_GE(s.crown, 0.5);
+    EXPECT_LE(s.crown, 1.0);
+    EXPECT_EQ(s.chin, shape.chin);
+  }
 }
 
 TEST(HeadShape, TheOutlineGivesTheHead) {

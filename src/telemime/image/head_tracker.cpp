@@ -38,6 +38,9 @@ HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem:
 void HeadTracker::anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
   const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
   const double side = found.width;
+  if (!anchored_) {
+    replaced_ = face_;
+  }
   if (fresh || !face_) {
     face_ = TrackedFace{centre, side, true, 1.0};
   } else {
@@ -95,6 +98,7 @@ std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey, const cv::R
   since_search_ = 0;
   misses_ = 0;
   face_.reset();
+  replaced_.reset();
   if (found) {
     anchor(grey, *found, true);
   }
@@ -103,6 +107,7 @@ std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey, const cv::R
 
 std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey, const cv::Rect& search,
                                                const FaceTest& is_face) {
+  replaced_.reset();
   if (!face_) {
     ++since_search_;
     return since_search_ >= config_.search_every ? restart(grey, search, is_face) : std::nullopt;

@@ -48,6 +48,10 @@ class HeadTracker {
     return face_.has_value() && (misses_ == 0 || (anchored_ && face_->match >= config_.lost_match));
   }
 
+  /// The square that an outline had given, carried into this picture, when the detector's took its place
+  /// there.
+  const std::optional<TrackedFace>& replaced() const { return replaced_; }
+
   /// Forgets the track.
   void forget() { face_.reset(); }
 
@@ -58,6 +62,7 @@ class HeadTracker {
   HeadTrackerConfig config_;
   FaceDetector detector_;
   std::optional<TrackedFace> face_;
+  std::optional<TrackedFace> replaced_;
   cv::Mat patch_;
   bool anchored_ = false;  ///< the detector has fired on this track
   int since_detected_ = 0;

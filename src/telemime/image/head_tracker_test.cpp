@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/head_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "telemime/image/feature_config.h"
+
+namespace telemime {
+namespace {
+
+bool any_face(const cv::Rect&) {
+  return true;
+}
+
+// The face of the bundled clip's first frame, and the square that the detector finds on it.
+class HeadTrackerTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto clip = std::filesystem::path(TELEMIME_SOURCE_DIR) / "data" / "demo" / "video.mp4";
+    cv::Mat image;
+    ASSERT_TRUE(cv::VideoCapture(clip.string()).read(image)) << clip;
+    cv::cvtColor(image, grey_, cv::COLOR_BGR2GRAY);
+    HeadTracker fresh = tracker();
+    const auto found = fresh.restart(grey_, whole(), any_face);
+    ASSERT_TRUE(found.has_value());
+    face_ = *found;
+  }
+
+  static HeadTracker tracker() { return {HeadTrackerConfig{}, ImageConfig{}.cascades}; }
+  cv::Rect whole() const { return {0, 0, grey_.cols, grey_.rows}; }
+
+  cv::Mat grey_;
+  TrackedFace face_;
+};
+
+TEST_F(HeadTrackerTest, TellsTheOutlinesSquareThatTheDetectorsReplaced) {
+  HeadTracker heads = tracker();
+  const double side = 1.2 * face_.side;
+  const cv::Rect2d outline(face_.centre.x + 3 - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side,
+                           side);
+  heads.adopt(grey_, outline, 1.0);
+  int replaced = 0;
+  for (int i = 0; i < 12; ++i) {
+    const auto face = heads.update(grey_, whole(), any_face);
+    ASSERT_TRUE(face.has_value());
+    if (heads.replaced()) {
+      ++replaced;
+      EXPECT_TRUE(face->detected);
+      EXPECT_NEAR(heads.replaced()->side, side, 1e-9);
+      EXPECT_NEAR(heads.replaced()->centre.x, face_.centre.x + 3, 1.0);
+      EXPECT_LT(face->side, side);
+    }
+  }
+  EXPECT_EQ(replaced, 1) << "once: then the detector leads";
+}
+
+TEST_F(HeadTrackerTest, AFaceThatTheDetectorFoundReplacesNothing) {
+  HeadTracker heads = tracker();
+  ASSERT_TRUE(heads.restart(grey_, whole(), any_face).has_value());
+  EXPECT_FALSE(heads.replaced().has_value());
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_TRUE(heads.update(grey_, whole(), any_face).has_value());
+    EXPECT_FALSE(heads.replaced().has_value());
+  }
+}
+
+}  // namespace
+}  // namespace telemime
