@@ -19,7 +19,7 @@ Config quick() {
   config.threads = 1;
   config.filter.particles = 100;
   config.filter.mode_most = 100;
-  config.filter.turn_evaluations = 20;
+  config.filter.turn_evaluations = config.filter.walk_evaluations = 20;
   config.offline.stretch = 4;
   config.offline.overlap = 2;
   config.offline.evaluations = 60;

@@ -68,8 +68,8 @@ Config with_budget(const Config& config, const Camera& camera) {
   constexpr std::int64_t kMost = 1000000;  // that a configuration may ask for
   const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
   fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
-  // The best mode has two searches, side by side where there are two threads, and up to two trunks are
-  // turned.
+  // The best mode has two searches, side by side where there are two threads, and up to three trunks are
+  // turned, two of them of somebody who walks.
   const std::int64_t threads =
       config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
   const auto at_most = [](int number, std::int64_t most) {
@@ -81,6 +81,7 @@ Config with_budget(const Config& config, const Camera& camera) {
   filter.mode_least =
       at_most(filter.mode_least, std::clamp<std::int64_t>(total / 10, kLeast, filter.mode_most));
   filter.turn_evaluations = at_most(filter.turn_evaluations, std::max(kLeast, total / 10));
+  filter.walk_evaluations = at_most(filter.walk_evaluations, std::max(kLeast, total / 5));
   filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();

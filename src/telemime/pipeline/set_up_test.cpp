@@ -35,6 +35,7 @@ TEST(WithBudget, MoreTimeIsMoreEvaluationsAndAllAreValid) {
     EXPECT_GE(fixed.registration.iterations, 2) << ms;
     EXPECT_GE(fixed.filter.particles, 1) << ms;
     EXPECT_GE(fixed.filter.turn_evaluations, 1) << ms;
+    EXPECT_GE(fixed.filter.walk_evaluations, 1) << ms;
     EXPECT_LE(fixed.filter.mode_least, fixed.filter.mode_most) << ms;
     // What is not about effort stays.
     EXPECT_EQ(fixed.filter.memory, config.filter.memory);
@@ -51,6 +52,7 @@ TEST(WithBudget, MoreTimeIsMoreEvaluationsAndAllAreValid) {
   // Parts of the search are never made larger than they are configured.
   EXPECT_EQ(much.filter.mode_most, FilterConfig().mode_most);
   EXPECT_EQ(much.filter.turn_evaluations, FilterConfig().turn_evaluations);
+  EXPECT_EQ(much.filter.walk_evaluations, FilterConfig().walk_evaluations);
 }
 
 }  // namespace

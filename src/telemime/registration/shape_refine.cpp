@@ -274,8 +274,13 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
 }
 
 Pose carry_pose(const Body& from, const Body& to, const Pose& pose, const JointLimits& limits) {
+  return carry_arms(from, pose, to, pose, limits);
+}
+
+Pose carry_arms(const Body& from, const Pose& pose, const Body& to, const Pose& trunk,
+                const JointLimits& limits) {
   const JointPositions seen = forward_kinematics(from, pose).joints;
-  Pose carried = pose;
+  Pose carried = trunk;
   for (const Side side : {Side::left, Side::right}) {
     const auto i = static_cast<std::size_t>(side);
     const bool left = side == Side::left;

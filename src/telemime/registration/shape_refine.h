@@ -51,6 +51,11 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
 /// that the new lengths ask for, on the side (nearer or farther than their parent joint) on which they were.
 Pose carry_pose(const Body& from, const Body& to, const Pose& pose, const JointLimits& limits);
 
+/// `trunk` with its arms laid so that elbows and wrists stay on the viewing rays on which `pose` of the body
+/// `from` has them, as carry_pose does.
+Pose carry_arms(const Body& from, const Pose& pose, const Body& to, const Pose& trunk,
+                const JointLimits& limits);
+
 /// Fits limb lengths, shoulder width, girths and sleeve to several frames at once, each with a pose of its
 /// own. One frame shows a limb foreshortened and a straight arm hides where its elbow is; frames with
 /// different poses together do not. Keyframes are worked on in parallel; the result

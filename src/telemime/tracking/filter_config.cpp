@@ -30,11 +30,14 @@ void FilterConfig::validate() const {
           "10 <= mode_least <= mode_most <= 1000000 is needed");
   require(turn_evaluations >= 10 && turn_evaluations <= 1000000,
           "turn_evaluations must be between 10 and 1000000");
+  require(walk_evaluations >= 10 && walk_evaluations <= 1000000,
+          "walk_evaluations must be between 10 and 1000000");
   require(alternatives >= 0 && alternatives <= 1000, "alternatives must be between 0 and 1000");
 }
 
 FilterConfig with_effort(FilterConfig config, double share) {
-  for (int* number : {&config.particles, &config.mode_least, &config.mode_most, &config.turn_evaluations}) {
+  for (int* number : {&config.particles, &config.mode_least, &config.mode_most, &config.turn_evaluations,
+                      &config.walk_evaluations}) {
     *number = std::max(1, static_cast<int>(std::lround(share * *number)));
   }
   return config;

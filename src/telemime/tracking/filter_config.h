@@ -39,8 +39,9 @@ struct FilterConfig {
   /// false: the local search is the thesis's single simplex over all moving numbers. true:
   /// RegistrationConfig.
   bool blocks = true;
-  int turn_evaluations = 200;  ///< for the search of each turned trunk
-  int alternatives = 2;        ///< families whose best particle is flipped
+  int turn_evaluations = 200;   ///< for the search of each turned trunk
+  int walk_evaluations = 1000;  ///< when the trunk stands otherwise than somebody who walks, or leans far
+  int alternatives = 2;         ///< families whose best particle is flipped
 
   /// Throws Error(config) with what to change.
   void validate() const;

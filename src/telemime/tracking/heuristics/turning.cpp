@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "telemime/registration/shape_refine.h"
 #include "telemime/tracking/purposes.h"
 
 namespace telemime {
@@ -14,6 +15,8 @@ struct Trunk {
   double torsion = 0.0;
   double roll = 0.0;
   double tilt = 0.0;
+  double depth = 1.0;  ///< of the neck, times what it was
+  int evaluations = 0;
 };
 
 Pose turned(const Body& body, const Pose& pose, const Trunk& trunk, const JointLimits& limits) {
@@ -23,47 +26,66 @@ Pose turned(const Body& body, const Pose& pose, const Trunk& trunk, const JointL
   to[Angle::root_roll] = trunk.roll;
   to[Angle::root_tilt] = trunk.tilt;
   to = limits.clamp(to);
-  to.root += neck(pose) - neck(to);
+  to.root += trunk.depth * neck(pose) - neck(to);
   return to;
+}
+
+std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from, Random& random) {
+  constexpr double kBent = 0.1;      // rad; the local search straightens what is less
+  constexpr double kNew = 0.2;       // rad, a turn that the local search would not find
+  constexpr double kFarthest = 1.0;  // rad
+  const Trunk now = {from[Angle::root_torsion], from[Angle::root_roll], from[Angle::root_tilt]};
+  const int usual = context.config.turn_evaluations;
+  const int thorough = context.config.walk_evaluations;
+  std::vector<Trunk> trunks;
+  if (std::max({std::abs(now.torsion - context.facing), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
+    const bool walks = std::abs(now.torsion - context.facing) > kNew;
+    trunks.push_back({context.facing, 0.0, 0.0, 1.0, walks ? thorough : usual});
+  }
+  if (std::abs(now.tilt) > kNew) {
+    // A trunk that leans looks as large as an upright one that is nearer: where its lower end is.
+    const double neck = forward_kinematics(context.model.body, from).joints[Joint::neck].z();
+    trunks.push_back({context.facing, 0.0, 0.0, from.root.z() / neck, thorough});
+  }
+  if (random.uniform() < 0.5) {
+    const double way = random.uniform(kNew, kFarthest);
+    const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
+    trunks.push_back({now.torsion + side * way, now.roll, now.tilt, 1.0, usual});
+  }
+  return trunks;
 }
 
 }  // namespace
 
 void turn_trunk(const FilterContext& context, Generation& generation) {
-  constexpr double kBent = 0.1;      // rad; the local search straightens what is less
-  constexpr double kNew = 0.2;       // rad, a turn that the local search would not find
-  constexpr double kFarthest = 1.0;  // rad
   const Pose& from = generation.parents[heaviest(generation.parents)].pose;
-  const Trunk now = {from[Angle::root_torsion], from[Angle::root_roll], from[Angle::root_tilt]};
+  const Body& body = context.model.body;
   Random random = context.random(purpose::kTurning);
-  std::vector<Trunk> trunks;
-  if (std::max({std::abs(now.torsion - context.facing), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
-    trunks.push_back({context.facing, 0.0, 0.0});
-  }
-  if (random.uniform() < 0.5) {
-    const double way = random.uniform(kNew, kFarthest);
-    const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
-    trunks.push_back({now.torsion + side * way, now.roll, now.tilt});
-  }
+  const std::vector<Trunk> trunks = trunks_to_try(context, from, random);
   std::vector<Particle> made(trunks.size());
   context.evaluators.each(trunks.size(), [&](std::size_t i, Backend& backend) {
     Objective objective(backend, context.frame, context.model, context.limits);
     objective.face(context.facing);
     RegistrationConfig search = context.search;
-    search.iterations = context.config.turn_evaluations;
+    search.iterations = trunks[i].evaluations;
     search.proposals = no_proposals();
     Random own = context.random(purpose::kTurning, 1 + i);
-    const RegistrationResult found =
-        register_pose(objective, turned(context.model.body, from, trunks[i], context.limits), search, own);
+    Pose start = turned(body, from, trunks[i], context.limits);
+    // The arms turn with the trunk, or they are where they are seen.
+    const Pose seen = carry_arms(body, from, body, start, context.limits);
+    if (objective(seen, search.region) < objective(start, search.region)) {
+      start = seen;
+    }
+    const RegistrationResult found = register_pose(objective, start, search, own);
     Particle& particle = made[i];
     particle.pose = found.pose;
     particle.parent = static_cast<int>(heaviest(generation.parents));
     particle.prior = static_cast<double>(search.iterations) / context.config.particles;
     particle.origin = Origin::elsewhere;
   });
-  for (const Particle& particle : made) {
-    generation.particles.push_back(particle);
-    generation.evaluations += context.config.turn_evaluations;
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    generation.particles.push_back(made[i]);
+    generation.evaluations += trunks[i].evaluations;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "telemime/registration/shape_refine.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
@@ -29,7 +30,7 @@ Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
 
 TEST(TurnTrunk, AnUprightTrunkIsTurnedHalfOfTheTime) {
   Scene scene;
-  scene.config.turn_evaluations = 10;
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   int came = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const std::size_t count = turned(scene, 0.0, seed).particles.size();
@@ -41,7 +42,8 @@ TEST(TurnTrunk, AnUprightTrunkIsTurnedHalfOfTheTime) {
 
 TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
   Scene scene;
-  scene.config.turn_evaluations = 10;  // too few to go far from where the search starts
+  scene.config.turn_evaluations = scene.config.walk_evaluations =
+      10;  // too few to go far from where the search starts
   int two = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Generation generation = turned(scene, 0.6, seed);
@@ -58,7 +60,7 @@ TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
 
 TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
   Scene scene;
-  scene.config.turn_evaluations = 10;
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   Pose bent = both_arms_seen();
   bent[Angle::root_roll] = 0.3;
   Generation generation;
@@ -72,9 +74,44 @@ TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
   EXPECT_GT((upright.root - bent.root).norm(), 0.08);
 }
 
+TEST(TurnTrunk, ATrunkThatLeansFarIsTriedUprightAndNearer) {
+  Scene scene;
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  Pose leaning = both_arms_seen();
+  leaning[Angle::root_tilt] = 0.4;
+  Generation generation;
+  generation.parents = {particle(leaning, 1.0)};
+  turn_trunk(scene.context(), generation);
+  ASSERT_GE(generation.particles.size(), 2U);
+  const Pose& nearer = generation.particles[1].pose;
+  EXPECT_LT(std::abs(nearer[Angle::root_tilt]), 0.15);
+  const Eigen::Vector3d before = scene.joints(leaning)[Joint::neck];
+  const Eigen::Vector3d after = scene.joints(nearer)[Joint::neck];
+  EXPECT_NEAR(after.z(), leaning.root.z(), 0.05) << "where the trunk's lower end was";
+  EXPECT_LT((after / after.z() - before / before.z()).norm(), 0.05) << "the neck is seen where it was";
+}
+
+TEST(TurnTrunk, ArmsStayWhereTheyAreSeenWhenTheTrunkTurnsFromThem) {
+  Scene scene;  // shows both_arms_seen(), upright
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  // The trunk was lost, not the arms.
+  Pose lost = both_arms_seen();
+  lost[Angle::root_torsion] = 0.5;
+  lost = carry_arms(scene.model.body, both_arms_seen(), scene.model.body, lost, scene.limits);
+  Generation generation;
+  generation.parents = {particle(lost, 1.0)};
+  turn_trunk(scene.context(), generation);
+  ASSERT_FALSE(generation.particles.empty());
+  const JointPositions truth = scene.joints(both_arms_seen());
+  const JointPositions found = scene.joints(generation.particles[0].pose);
+  for (const Joint joint : {Joint::l_wrist, Joint::r_wrist, Joint::l_elbow, Joint::r_elbow}) {
+    EXPECT_LT((found[joint] / found[joint].z() - truth[joint] / truth[joint].z()).norm(), 0.06);
+  }
+}
+
 TEST(TurnTrunk, WhoWalksIsTriedFacingTheirWay) {
   Scene scene;
-  scene.config.turn_evaluations = 10;
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   scene.facing = 0.7;
   EXPECT_NEAR(turned(scene, 0.0, 1).particles.at(0).pose[Angle::root_torsion], 0.7, 0.15);
 }
@@ -83,12 +120,15 @@ TEST(TurnTrunk, AccountsForWhatItMakes) {
   Scene scene;
   scene.config.particles = 400;
   scene.config.turn_evaluations = 20;
+  scene.config.walk_evaluations = 50;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Generation generation = turned(scene, 0.6, seed);
-    EXPECT_EQ(generation.evaluations, 20 * static_cast<int>(generation.particles.size()));
-    for (const Particle& p : generation.particles) {
+    const int by_chance = static_cast<int>(generation.particles.size()) - 1;
+    EXPECT_EQ(generation.evaluations, 50 + 20 * by_chance);
+    for (std::size_t i = 0; i < generation.particles.size(); ++i) {
+      const Particle& p = generation.particles[i];
       EXPECT_EQ(p.parent, 1) << "the heaviest";
-      EXPECT_DOUBLE_EQ(p.prior, 20.0 / 400.0);
+      EXPECT_DOUBLE_EQ(p.prior, (i == 0 ? 50.0 : 20.0) / 400.0);
       EXPECT_EQ(p.origin, Origin::elsewhere);
       EXPECT_TRUE(scene.limits.contains(p.pose));
     }
