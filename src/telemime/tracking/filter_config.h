@@ -40,7 +40,7 @@ struct FilterConfig {
   /// RegistrationConfig.
   bool blocks = true;
   int turn_evaluations = 200;   ///< for the search of each turned trunk
-  int walk_evaluations = 1000;  ///< when the trunk stands otherwise than somebody who walks, or leans far
+  int walk_evaluations = 1000;  ///< of who walks or leans far; at most half of the particles
   int alternatives = 2;         ///< families whose best particle is flipped
 
   /// Throws Error(config) with what to change.

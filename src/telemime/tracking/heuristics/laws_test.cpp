@@ -171,7 +171,8 @@ TEST(FilterLaws, TheNumberOfParticlesIsKept) {
     // In our filter each family that is searched costs at least mode_least, and each turned trunk its own.
     const int flips = 15 * c.config.alternatives;
     const int searched = c.config.blocks ? c.config.modes * c.config.mode_least : 0;
-    const int most = kParticles + flips + searched + c.config.turn_evaluations + 2 * c.config.walk_evaluations;
+    const int most =
+        kParticles + flips + searched + c.config.turn_evaluations + 2 * c.config.walk_evaluations;
     const bool turns = c.config.heuristics.find("turn") != std::string::npos;
     for (const Step& step : run(c.config, 1, 5)) {
       ASSERT_FALSE(step.particles.empty()) << c.name;

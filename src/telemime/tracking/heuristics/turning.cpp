@@ -36,7 +36,8 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
   constexpr double kFarthest = 1.0;  // rad
   const Trunk now = {from[Angle::root_torsion], from[Angle::root_roll], from[Angle::root_tilt]};
   const int usual = context.config.turn_evaluations;
-  const int thorough = context.config.walk_evaluations;
+  const int thorough =
+      std::max(usual, std::min(context.config.walk_evaluations, context.config.particles / 2));
   std::vector<Trunk> trunks;
   if (std::max({std::abs(now.torsion - context.facing), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
     const bool walks = std::abs(now.torsion - context.facing) > kNew;

@@ -135,6 +135,16 @@ TEST(TurnTrunk, AccountsForWhatItMakes) {
   }
 }
 
+TEST(TurnTrunk, FewParticlesMeanAShortSearchForWhoWalks) {
+  Scene scene;
+  scene.config.particles = 120;
+  scene.config.turn_evaluations = 20;
+  scene.config.walk_evaluations = 1000;
+  const Generation generation = turned(scene, 0.6, 1);
+  ASSERT_FALSE(generation.particles.empty());
+  EXPECT_DOUBLE_EQ(generation.particles[0].prior, 60.0 / 120.0);
+}
+
 TEST(TurnTrunk, FindsTheUprightTrunkThatTheImageShows) {
   Scene scene;
   Generation generation = turned(scene, 0.6, 2);
