@@ -237,6 +237,7 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   Pictures p = pictures_of(frame);
   Observation out;
   const std::optional<TrackedFace> face = head_.update(p.face, search_area(p), face_test(p));
+  const HeadShape before = shape_;
   if (face && head_.replaced()) {
     // The outline led so far: the head is as large as it was, around another square.
     shape_ = carried(shape_, *head_.replaced(), *face);
@@ -246,6 +247,7 @@ Observation FeatureExtractor::extract(const Frame& frame) {
   if (out.head && !stands_out(background, *out.head)) {
     head_.forget();
     out.head.reset();
+    shape_ = before;
   }
   Segmentation segmentation =
       segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);

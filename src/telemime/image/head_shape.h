@@ -26,7 +26,7 @@ HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double s
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate);
 
 /// The shape around the square `to` of the head that `shape` had around the square `from`, within what heads
-/// may have.
+/// may have. Only the chin is where the new square says.
 HeadShape carried(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to);
 
 /// The head of an upright person whose face is not seen (turned away, a mask, too small), from the outline

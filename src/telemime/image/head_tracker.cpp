@@ -38,10 +38,14 @@ HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem:
 void HeadTracker::anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
   const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
   const double side = found.width;
-  if (!anchored_) {
+  if (!anchored_ && face_) {
     replaced_ = face_;
+    if (face_->match < config_.lost_match) {
+      // It was not carried into this picture: only its size is known.
+      replaced_->centre = centre;
+    }
   }
-  if (fresh || !face_) {
+  if (fresh || !anchored_ || !face_) {
     face_ = TrackedFace{centre, side, true, 1.0};
   } else {
     // The detector's square jitters by several percent: its size is trusted slowly, its place faster.

@@ -48,8 +48,8 @@ class HeadTracker {
     return face_.has_value() && (misses_ == 0 || (anchored_ && face_->match >= config_.lost_match));
   }
 
-  /// The square that an outline had given, carried into this picture, when the detector's took its place
-  /// there.
+  /// The square of a track that the outline began, carried into this picture, when the detector saw its face
+  /// there for the first time and its square was taken instead.
   const std::optional<TrackedFace>& replaced() const { return replaced_; }
 
   /// Forgets the track.

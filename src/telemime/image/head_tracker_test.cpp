@@ -59,6 +59,35 @@ TEST_F(HeadTrackerTest, TellsTheOutlinesSquareThatTheDetectorsReplaced) {
   EXPECT_EQ(replaced, 1) << "once: then the detector leads";
 }
 
+TEST_F(HeadTrackerTest, TheDetectorsFirstSquareIsTakenWhole) {
+  HeadTracker heads = tracker();
+  const double side = 1.2 * face_.side;
+  heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
+  for (int i = 0; i < 12 && !heads.replaced(); ++i) {
+    ASSERT_TRUE(heads.update(grey_, whole(), any_face).has_value());
+  }
+  ASSERT_TRUE(heads.replaced().has_value());
+  EXPECT_NEAR(heads.current()->side, face_.side, 0.1 * face_.side);
+}
+
+TEST_F(HeadTrackerTest, OfASquareThatWasLostOnlyTheSizeIsReplaced) {
+  HeadTracker heads = tracker();
+  const double side = 1.2 * face_.side;
+  heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
+  // What was there is gone for a picture, then there again, a little aside.
+  ASSERT_TRUE(heads.update(cv::Mat(grey_.size(), CV_8UC1, cv::Scalar(90)), whole(), any_face).has_value());
+  EXPECT_FALSE(heads.replaced().has_value());
+  cv::Mat negative;
+  cv::bitwise_not(grey_, negative);
+  heads.adopt(negative, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side},
+              0.0);
+  const auto face = heads.update(grey_, whole(), any_face);
+  ASSERT_TRUE(face && face->detected && heads.replaced());
+  ASSERT_LT(heads.replaced()->match, HeadTrackerConfig{}.lost_match);
+  EXPECT_EQ(heads.replaced()->centre, face->centre);
+  EXPECT_NEAR(heads.replaced()->side, side, 1e-9);
+}
+
 TEST_F(HeadTrackerTest, AFaceThatTheDetectorFoundReplacesNothing) {
   HeadTracker heads = tracker();
   ASSERT_TRUE(heads.restart(grey_, whole(), any_face).has_value());

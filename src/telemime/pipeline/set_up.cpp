@@ -69,7 +69,7 @@ Config with_budget(const Config& config, const Camera& camera) {
   const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
   fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
   // The best mode has two searches, side by side where there are two threads, and up to three trunks are
-  // turned, two of them of somebody who walks.
+  // turned, two of them with a long search: together no more than the total on each thread.
   const std::int64_t threads =
       config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
   const auto at_most = [](int number, std::int64_t most) {
@@ -81,7 +81,8 @@ Config with_budget(const Config& config, const Camera& camera) {
   filter.mode_least =
       at_most(filter.mode_least, std::clamp<std::int64_t>(total / 10, kLeast, filter.mode_most));
   filter.turn_evaluations = at_most(filter.turn_evaluations, std::max(kLeast, total / 10));
-  filter.walk_evaluations = at_most(filter.walk_evaluations, std::max(kLeast, total / 5));
+  filter.walk_evaluations =
+      at_most(filter.walk_evaluations, std::max(kLeast, threads > 1 ? total / 5 : total / 10));
   filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();

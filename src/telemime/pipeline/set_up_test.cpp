@@ -55,5 +55,21 @@ TEST(WithBudget, MoreTimeIsMoreEvaluationsAndAllAreValid) {
   EXPECT_EQ(much.filter.walk_evaluations, FilterConfig().walk_evaluations);
 }
 
+TEST(WithBudget, TheDearestFrameCostsNoMoreThanTheTotalOnEachThread) {
+  for (const int threads : {1, 2}) {
+    Config config;
+    config.budget_ms = 1000.0;
+    config.threads = threads;
+    config.filter.mode_most = config.filter.turn_evaluations = config.filter.walk_evaluations = 100000;
+    const Config fixed = with_budget(config, camera());
+    const FilterConfig& filter = fixed.filter;
+    // Two searches of the best mode, then one trunk by chance and two with a long search.
+    const int dearest = 2 * filter.mode_most + filter.turn_evaluations + 2 * filter.walk_evaluations;
+    const int total = fixed.registration.iterations - 1;
+    ASSERT_GE(total, 100) << "where no least number counts";
+    EXPECT_LE(dearest, threads * total + 5 * 5) << threads;
+  }
+}
+
 }  // namespace
 }  // namespace telemime

@@ -108,5 +108,28 @@ TEST(CarryPose, ArmsTooShortReachAsFarAsTheyCan) {
   EXPECT_NEAR((j[Joint::l_wrist] - j[Joint::l_elbow]).norm(), other.forearm_length[0], 1e-6);
 }
 
+TEST(CarryArms, ArmsStayWhereTheyAreSeenWhileTheTrunkTurnsAndMoves) {
+  const Camera camera = camera_from_field_of_view(640, 480, 60.0);
+  const Body body = make_body(Shape{});
+  const Pose pose = with_arms(40 * kDegree, -70 * kDegree);
+  Pose trunk = pose;
+  trunk[Angle::root_torsion] += 0.3;
+  trunk.root += Eigen::Vector3d(0.02, 0.0, -0.08);  // nearer, so that arms are long enough
+  const JointPositions before = forward_kinematics(body, pose).joints;
+  const auto seen_off = [&](const Pose& other, Joint j) {
+    return (camera.project(before[j]) - camera.project(forward_kinematics(body, other).joints[j])).norm();
+  };
+  const Pose carried = carry_arms(body, pose, body, trunk, anatomical_limits());
+  EXPECT_TRUE(anatomical_limits().contains(carried, 1e-9));
+  for (const Joint j : {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist}) {
+    EXPECT_GT(seen_off(trunk, j), 10.0) << "the test must ask for something";
+    EXPECT_LT(seen_off(carried, j), 3.0) << kJointNames[static_cast<std::size_t>(j)];
+  }
+  for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_tilt}) {
+    EXPECT_EQ(carried[a], trunk[a]);
+  }
+  EXPECT_EQ(carried.root, trunk.root);
+}
+
 }  // namespace
 }  // namespace telemime

@@ -39,9 +39,11 @@ struct FilterConfig {
   /// false: the local search is the thesis's single simplex over all moving numbers. true:
   /// RegistrationConfig.
   bool blocks = true;
-  int turn_evaluations = 200;   ///< for the search of each turned trunk
-  int walk_evaluations = 1000;  ///< of who walks or leans far; at most half of the particles
-  int alternatives = 2;         ///< families whose best particle is flipped
+  int turn_evaluations = 200;  ///< for the search of each turned trunk
+  /// The same where the best trunk is far from upright and facing where expected. No more than half of the
+  /// particles, and no fewer than `turn_evaluations`.
+  int walk_evaluations = 1000;
+  int alternatives = 2;  ///< families whose best particle is flipped
 
   /// Throws Error(config) with what to change.
   void validate() const;

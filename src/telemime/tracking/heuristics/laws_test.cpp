@@ -171,15 +171,18 @@ TEST(FilterLaws, TheNumberOfParticlesIsKept) {
     // In our filter each family that is searched costs at least mode_least, and each turned trunk its own.
     const int flips = 15 * c.config.alternatives;
     const int searched = c.config.blocks ? c.config.modes * c.config.mode_least : 0;
-    const int most =
-        kParticles + flips + searched + c.config.turn_evaluations + 2 * c.config.walk_evaluations;
     const bool turns = c.config.heuristics.find("turn") != std::string::npos;
+    // One trunk by chance and two with a long search, each from one of two starts.
+    const int usual = c.config.turn_evaluations;
+    const int thorough = std::max(usual, std::min(c.config.walk_evaluations, kParticles / 2));
+    const int turned = turns ? usual + 2 * thorough + 3 * 2 : 0;
+    const int most = kParticles + flips + searched + turned;
     for (const Step& step : run(c.config, 1, 5)) {
       ASSERT_FALSE(step.particles.empty()) << c.name;
       if (!c.config.blocks && !turns) {
         EXPECT_EQ(step.particles.size(), static_cast<std::size_t>(kParticles)) << c.name;
       }
-      EXPECT_LE(step.particles.size(), static_cast<std::size_t>(kParticles) + 2) << c.name;
+      EXPECT_LE(step.particles.size(), static_cast<std::size_t>(kParticles) + (turns ? 3 : 0)) << c.name;
       EXPECT_LE(step.result.evaluations, most) << c.name;
       EXPECT_GE(step.result.evaluations, kParticles / 2) << c.name;
     }

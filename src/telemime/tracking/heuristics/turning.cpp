@@ -15,7 +15,7 @@ struct Trunk {
   double torsion = 0.0;
   double roll = 0.0;
   double tilt = 0.0;
-  double depth = 1.0;  ///< of the neck, times what it was
+  double farther = 1.0;  ///< the neck along its viewing ray, times its distance before
   int evaluations = 0;
 };
 
@@ -26,7 +26,7 @@ Pose turned(const Body& body, const Pose& pose, const Trunk& trunk, const JointL
   to[Angle::root_roll] = trunk.roll;
   to[Angle::root_tilt] = trunk.tilt;
   to = limits.clamp(to);
-  to.root += trunk.depth * neck(pose) - neck(to);
+  to.root += trunk.farther * neck(pose) - neck(to);
   return to;
 }
 
@@ -34,19 +34,22 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
   constexpr double kBent = 0.1;      // rad; the local search straightens what is less
   constexpr double kNew = 0.2;       // rad, a turn that the local search would not find
   constexpr double kFarthest = 1.0;  // rad
+  constexpr double kInFront = 0.1;   // m
   const Trunk now = {from[Angle::root_torsion], from[Angle::root_roll], from[Angle::root_tilt]};
   const int usual = context.config.turn_evaluations;
   const int thorough =
       std::max(usual, std::min(context.config.walk_evaluations, context.config.particles / 2));
   std::vector<Trunk> trunks;
   if (std::max({std::abs(now.torsion - context.facing), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
-    const bool walks = std::abs(now.torsion - context.facing) > kNew;
-    trunks.push_back({context.facing, 0.0, 0.0, 1.0, walks ? thorough : usual});
+    const bool far = std::abs(now.torsion - context.facing) > kNew;
+    trunks.push_back({context.facing, 0.0, 0.0, 1.0, far ? thorough : usual});
   }
   if (std::abs(now.tilt) > kNew) {
-    // A trunk that leans looks as large as an upright one that is nearer: where its lower end is.
+    // A trunk that leans looks much like an upright one at the distance of its lower end.
     const double neck = forward_kinematics(context.model.body, from).joints[Joint::neck].z();
-    trunks.push_back({context.facing, 0.0, 0.0, from.root.z() / neck, thorough});
+    if (std::min(neck, from.root.z()) > kInFront) {
+      trunks.push_back({context.facing, 0.0, 0.0, from.root.z() / neck, thorough});
+    }
   }
   if (random.uniform() < 0.5) {
     const double way = random.uniform(kNew, kFarthest);
@@ -59,6 +62,7 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
 }  // namespace
 
 void turn_trunk(const FilterContext& context, Generation& generation) {
+  constexpr int kStarts = 2;  // that each search chooses from
   const Pose& from = generation.parents[heaviest(generation.parents)].pose;
   const Body& body = context.model.body;
   Random random = context.random(purpose::kTurning);
@@ -86,7 +90,7 @@ void turn_trunk(const FilterContext& context, Generation& generation) {
   });
   for (std::size_t i = 0; i < made.size(); ++i) {
     generation.particles.push_back(made[i]);
-    generation.evaluations += trunks[i].evaluations;
+    generation.evaluations += trunks[i].evaluations + kStarts;
   }
 }
 
