@@ -59,7 +59,8 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command.add_option("--fov", o.field_of_view,
                      "horizontal field of view in degrees when there is no --camera [60]");
   command.add_option("--height", o.height, "the person's height in metres: sets the absolute scale");
-  command.add_option("--size", o.size, "working image, WIDTHxHEIGHT [320x240]");
+  command.add_option("--size", o.size,
+                     "working image, WIDTHxHEIGHT [320x240]; as many pixels in the input's shape");
   command.add_option("--method", o.method,
                      "heuristics, condensation, two-step, regions or edges [heuristics]");
   command.add_option("--particles", o.particles, "evaluations a frame of heuristics and condensation [2000]");

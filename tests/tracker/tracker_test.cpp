@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <thread>
 
 #include "tracker/quick_tracker.h"
@@ -130,6 +131,33 @@ TEST(Tracker, AtFiveFramesASecondThePersonIsFollowedToo) {
     EXPECT_EQ(slow[i].state, TrackState::tracking) << i;
     EXPECT_LT(slow[i].region_score, 0.5) << i;
     EXPECT_EQ(slow[i].pose.vector() == usual[i].pose.vector(), i == 0) << i;
+  }
+}
+
+TEST(Tracker, AWiderPictureShowsThePersonAtTheSameDistance) {
+  // The same pictures with more of the wall beside them: 16:9.
+  constexpr int kBorder = 53;
+  const auto widened = [](std::vector<Frame> frames) {
+    for (Frame& frame : frames) {
+      cv::Mat wide;
+      cv::copyMakeBorder(frame.image, wide, 0, 0, kBorder, kBorder, cv::BORDER_REPLICATE);
+      frame.image = wide;
+    }
+    return frames;
+  };
+  Camera camera = clip().camera;
+  camera.width += 2 * kBorder;
+  camera.cx += kBorder;
+  Tracker tracker(quick_config(), camera);
+  EXPECT_EQ(tracker.config().image.width, 184);
+  EXPECT_EQ(tracker.config().image.height, 104);
+  tracker.learn_background(widened(clip().background));
+  const auto usual = track(quick_config(), clip().person);
+  const std::vector<Frame> frames = widened(clip().person);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const MotionFrame wide = tracker.step(frames[i]).motion;
+    ASSERT_EQ(wide.state, TrackState::tracking) << i;
+    EXPECT_NEAR(wide.joints[Joint::head].z() / usual[i].joints[Joint::head].z(), 1.0, 0.05) << i;
   }
 }
 

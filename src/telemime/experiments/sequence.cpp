@@ -118,10 +118,11 @@ PreparedSequence prepare_sequence(const Clip& clip, const Config& config) {
   sequence.camera = clip.camera;
   sequence.truth = clip.truth;
   sequence.limits = load_limits(config.limits);
-  const Camera working = clip.camera.scaled_to(config.image.width, config.image.height);
+  const ImageConfig image = with_square_pixels(config.image, clip.camera);
+  const Camera working = clip.camera.scaled_to(image.width, image.height);
   const auto backend = make_scalar_backend();
   Random random(config.seed);
-  FeatureExtractor features(config.image);
+  FeatureExtractor features(image);
   features.learn_background(clip.background);
   bool coloured = false;
   bool calibrated = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/image/feature_config.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "telemime/core/errors.h"
@@ -27,10 +28,29 @@ bool patterned(const ColourMixture& clothes) {
   return false;
 }
 
+constexpr int kNarrowest = 40;
+constexpr int kLowest = 30;
+constexpr int kLargest = 1920;
+
 }  // namespace
 
+ImageConfig with_square_pixels(ImageConfig config, const Camera& camera) {
+  const Camera working = camera.scaled_to(config.width, config.height);
+  const double stretched = working.fy / working.fx;
+  if (std::abs(stretched - 1.0) < 0.01) {
+    return config;
+  }
+  const auto even = [](double size, int least) {
+    return std::clamp(2 * static_cast<int>(std::lround(0.5 * size)), least, kLargest);
+  };
+  const double root = std::sqrt(stretched);
+  config.width = even(root * config.width, kNarrowest);
+  config.height = even(config.height / root, kLowest);
+  return config;
+}
+
 void ImageConfig::validate() const {
-  require(width >= 40 && height >= 30 && width <= 1920 && height <= 1920,
+  require(width >= kNarrowest && height >= kLowest && width <= kLargest && height <= kLargest,
           "the working size " + std::to_string(width) + "x" + std::to_string(height) + " is out of range",
           "use 40x30 to 1920x1920, for instance 160x120");
   require(face_width >= 80, "face_width is too small for the face detector", "use 320");

@@ -69,6 +69,43 @@ TEST(ImageConfig, RefusesValuesThatCannotWorkAndNamesThem) {
   EXPECT_THROW(config.validate(), Error);
 }
 
+TEST(ImageConfig, TheWorkingImageHasSquarePixelsAndAboutAsMany) {
+  ImageConfig config;
+  config.width = 320;
+  config.height = 240;
+  Camera anamorphic = camera_from_field_of_view(720, 576, 60.0);
+  anamorphic.fy = 0.75 * anamorphic.fx;
+  std::vector<Camera> cameras = {anamorphic};
+  for (const auto& [width, height] :
+       {std::pair(1280, 720), {720, 720}, {540, 720}, {1080, 1920}, {352, 288}}) {
+    cameras.push_back(camera_from_field_of_view(width, height, 60.0));
+  }
+  for (const Camera& camera : cameras) {
+    const ImageConfig fitted = with_square_pixels(config, camera);
+    const Camera working = camera.scaled_to(fitted.width, fitted.height);
+    EXPECT_NEAR(working.fy / working.fx, 1.0, 0.01) << camera.width << "x" << camera.height;
+    EXPECT_NEAR(fitted.width * fitted.height / (320.0 * 240.0), 1.0, 0.02);
+    const ImageConfig again = with_square_pixels(fitted, camera);
+    EXPECT_EQ(again.width, fitted.width);
+    EXPECT_EQ(again.height, fitted.height);
+  }
+}
+
+TEST(ImageConfig, AWorkingImageWithSquarePixelsStaysAndOddShapesStayValid) {
+  ImageConfig config;
+  config.width = 320;
+  config.height = 240;
+  for (const auto& [width, height] : {std::pair(640, 480), {1600, 1200}, {322, 240}}) {
+    const ImageConfig fitted = with_square_pixels(config, camera_from_field_of_view(width, height, 60.0));
+    EXPECT_EQ(fitted.width, 320) << width;
+    EXPECT_EQ(fitted.height, 240) << width;
+  }
+  for (const auto& [width, height] : {std::pair(8000, 20), {20, 8000}}) {
+    const Camera camera = camera_from_field_of_view(width, height, 60.0);
+    EXPECT_NO_THROW(with_square_pixels(config, camera).validate()) << width;
+  }
+}
+
 TEST(ImageConfig, AMissingCascadeIsAnErrorThatNamesTheFolder) {
   ImageConfig config;
   config.cascades = "/no/such/folder";

@@ -50,7 +50,8 @@ struct Config {
   bool look_back = false;  ///< `track --offline`: decide with the frames that come after, too
   TrajectoryConfig offline;
 
-  /// The working image is 320x240 by default.
+  /// The working image has as many pixels as one of 320x240 by default, in the input's shape
+  /// (with_square_pixels).
   Config();
   /// Throws Error(config) with what to change.
   void validate() const;

@@ -60,9 +60,9 @@ Config with_budget(const Config& config, const Camera& camera) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
   constexpr int kRepeats = 5;
-  const EvaluationCost cost =
-      measure_cost(*backend, make_model(Shape{}), camera.scaled_to(config.image.width, config.image.height),
-                   kRepeats, random, seconds);
+  const ImageConfig image = with_square_pixels(config.image, camera);
+  const EvaluationCost cost = measure_cost(
+      *backend, make_model(Shape{}), camera.scaled_to(image.width, image.height), kRepeats, random, seconds);
   const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());
   Config fixed = config;
   constexpr std::int64_t kMost = 1000000;  // that a configuration may ask for

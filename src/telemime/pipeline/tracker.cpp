@@ -35,6 +35,12 @@ std::string scale_words(const CalibrationConfig& config) {
 
 constexpr double kRate = 25.0;  // frames a second that the motion model is made for
 
+Config fitted_to(Config config, const Camera& camera) {
+  config.validate();
+  config.image = with_square_pixels(config.image, camera);
+  return config;
+}
+
 }  // namespace
 
 double steps_between(double before, double now) {
@@ -53,14 +59,13 @@ void complete(MotionFrame& frame, const Body& body, const Camera& camera) {
 }
 
 Tracker::Tracker(const Config& config, const Camera& camera)
-    : config_(config),
+    : config_(fitted_to(config, camera)),
       camera_(camera),
-      working_camera_(camera.scaled_to(config.image.width, config.image.height)),
+      working_camera_(camera.scaled_to(config_.image.width, config_.image.height)),
       limits_(load_limits(config.limits)),
-      features_(config.image),
+      features_(config_.image),
       backend_(make_backend(config.backend)),
       random_(config.seed) {
-  config_.validate();
   if (config_.tracking.method != "two-step") {
     config_.filter = filter_of(config_);
     evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads);
