@@ -25,10 +25,11 @@ Shape person(double arms) {
   return shape;
 }
 
-Calibration calibrated(const Shape& shape, const Pose& pose, std::uint64_t seed = 1) {
+Calibration calibrated(const Shape& shape, const Pose& pose, std::uint64_t seed = 1,
+                       CalibrationConfig config = {}, bool face = true) {
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  const Observation seen = observe(make_model(shape), pose, camera);
-  CalibrationConfig config;
+  Observation seen = observe(make_model(shape), pose, camera);
+  seen.head->detected = face;
   config.stature = shape.stature;
   const auto backend = make_scalar_backend();
   Random random(seed);
@@ -92,6 +93,14 @@ TEST(CalibrationLaw, RefusesAnArmThatLeavesThePicture) {
   out.root.z() = 0.9;
   out[Angle::l_shoulder_abduct] = 85 * kDegree;
   EXPECT_NE(calibrated(Shape{}, out).refusal, "");
+}
+
+TEST(CalibrationLaw, WithoutAFaceTheBodyMustFitBetter) {
+  CalibrationConfig config;
+  config.worst_region = 1.1 * calibrated(person(1.0), arms_apart()).score.region;
+  EXPECT_EQ(calibrated(person(1.0), arms_apart(), 1, config, true).refusal, "");
+  const std::string refusal = calibrated(person(1.0), arms_apart(), 1, config, false).refusal;
+  EXPECT_NE(refusal.find("does not fit"), std::string::npos) << refusal;
 }
 
 TEST(CalibrationLaw, RefusesWhatIsNoPerson) {

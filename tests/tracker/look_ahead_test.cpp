@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "support/list_source.h"
@@ -31,6 +32,45 @@ TEST(LookAhead, FitsTheShapeAndSaysWhereToStart) {
   tracker.start_with(found->start);
   for (const Frame& frame : clip().person) {
     EXPECT_EQ(tracker.step(frame).motion.state, TrackState::tracking) << frame.index;
+  }
+}
+
+// Somebody whose face is never found, and who is half hidden at first.
+TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
+  std::vector<Frame> frames = clip().person;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Eigen::Vector2d head = clip().camera.project(clip().truth[i][Joint::head]);
+    cv::Mat image = frames[i].image.clone();
+    const cv::Rect face = cv::Rect(static_cast<int>(head.x()) - 26, static_cast<int>(head.y()) - 26, 52, 52) &
+                          cv::Rect(0, 0, image.cols, image.rows);
+    cv::Mat masked = image(face);
+    cv::blur(masked, masked, {15, 15});
+    if (i == 0) {
+      // A board of the shirt's colour before the person.
+      const Eigen::Vector2d neck = clip().camera.project(clip().truth[i][Joint::neck]);
+      const auto shirt = image.at<cv::Vec3b>(static_cast<int>(neck.y()) + 30, static_cast<int>(neck.x()));
+      cv::rectangle(image, cv::Rect(10, static_cast<int>(neck.y()) + 60, image.cols - 20, 50),
+                    cv::Scalar(shirt[0], shirt[1], shirt[2]), cv::FILLED);
+    }
+    frames[i].image = image;
+  }
+  Config config = quick_config();
+  config.calibration.worst_region = 1.0;
+  Tracker tracker = make_tracker(config);
+  tracker.learn_background(clip().background);
+  support::ListSource source(frames);
+  const auto found = look_ahead(source, config, clip().camera, tracker.features().calibration(), 0,
+                                [](std::int64_t) { return true; });
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->start.frame, 0);
+  // It would have been the first frame, and there was no face.
+  Tracker scout = make_tracker(config);
+  scout.learn_background(clip().background);
+  for (const Frame& frame : frames) {
+    const TrackedFrame seen = scout.step(frame);
+    EXPECT_EQ(seen.motion.state, TrackState::tracking) << frame.index;
+    ASSERT_TRUE(seen.observation.head) << frame.index;
+    EXPECT_FALSE(seen.observation.head->detected) << frame.index;
   }
 }
 

@@ -182,6 +182,29 @@ void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
 /// colour below is trousers.
 constexpr float kHips = 6.6F;
 
+/// What has the skin's colour but is farther from the head than hands come - bare legs, feet, wood - is
+/// ignored. Hands that reach out to a near camera are seen anywhere.
+void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head) {
+  constexpr float kHalfHead = 0.12F;  // m, hair included
+  constexpr float kReach = 1.0F;      // m: neck and shoulder 0.3, arm and hand 0.7
+  const float focal_length = 0.87F * static_cast<float>(labels.cols);  // of a field of view of 60 degrees
+  const float sine = kReach * head.ry / (kHalfHead * focal_length);
+  if (sine > 0.9F) {
+    return;
+  }
+  const float reach = kReach / kHalfHead * head.ry / std::sqrt(1.0F - sine * sine);
+  for (int r = 0; r < labels.rows; ++r) {
+    auto* l = labels.ptr<unsigned char>(r);
+    const float dy = static_cast<float>(r) - head.y;
+    for (int c = 0; c < labels.cols; ++c) {
+      const float dx = static_cast<float>(c) - head.x;
+      if (l[c] == static_cast<unsigned char>(Label::arms) && dx * dx + dy * dy > reach * reach) {
+        l[c] = static_cast<unsigned char>(Label::ignore);
+      }
+    }
+  }
+}
+
 cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
               bool colours_known) {
   cv::Mat labels = cv::Mat::zeros(silhouette.size(), CV_8UC1);
@@ -215,6 +238,7 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
   }
   if (ellipse && colours_known) {
     name_the_neck(labels, *ellipse);
+    ignore_out_of_reach(labels, *ellipse);
   }
   return labels;
 }

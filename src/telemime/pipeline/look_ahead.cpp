@@ -22,13 +22,16 @@ struct Candidate {
   HeadRegion head;
 };
 
-// The frames that fit best among those with a face, apart from each other.
+// The frames that fit best, apart from each other; where there are faces, among those with one. A mask hides
+// it in all of them.
 std::vector<std::size_t> best_portraits(const std::vector<Candidate>& candidates) {
   constexpr std::size_t kMost = 3;
   constexpr std::size_t kApart = 5;
+  const bool faces =
+      std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.head.detected; });
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].head.detected) {
+    if (candidates[i].head.detected || !faces) {
       order.push_back(i);
     }
   }

@@ -184,7 +184,10 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
       result.refusal = arm_problem(model, result.pose, frame.camera, side);
     }
   }
-  if (result.refusal.empty() && result.score.region > config.worst_region) {
+  // An outline without a face may be somebody's side.
+  constexpr double kFaceless = 0.85;
+  const double worst = config.worst_region * (head.detected ? 1.0 : kFaceless);
+  if (result.refusal.empty() && result.score.region > worst) {
     result.refusal = "the body does not fit the picture (F " + std::to_string(result.score.region) + ")";
   }
   return result;

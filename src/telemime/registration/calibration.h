@@ -22,7 +22,7 @@ struct CalibrationConfig {
   int rounds = 2;                 ///< of pose alignment and shape adjustment
   int pose_iterations = 800;      ///< evaluations of each pose alignment
   double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image
-  double worst_region = 0.45;     ///< F above which the fit is refused
+  double worst_region = 0.45;     ///< F above which the fit is refused; less where no face is seen
 
   void validate() const;
 };
