@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "telemime/body/interpenetration.h"
+#include "telemime/core/loop_order.h"
 #include "telemime/likelihood/all.h"
 
 namespace telemime {
@@ -29,8 +30,10 @@ void Evaluators::evaluate(const PreparedFrame& frame, const Model& model, std::s
 
 void Evaluators::each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work) {
   tbb::task_arena arena(threads_);
+  const LoopOrder order;
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const LoopOrder::Task task(order);
       work(i, *singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
     });
   });

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/loop_order.h"
 #include "telemime/cues/all.h"
 #include "telemime/likelihood/simd/kernel.h"
 
@@ -73,10 +74,12 @@ class SimdBackend final : public Backend {
     }
     // Whole blocks of the kernel, some at a time.
     const std::size_t blocks = (poses.size() + kBlock - 1) / kBlock;
+    const LoopOrder order;
     arena_.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::size_t>(0, blocks, kGrain),
           [&](const auto& range) {
+            const LoopOrder::Task task(order);
             const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
             const std::size_t first = range.begin() * kBlock;
             const std::size_t size = std::min(range.end() * kBlock, poses.size()) - first;
