@@ -117,6 +117,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("tracking/patience", c.tracking.patience);
   visit("tracking/retry_every", c.tracking.retry_every);
   visit("tracking/calibration_patience", c.tracking.calibration_patience);
+  visit("tracking/fill_back", c.tracking.fill_back);
   visit("tracking/velocity", c.tracking.velocity);
   visit("offline/on", c.look_back);
   visit("offline/stretch", c.offline.stretch);
@@ -240,6 +241,8 @@ void Config::validate() const {
           "tracking.lost_region must be in (0, 1]");
   require(tracking.found_region > 0.0 && tracking.found_region <= 1.0,
           "tracking.found_region must be in (0, 1]");
+  require(tracking.fill_back >= 0 && tracking.fill_back <= 1000,
+          "tracking.fill_back must be between 0 and 1000 frames");
   require(tracking.patience >= 1 && tracking.retry_every >= 1 && tracking.calibration_patience >= 0,
           "tracking.patience, retry_every and calibration_patience must be positive");
   require(tracking.velocity >= 0.0 && tracking.velocity <= 1.0, "tracking.velocity must be between 0 and 1");

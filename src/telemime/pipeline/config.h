@@ -29,6 +29,9 @@ struct TrackingConfig {
   /// Frames to wait for a first frame in which the shape can be fitted (thesis 3.3); then the average body
   /// starts; in a file, the frames that the look-ahead picks may still fit it.
   int calibration_patience = 10;
+  /// Of a file: frames lost before somebody is found that may be followed back from there (GapFiller); 0:
+  /// none.
+  int fill_back = 75;
   double velocity = 0.5;  ///< share of the last frame's motion of the arms that is expected again
 };
 

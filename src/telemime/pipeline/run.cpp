@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/pipeline/gap_filler.h"
 #include "telemime/pipeline/look_ahead.h"
 #include "telemime/pipeline/offline.h"
 #include "telemime/pipeline/overlay.h"
@@ -36,10 +38,15 @@ class Run {
     if (tracker.config().look_back) {
       offline_ = std::make_unique<OfflineTracker>(tracker.config(), tracker.limits());
     }
+    const TrackingConfig& tracking = tracker.config().tracking;
+    if (!info.live && tracking.fill_back > 0 && tracking.method != "two-step") {
+      gaps_ = std::make_unique<GapFiller>(tracker);
+    }
   }
 
   Wish step(const Frame& frame) {
-    TrackedFrame result = tracker_.step(frame);
+    tracker_.look(frame, tracker_.settled(), seen_);
+    TrackedFrame result = tracker_.decide(seen_);
     tell(result.note);
     for (const std::string& warning : result.warnings) {
       tell(warning);
@@ -48,15 +55,21 @@ class Run {
       begin();
     }
     ++frames_;
-    if (offline_ && smoother_) {
-      Frame kept = frame;
-      if (!request_.overlay && !hooks_.draw) {
-        kept.image.release();  // of many frames they take much memory
+    OfflineFrame decided{frame, result.note, result.motion, std::move(result.stretch)};
+    if (!request_.overlay && !hooks_.draw) {
+      decided.frame.image.release();  // of many frames they take much memory
+    }
+    if (gaps_) {
+      std::optional<PreparedFrame> unsolved;
+      if (result.motion.state == TrackState::lost && seen_.coloured && seen_.person) {
+        unsolved = std::exchange(seen_.prepared, {});
       }
-      offline_->push({kept, result.note, result.motion, std::move(result.stretch)});
-      take_decided();
+      const std::size_t filled = gaps_->push({std::move(decided), std::move(unsolved)});
+      tell(filled == 0 ? ""
+                       : "found, and followed back through the " + std::to_string(filled) + " frames before");
+      take_filled();
     } else {
-      accept({frame, result.note}, result.motion);
+      look_back(std::move(decided));
     }
     if (!hooks_.progress) {
       return Wish::go_on;
@@ -67,6 +80,10 @@ class Run {
 
   // What waits belongs to the person that is followed now.
   void finish_person() {
+    if (gaps_) {
+      gaps_->finish();
+      take_filled();
+    }
     if (offline_) {
       offline_->finish();
       take_decided();
@@ -109,6 +126,21 @@ class Run {
   }
 
  private:
+  void take_filled() {
+    while (auto frame = gaps_->next()) {
+      look_back(std::move(*frame));
+    }
+  }
+
+  void look_back(OfflineFrame frame) {
+    if (offline_ && smoother_) {
+      offline_->push(std::move(frame));
+      take_decided();
+    } else {
+      accept({frame.frame, frame.note}, frame.motion);
+    }
+  }
+
   void take_decided() {
     while (const auto decided = offline_->next(tracker_.model(), tracker_.camera())) {
       accept({decided->frame, decided->note}, decided->motion);
@@ -180,6 +212,8 @@ class Run {
   std::unique_ptr<TwoWaySmoother> smoother_;
   std::int64_t frames_ = 0;  // read so far; offline, fewer are decided
   RunStatistics statistics_;
+  SeenFrame seen_;  // for its memory
+  std::unique_ptr<GapFiller> gaps_;
   std::unique_ptr<OfflineTracker> offline_;
   std::vector<MotionFrame> before_;  // all lost: until the person's shape is known
   std::deque<Waiting> waiting_;

@@ -282,14 +282,18 @@ void Tracker::follow_with_filter(const SeenFrame& seen, TrackedFrame& result) {
   filter_->set_time_step(steps_);
   const FilterResult found = filter_->step(seen.prepared, model_, config_.tracking.velocity);
   result.motion.evaluations += found.evaluations;
-  const SpreadModel& spread = filter_->numbers().spread;
-  result.motion.spread = spread_of({model_.body, working_camera_, found.score.region,
-                                    calibration_->height_given ? spread.size_given : spread.size},
-                                   filter_->particles(), found.pose, spread);
+  result.motion.spread = spread(*filter_, found);
   facing_ = found.facing;
   previous_ = pose_;
   adopt(found.pose, found.score, result);
   watch(seen, found.score, result);
+}
+
+PoseSpread Tracker::spread(const ParticleFilter& filter, const FilterResult& found) const {
+  const SpreadModel& spread = filter.numbers().spread;
+  return spread_of({model_.body, working_camera_, found.score.region,
+                    calibration_ && calibration_->height_given ? spread.size_given : spread.size},
+                   filter.particles(), found.pose, spread);
 }
 
 void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& result) {

@@ -96,6 +96,9 @@ class Tracker {
   /// Starts over with the person (not the scene) at the next frame. Not beside look().
   void recalibrate();
 
+  /// How sure a particle filter that follows this person is of what it found.
+  PoseSpread spread(const ParticleFilter& filter, const FilterResult& found) const;
+
   const std::optional<TrackerCalibration>& calibration() const { return calibration_; }
   /// The frame since which a head has been in the picture, with the colours that are known now.
   std::int64_t since() const { return since_; }

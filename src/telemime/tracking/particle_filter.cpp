@@ -89,12 +89,13 @@ ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationCon
   config_.validate();
 }
 
-void ParticleFilter::start(const Pose& pose) {
+void ParticleFilter::start(const Pose& pose, bool backward) {
   Particle particle;
   particle.pose = limits_.clamp(pose);
   particle.weight = particle.prior = 1.0;
   particles_ = {particle};
   estimate_ = before_ = particle.pose;
+  backward_ = backward;
   labels_before_.release();
   velocity_.setZero();
   frames_ = frames_before_ = 1.0;
@@ -134,7 +135,7 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
                               model,       limits_,
                               config,      numbers_,
                               search,      estimate_,
-                              expected,    facing.value_or(facing_of(velocity_)),
+                              expected,    facing.value_or(facing_of(backward_ ? -velocity_ : velocity_)),
                               evaluators_, seeds_.bits()};
   Generation generation;
   generation.parents = std::move(particles_);

@@ -29,8 +29,9 @@ class ParticleFilter {
   ParticleFilter(const FilterConfig& config, const RegistrationConfig& search, const JointLimits& limits,
                  Evaluators& evaluators, std::uint64_t seed);
 
-  /// All particles at one pose, in the frame that comes next or before.
-  void start(const Pose& pose);
+  /// All particles at one pose, in the frame that comes next or before. `backward`: the frames come against
+  /// the order of time, and who walks looks where they come from.
+  void start(const Pose& pose, bool backward = false);
   /// Forgets all particles.
   void stop() { particles_.clear(); }
   bool started() const { return !particles_.empty(); }
@@ -64,6 +65,7 @@ class ParticleFilter {
   Pose estimate_;
   Pose before_;
   double effort_ = 1.0;
+  bool backward_ = false;
   double frames_ = 1.0;                                 ///< time step of the next frame
   double frames_before_ = 1.0;                          ///< from before_ to estimate_
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed

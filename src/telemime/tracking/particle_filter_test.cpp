@@ -91,17 +91,19 @@ TEST(ParticleFilter, WhoWalksAcrossFacesWhereTheyGo) {
   FilterConfig config;
   config.particles = 300;
   config.mode_most = 300;
-  for (const double side : {-1.0, 1.0}) {
-    ParticleFilter filter = make_filter(scene, config);
-    Pose truth = both_arms_seen();
-    filter.start(truth);
-    double facing = 0.0;
-    for (int i = 0; i < 12; ++i) {
-      truth.root.x() += side * 0.03;
-      scene.show(truth);
-      facing = filter.step(scene.frame, scene.model, 0.5).facing;
+  for (const bool backward : {false, true}) {
+    for (const double side : {-1.0, 1.0}) {
+      ParticleFilter filter = make_filter(scene, config);
+      Pose truth = both_arms_seen();
+      filter.start(truth, backward);
+      double facing = 0.0;
+      for (int i = 0; i < 12; ++i) {
+        truth.root.x() += side * 0.03;
+        scene.show(truth);
+        facing = filter.step(scene.frame, scene.model, 0.5).facing;
+      }
+      EXPECT_GT((backward ? -side : side) * facing, 30 * kDegree);
     }
-    EXPECT_GT(side * facing, 30 * kDegree);
   }
 }
 
