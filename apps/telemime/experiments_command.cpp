@@ -70,8 +70,18 @@ void run_experiments(ExperimentArguments arguments) {
   Lab lab(arguments.lab);
   std::vector<Section> sections;
   const std::filesystem::path out = arguments.out;
+  std::string missed;
+  ErrorKind why = ErrorKind::tracking;
   for (const Experiment* const experiment : experiments) {
-    sections.push_back(run_experiment(*experiment, lab));
+    try {
+      sections.push_back(run_experiment(*experiment, lab));
+    } catch (const Error& error) {
+      // Clips that one experiment cannot use need not stop hours of others.
+      std::cerr << experiment->id << "  not measured: " << error.what() << '\n';
+      missed.append(" ").append(experiment->id);
+      why = error.kind();
+      continue;
+    }
     write_section(out, sections.back());
     std::cout << experiment->id << "  " << sections.back().finding.verdict << std::endl;
     write_text(out / "report.html", report_page(sections, conditions(lab.options())));
@@ -79,7 +89,12 @@ void run_experiments(ExperimentArguments arguments) {
   if (!arguments.budget.empty()) {
     write_text(arguments.budget, tuning_json({lab.fit(), {}}, 0.0));
   }
-  std::cout << "report: " << (out / "report.html").string() << '\n';
+  if (!sections.empty()) {
+    std::cout << "report: " << (out / "report.html").string() << '\n';
+  }
+  if (!missed.empty()) {
+    throw Error(why, "experiments that could not be measured:" + missed);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Back ends as a user chooses and measures them.
+// Back ends as a user chooses and measures them, and the experiments.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -42,6 +42,29 @@ TEST(Backends, ThatCannotRunOrDoNotExistAreRefusedInWords) {
       EXPECT_NE(ended.words.find(kind.missing()), std::string::npos) << ended.words;
     }
   }
+}
+
+TEST(Experiments, OneThatCannotBeMeasuredDoesNotStopTheOthers) {
+  const Folder folder;
+  const Ended ended =
+      run({"experiments", "F4-33", "T4-1", "--quick", "--data", folder / "nothing", "--out", folder / "out"});
+  EXPECT_EQ(ended.code, kExitTracking);
+  EXPECT_NE(ended.words.find("F4-33  not measured"), std::string::npos) << ended.words;
+  EXPECT_NE(ended.output.find("T4-1"), std::string::npos) << ended.output;
+  EXPECT_TRUE(std::filesystem::exists(folder / "out/T4-1"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/F4-33"));
+}
+
+TEST(Experiments, WithoutRealClipsTheGesturesAreTakenWithTheirBackground) {
+  const Folder folder;
+  const std::filesystem::path clip = folder / "raising_arms";
+  std::filesystem::create_directory(clip);
+  std::filesystem::create_directory_symlink(person_clip(), clip / "video.mkv");
+  std::filesystem::create_directory_symlink(wall_clip(), clip / "background.mkv");
+  const Ended ended =
+      run({"experiments", "F4-33", "--quick", "--data", folder.path().string(), "--out", folder / "out"});
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_NE(ended.output.find("raising_arms"), std::string::npos) << ended.output;
 }
 
 }  // namespace
