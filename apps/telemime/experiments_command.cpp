@@ -4,10 +4,13 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
+#include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "measurement_clips.h"
@@ -72,14 +75,25 @@ void run_experiments(ExperimentArguments arguments) {
   const std::filesystem::path out = arguments.out;
   std::string missed;
   ErrorKind why = ErrorKind::tracking;
-  for (const Experiment* const experiment : experiments) {
+  // What one experiment cannot use need not stop hours of others.
+  const auto try_to = [&](std::string_view id, const std::function<void()>& measure) {
+    const auto miss = [&](const char* words, ErrorKind kind) {
+      std::cerr << id << "  not measured: " << words << '\n';
+      why = missed.empty() ? kind : why;
+      missed.append(" ").append(id);
+      return false;
+    };
     try {
-      sections.push_back(run_experiment(*experiment, lab));
+      measure();
+      return true;
     } catch (const Error& error) {
-      // Clips that one experiment cannot use need not stop hours of others.
-      std::cerr << experiment->id << "  not measured: " << error.what() << '\n';
-      missed.append(" ").append(experiment->id);
-      why = error.kind();
+      return miss(error.what(), error.kind());
+    } catch (const std::exception& error) {
+      return miss(error.what(), ErrorKind::tracking);
+    }
+  };
+  for (const Experiment* const experiment : experiments) {
+    if (!try_to(experiment->id, [&] { sections.push_back(run_experiment(*experiment, lab)); })) {
       continue;
     }
     write_section(out, sections.back());
@@ -87,7 +101,7 @@ void run_experiments(ExperimentArguments arguments) {
     write_text(out / "report.html", report_page(sections, conditions(lab.options())));
   }
   if (!arguments.budget.empty()) {
-    write_text(arguments.budget, tuning_json({lab.fit(), {}}, 0.0));
+    try_to("--budget", [&] { write_text(arguments.budget, tuning_json({lab.fit(), {}}, 0.0)); });
   }
   if (!sections.empty()) {
     std::cout << "report: " << (out / "report.html").string() << '\n';

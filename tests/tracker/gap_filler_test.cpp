@@ -32,7 +32,7 @@ struct Tracked {
       PreparedFrame prepared = seen.prepared;
       TrackedFrame result = tracker.decide(seen);
       EXPECT_EQ(result.motion.state, TrackState::tracking) << frame.index;
-      frames.push_back({{frame, "", result.motion, std::nullopt}, std::move(prepared)});
+      frames.push_back({{frame, "", result.motion, std::nullopt, {}}, std::move(prepared)});
     }
   }
   // As the tracker gives a frame in which it does not find the person whom it sees.
@@ -89,14 +89,16 @@ TEST(GapFiller, StopsWhereNobodyIsSeen) {
   GapFrame empty = t.lost(1);
   empty.seen.reset();
   gaps.push(empty);
-  gaps.push(t.lost(2));
-  EXPECT_EQ(gaps.push(t.tracked(3)), 1U);
-  const auto frames = take(gaps);
-  ASSERT_EQ(frames.size(), 4U);
+  auto frames = take(gaps);
+  ASSERT_EQ(frames.size(), 2U) << "nobody can be followed back to these";
   EXPECT_EQ(frames[0].motion.state, TrackState::lost);
   EXPECT_EQ(frames[0].note, "not found");
   EXPECT_EQ(frames[1].motion.state, TrackState::lost);
-  EXPECT_EQ(frames[2].motion.state, TrackState::tracking);
+  gaps.push(t.lost(2));
+  EXPECT_EQ(gaps.push(t.tracked(3)), 1U);
+  frames = take(gaps);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[0].motion.state, TrackState::tracking);
 }
 
 TEST(GapFiller, WhereTheBodyNoLongerFitsThePersonStaysLost) {
@@ -142,6 +144,33 @@ TEST(GapFiller, NoMoreFramesWaitThanItMay) {
   EXPECT_EQ(frames[1].motion.state, TrackState::lost);
   EXPECT_EQ(gaps.push(t.tracked(3)), 0U) << "what was handed out stays as it was";
   EXPECT_EQ(take(gaps).size(), 1U);
+}
+
+TEST(GapFiller, WhatIsFollowedBackCanBeLookedBackOn) {
+  Config config = filling(10);
+  config.look_back = true;
+  const Tracked t(config);
+  GapFiller gaps(t.tracker);
+  gaps.push(t.lost(3));
+  gaps.push(t.lost(4));
+  ASSERT_EQ(gaps.push(t.tracked(5)), 2U);
+  OfflineTracker offline(t.tracker.config(), t.tracker.limits());
+  for (OfflineFrame& frame : take(gaps)) {
+    if (frame.motion.frame < 5) {
+      ASSERT_TRUE(frame.stretch) << frame.motion.frame;
+      EXPECT_FALSE(frame.stretch->candidates.empty());
+      EXPECT_FALSE(frame.stretch->frame.labels.empty());
+      offline.push(std::move(frame));
+    }
+  }
+  offline.finish();
+  for (std::int64_t index = 3; index < 5; ++index) {
+    const auto frame = offline.next(t.tracker.model(), t.tracker.camera());
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->motion.frame, index);
+    EXPECT_EQ(frame->motion.state, TrackState::tracking);
+    EXPECT_LT(frame->motion.region_score, 0.3);
+  }
 }
 
 TEST(GapFiller, SameSeedSamePosesForAnyNumberOfThreads) {

@@ -93,7 +93,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
     }
     const Body& body = tracker.model().body;
     regions.push_back(frame.motion.region_score);
-    contours.push_back(frame.motion.contour_score / config.image.width);
+    contours.push_back(frame.motion.contour_score / tracker.config().image.width);
     const FrameErrors errors =
         measure_frame(frame.motion, clip.camera, clip.truth.frames[t], clip.truth.camera, 1.0);
     Sample sample{body, frame.motion.pose, frame.motion.region_score, {}};

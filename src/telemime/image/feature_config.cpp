@@ -37,15 +37,21 @@ constexpr int kLargest = 1920;
 ImageConfig with_square_pixels(ImageConfig config, const Camera& camera) {
   const Camera working = camera.scaled_to(config.width, config.height);
   const double stretched = working.fy / working.fx;
-  if (std::abs(stretched - 1.0) < 0.01) {
+  // Even sides are up to a pixel off: what was fitted once must stay as it is.
+  const double rounding = 1.1 * (1.0 / config.width + 1.0 / config.height);
+  if (std::abs(stretched - 1.0) < std::max(0.01, rounding)) {
     return config;
   }
   const auto even = [](double size, int least) {
     return std::clamp(2 * static_cast<int>(std::lround(0.5 * size)), least, kLargest);
   };
   const double root = std::sqrt(stretched);
-  config.width = even(root * config.width, kNarrowest);
-  config.height = even(config.height / root, kLowest);
+  const double width = root * config.width;
+  const double height = config.height / root;
+  const double wanted = std::clamp(width, static_cast<double>(kNarrowest), static_cast<double>(kLargest));
+  config.height = even(height * wanted / width, kLowest);
+  const bool bound = config.height == kLowest || config.height == kLargest;
+  config.width = even(bound ? config.height * width / height : wanted, kNarrowest);
   return config;
 }
 

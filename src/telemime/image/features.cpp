@@ -179,7 +179,7 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   if (!calibration_.background.empty() &&
       calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
     throw Error(ErrorKind::config, "the background was learned at another working size",
-                "calibrate again, or use the working size of the calibration");
+                "calibrate again, with the same --size and a camera of the same shape");
   }
   believed_.release();
   silhouette_.release();

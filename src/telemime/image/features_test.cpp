@@ -91,6 +91,31 @@ TEST(ImageConfig, TheWorkingImageHasSquarePixelsAndAboutAsMany) {
   }
 }
 
+TEST(ImageConfig, AWorkingImageThatWasFittedIsNotFittedAgain) {
+  for (const auto& [columns, rows] : {std::pair(40, 30),
+                                      {44, 33},
+                                      {60, 45},
+                                      {72, 54},
+                                      {100, 75},
+                                      {112, 84},
+                                      {140, 105},
+                                      {160, 120},
+                                      {320, 240},
+                                      {640, 480},
+                                      {1920, 1440}}) {
+    for (int width = 200; width < 3000; width += 7) {
+      ImageConfig config;
+      config.width = columns;
+      config.height = rows;
+      const Camera camera = camera_from_field_of_view(width, 720, 60.0);
+      const ImageConfig fitted = with_square_pixels(config, camera);
+      const ImageConfig again = with_square_pixels(fitted, camera);
+      EXPECT_EQ(std::pair(again.width, again.height), std::pair(fitted.width, fitted.height))
+          << columns << "x" << rows << " of " << width << "x720";
+    }
+  }
+}
+
 TEST(ImageConfig, AWorkingImageWithSquarePixelsStaysAndOddShapesStayValid) {
   ImageConfig config;
   config.width = 320;

@@ -186,7 +186,7 @@ constexpr float kHips = 6.6F;
 /// ignored. Hands that reach out to a near camera are seen anywhere.
 void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head) {
   constexpr float kHalfHead = 0.12F;  // m, hair included
-  constexpr float kReach = 1.0F;      // m: neck and shoulder 0.3, arm and hand 0.7
+  constexpr float kReach = 1.15F;  // m: neck and shoulder 0.3, arm and hand 0.7; and a head that seems small
   const float focal_length = 0.87F * static_cast<float>(labels.cols);  // of a field of view of 60 degrees
   const float sine = kReach * head.ry / (kHalfHead * focal_length);
   if (sine > 0.9F) {

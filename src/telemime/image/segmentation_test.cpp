@@ -66,8 +66,8 @@ TEST(Segmentation, EveryPartGetsItsLabel) {
   EXPECT_EQ(at(out.labels, 130, 90), Label::background);
 }
 
-TEST(Segmentation, BareAnklesAreNoArms) {
-  // Somebody who is seen whole, in a picture of twice the size.
+// Somebody who is seen whole, in a picture of twice the size, with an arm that hangs down so many pixels.
+Segmentation seen_whole(int arm, double head_height) {
   const cv::Mat empty(240, 320, CV_8UC3, kWall);
   cv::Mat image = empty.clone();
   cv::rectangle(image, cv::Rect(142, 46, 36, 60), kShirt, cv::FILLED);
@@ -75,18 +75,30 @@ TEST(Segmentation, BareAnklesAreNoArms) {
   cv::rectangle(image, cv::Rect(148, 186, 24, 14), kSkinColour, cv::FILLED);
   cv::rectangle(image, cv::Rect(155, 38, 10, 10), kSkinColour, cv::FILLED);
   cv::ellipse(image, {160, 28}, {9, 13}, 0, 0, 360, kSkinColour, cv::FILLED);
-  cv::rectangle(image, cv::Rect(130, 64, 12, 48), kSkinColour, cv::FILLED);
+  cv::rectangle(image, cv::Rect(130, 64, 12, arm), kSkinColour, cv::FILLED);
   const LogColour colour = log_colour(image);
   const BackgroundModel model = learn_background_model(std::vector<cv::Mat>(5, empty));
   const BackgroundEnergy background = background_energy(model, colour, ShadowRange{}, {});
-  const HeadRegion head{{160, 28}, {9.5, 13.5}, true};
+  HeadRegion head{{160, 28}, {9.5, 13.5}, true};
   PersonColours colours;
-  ASSERT_TRUE(
+  EXPECT_TRUE(
       learn_person(colour, segment(colour, background, {}, head, {}).silhouette, head, colours).accepted);
-  const Segmentation out = segment(colour, background, colours, head, {});
+  head.radii.y() = head_height;
+  return segment(colour, background, colours, head, {});
+}
+
+TEST(Segmentation, BareAnklesAreNoArms) {
+  const Segmentation out = seen_whole(48, 13.5);
   EXPECT_EQ(at(out.labels, 136, 106), Label::arms) << "a hand that hangs down";
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore);
   EXPECT_EQ(out.silhouette.at<unsigned char>(194, 160), 255) << "of the person they are";
+}
+
+TEST(Segmentation, FingersOfALongArmAreSeenThoughTheHeadIsBowed) {
+  // A metre from the head's centre, with a head that seems 10 % too low.
+  const Segmentation out = seen_whole(76, 12.15);
+  EXPECT_EQ(at(out.labels, 136, 138), Label::arms);
+  EXPECT_EQ(at(out.labels, 160, 194), Label::ignore) << "ankles";
 }
 
 TEST(Segmentation, BackgroundIsWhereTheSilhouetteIsNot) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/pipeline/gap_filler.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@ std::size_t GapFiller::push(GapFrame frame) {
   if (waiting_.back().decided.motion.state == TrackState::tracking) {
     filled = fill();
     finish();
+  } else if (!waiting_.back().seen) {
+    finish();  // nobody is followed back across it
   } else if (waiting_.size() > static_cast<std::size_t>(tracker_.config().tracking.fill_back)) {
     ++decided_;
   }
@@ -41,11 +44,20 @@ std::size_t GapFiller::fill() {
   }
   ParticleFilter filter(config.filter, config.registration, tracker_.limits(), evaluators_, seeds_.bits());
   filter.start(waiting_[found].decided.motion.pose, true);
-  std::vector<OfflineFrame> followed;  // the last frame first
-  std::size_t good = 0;                // so many of them: the body fits in the last of these
-  double bad_for = 0.0;                // 1/25 s
-  for (std::size_t t = found; t-- > decided_ && waiting_[t].seen && bad_for < config.tracking.patience;) {
-    OfflineFrame frame = waiting_[t].decided;
+  struct Followed {
+    MotionFrame motion;
+    std::optional<StretchFrame> stretch;
+  };
+  std::vector<Followed> followed;  // the last frame first
+  std::size_t good = 0;            // so many of them: the body fits in the last of these
+  double bad_for = 0.0;            // 1/25 s
+  int bad_frames = 0;              // in a row
+  // As long as Tracker::watch would go on.
+  const auto goes_on = [&] {
+    return bad_for < config.tracking.patience || bad_frames < std::min(2, config.tracking.patience);
+  };
+  for (std::size_t t = found; t-- > decided_ && waiting_[t].seen && goes_on();) {
+    Followed frame{waiting_[t].decided.motion, std::nullopt};
     MotionFrame& motion = frame.motion;
     const double steps = steps_between(motion.time, waiting_[t + 1].decided.motion.time);
     filter.set_time_step(steps);
@@ -57,20 +69,22 @@ std::size_t GapFiller::fill() {
     motion.evaluations += result.evaluations;
     motion.spread = tracker_.spread(filter, result);
     complete(motion, tracker_.model().body, tracker_.camera());
-    frame.note.clear();
     if (config.look_back) {
       std::vector<Pose> poses = mode_poses(config.filter, filter, tracker_.model().body, result.pose);
       const std::size_t count = poses.size();
       frame.stretch = StretchFrame{std::move(*waiting_[t].seen), result.facing, std::move(poses), count};
     }
     followed.push_back(std::move(frame));
-    // What is found must fit better than what is only not lost.
-    const bool fits = result.score.region <= config.tracking.found_region;
+    const bool fits = result.score.region <= config.tracking.lost_region;
     good = fits ? followed.size() : good;
     bad_for = fits ? 0.0 : bad_for + steps;
+    bad_frames = fits ? 0 : bad_frames + 1;
   }
   for (std::size_t i = 0; i < good; ++i) {
-    waiting_[found - 1 - i].decided = std::move(followed[i]);
+    OfflineFrame& frame = waiting_[found - 1 - i].decided;
+    frame.motion = std::move(followed[i].motion);
+    frame.stretch = std::move(followed[i].stretch);
+    frame.note.clear();
   }
   return good;
 }

@@ -22,7 +22,8 @@ struct GapFrame {
 /// seed, same result.
 class GapFiller {
  public:
-  /// `tracker` must stay, and use a particle filter. At most TrackingConfig::fill_back frames wait.
+  /// `tracker` must stay, and use a particle filter. At most TrackingConfig::fill_back frames wait,
+  /// all of them with somebody seen.
   explicit GapFiller(const Tracker& tracker);
 
   /// `tracker` has just decided about the frame. Returns how many frames before it are tracked now, too.

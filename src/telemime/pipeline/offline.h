@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "telemime/body/motion_frame.h"
 #include "telemime/core/frame.h"
@@ -20,6 +21,7 @@ struct OfflineFrame {
   std::string note;
   MotionFrame motion;
   std::optional<StretchFrame> stretch;  ///< nothing where nobody is tracked
+  std::vector<unsigned char> packed;    ///< its image, compressed, of put_away(); else empty
 };
 
 /// Decides about the poses of a file with what comes after them, too: a second particle filter runs backward

@@ -12,6 +12,7 @@
 #include "telemime/pipeline/offline.h"
 #include "telemime/pipeline/overlay.h"
 #include "telemime/pipeline/person_file.h"
+#include "telemime/pipeline/put_away.h"
 #include "telemime/pipeline/run_outputs.h"
 #include "telemime/pipeline/run_statistics.h"
 #include "telemime/pipeline/scene.h"
@@ -55,15 +56,18 @@ class Run {
       begin();
     }
     ++frames_;
-    OfflineFrame decided{frame, result.note, result.motion, std::move(result.stretch)};
+    OfflineFrame decided{frame, result.note, result.motion, std::move(result.stretch), {}};
     if (!request_.overlay && !hooks_.draw) {
       decided.frame.image.release();  // of many frames they take much memory
     }
+    std::optional<PreparedFrame> unsolved;
+    if (gaps_ && result.motion.state == TrackState::lost && seen_.coloured && seen_.person) {
+      unsolved = std::exchange(seen_.prepared, {});
+    }
+    if ((offline_ && smoother_) || unsolved) {
+      put_away(decided);
+    }
     if (gaps_) {
-      std::optional<PreparedFrame> unsolved;
-      if (result.motion.state == TrackState::lost && seen_.coloured && seen_.person) {
-        unsolved = std::exchange(seen_.prepared, {});
-      }
       const std::size_t filled = gaps_->push({std::move(decided), std::move(unsolved)});
       tell(filled == 0 ? ""
                        : "found, and followed back through the " + std::to_string(filled) + " frames before");
@@ -137,17 +141,20 @@ class Run {
       offline_->push(std::move(frame));
       take_decided();
     } else {
-      accept({frame.frame, frame.note}, frame.motion);
+      accept(std::move(frame));
     }
   }
 
   void take_decided() {
-    while (const auto decided = offline_->next(tracker_.model(), tracker_.camera())) {
-      accept({decided->frame, decided->note}, decided->motion);
+    while (auto decided = offline_->next(tracker_.model(), tracker_.camera())) {
+      accept(std::move(*decided));
     }
   }
 
-  void accept(const Waiting& waiting, const MotionFrame& motion) {
+  void accept(OfflineFrame frame) {
+    take_out(frame);
+    const MotionFrame& motion = frame.motion;
+    const Waiting waiting{frame.frame, frame.note};
     statistics_.add(motion);
     if (smoother_) {
       waiting_.push_back(waiting);
