@@ -4,7 +4,7 @@
 set -euo pipefail
 blender="${TELEMIME_BLENDER:-blender}"
 if ! command -v "$blender" > /dev/null; then
-  echo "skipped: Blender is not installed here. Install the package blender, or say with TELEMIME_BLENDER where it is."
+  echo "skipped: Blender is not installed here. Install the packages blender and python3-numpy, or say with TELEMIME_BLENDER where it is."
   exit 77
 fi
 exec "$blender" --background --factory-startup --python-exit-code 1 \

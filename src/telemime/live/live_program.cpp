@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/heap.h"
 #include "telemime/live/kept_outputs.h"
 #include "telemime/live/live_answers.h"
 #include "telemime/live/live_files.h"
@@ -185,6 +186,7 @@ struct LiveProgram::State {
     server->send_text(kWords, shared(text));
     senders.person(header);
     recorder.person(header);
+    give_heap_back();  // what the scene and the person were learned from
   }
 
   void hand_out(const MotionFrame& frame, double taken) {

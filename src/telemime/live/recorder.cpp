@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/heap.h"
 #include "telemime/live/resampler.h"
 #include "telemime/outputs/file_output.h"
 
@@ -154,9 +155,13 @@ struct Recorder::State {
   }
 
   void close() {
-    if (!open) {
-      return;
+    if (open) {
+      end();
+      give_heap_back();  // the files' frames, and what waited for the disk
     }
+  }
+
+  void end() {
     const Open last = std::move(*open);
     open.reset();  // whatever fails from here on, it is over
     Recording recording = last.recording;
