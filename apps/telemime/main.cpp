@@ -21,7 +21,7 @@
 #include "live_command.h"
 #include "room_command.h"
 #include "synth_command.h"
-#include "telemime/capture/quiet.h"
+#include "telemime/capture/prepare_opencv.h"
 #include "track_command.h"
 #include "tune_command.h"
 
@@ -65,7 +65,7 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
 }  // namespace telemime
 
 int main(int argc, char** argv) {
-  telemime::quiet_opencv();
+  telemime::prepare_opencv();
   const auto left_behind = std::make_shared<std::atomic<bool>>(false);
   const int code = telemime::exit_code_of(argc, argv, left_behind);
   if (*left_behind) {

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "telemime/capture/quiet.h"
+#include "telemime/capture/prepare_opencv.h"
 #include "telemime/capture/testing.h"
 
 namespace telemime {
@@ -13,7 +13,7 @@ namespace {
 
 class ImageSequenceTest : public ::testing::Test {
  protected:
-  ImageSequenceTest() { quiet_opencv(); }
+  ImageSequenceTest() { prepare_opencv(); }
 
   void write_image(const std::string& name, const cv::Mat& image) const {
     ASSERT_TRUE(cv::imwrite(scratch_.file(name), image)) << name;

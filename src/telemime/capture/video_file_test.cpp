@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "telemime/capture/quiet.h"
+#include "telemime/capture/prepare_opencv.h"
 #include "telemime/capture/testing.h"
 
 namespace telemime {
@@ -13,7 +13,7 @@ namespace {
 
 class VideoFileTest : public ::testing::Test {
  protected:
-  VideoFileTest() { quiet_opencv(); }
+  VideoFileTest() { prepare_opencv(); }
 
   /// The message with which opening fails.
   static std::string refusal(const std::string& input) {
