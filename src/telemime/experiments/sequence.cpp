@@ -118,7 +118,7 @@ PreparedSequence prepare_sequence(const Clip& clip, const Config& config) {
   sequence.camera = clip.camera;
   sequence.truth = clip.truth;
   sequence.limits = load_limits(config.limits);
-  const ImageConfig image = with_square_pixels(config.image, clip.camera);
+  const ImageConfig image = fitted_to(config.image, clip.camera);
   const Camera working = clip.camera.scaled_to(image.width, image.height);
   const auto backend = make_scalar_backend();
   Random random(config.seed);

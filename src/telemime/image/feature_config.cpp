@@ -34,7 +34,8 @@ constexpr int kLargest = 1920;
 
 }  // namespace
 
-ImageConfig with_square_pixels(ImageConfig config, const Camera& camera) {
+ImageConfig fitted_to(ImageConfig config, const Camera& camera) {
+  config.segmentation.focal_length = static_cast<float>(camera.fx / camera.width);
   const Camera working = camera.scaled_to(config.width, config.height);
   const double stretched = working.fy / working.fx;
   // Even sides are up to a pixel off: what was fitted once must stay as it is.

@@ -21,7 +21,7 @@ struct EdgeConfig {
 };
 
 struct ImageConfig {
-  int width = 160;                 ///< of the working image, pixels; see with_square_pixels
+  int width = 160;                 ///< of the working image, pixels; see fitted_to
   int height = 120;                ///< pixels
   std::filesystem::path cascades;  ///< folder of OpenCV's face cascades; empty: searched
   int face_width = 320;            ///< the face detector looks at pictures of at most this width
@@ -36,10 +36,11 @@ struct ImageConfig {
   void validate() const;
 };
 
-/// The configuration with a working image of about as many pixels whose pixels are square: people are known
+/// The configuration for pictures of this camera: its focal length, and a working image of about as many
+/// pixels whose pixels are square. People are known
 /// by their shape, and a picture of 16:9 that is squeezed into 4:3 makes every head too high. As it is where
 /// they are square within 1 %.
-ImageConfig with_square_pixels(ImageConfig config, const Camera& camera);
+ImageConfig fitted_to(ImageConfig config, const Camera& camera);
 
 /// What calibration learned; a value that can be saved (calibration_file.h).
 struct ImageCalibration {

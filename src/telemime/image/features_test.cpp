@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -81,11 +82,11 @@ TEST(ImageConfig, TheWorkingImageHasSquarePixelsAndAboutAsMany) {
     cameras.push_back(camera_from_field_of_view(width, height, 60.0));
   }
   for (const Camera& camera : cameras) {
-    const ImageConfig fitted = with_square_pixels(config, camera);
+    const ImageConfig fitted = fitted_to(config, camera);
     const Camera working = camera.scaled_to(fitted.width, fitted.height);
     EXPECT_NEAR(working.fy / working.fx, 1.0, 0.01) << camera.width << "x" << camera.height;
     EXPECT_NEAR(fitted.width * fitted.height / (320.0 * 240.0), 1.0, 0.02);
-    const ImageConfig again = with_square_pixels(fitted, camera);
+    const ImageConfig again = fitted_to(fitted, camera);
     EXPECT_EQ(again.width, fitted.width);
     EXPECT_EQ(again.height, fitted.height);
   }
@@ -108,8 +109,8 @@ TEST(ImageConfig, AWorkingImageThatWasFittedIsNotFittedAgain) {
       config.width = columns;
       config.height = rows;
       const Camera camera = camera_from_field_of_view(width, 720, 60.0);
-      const ImageConfig fitted = with_square_pixels(config, camera);
-      const ImageConfig again = with_square_pixels(fitted, camera);
+      const ImageConfig fitted = fitted_to(config, camera);
+      const ImageConfig again = fitted_to(fitted, camera);
       EXPECT_EQ(std::pair(again.width, again.height), std::pair(fitted.width, fitted.height))
           << columns << "x" << rows << " of " << width << "x720";
     }
@@ -121,13 +122,20 @@ TEST(ImageConfig, AWorkingImageWithSquarePixelsStaysAndOddShapesStayValid) {
   config.width = 320;
   config.height = 240;
   for (const auto& [width, height] : {std::pair(640, 480), {1600, 1200}, {322, 240}}) {
-    const ImageConfig fitted = with_square_pixels(config, camera_from_field_of_view(width, height, 60.0));
+    const ImageConfig fitted = fitted_to(config, camera_from_field_of_view(width, height, 60.0));
     EXPECT_EQ(fitted.width, 320) << width;
     EXPECT_EQ(fitted.height, 240) << width;
   }
   for (const auto& [width, height] : {std::pair(8000, 20), {20, 8000}}) {
     const Camera camera = camera_from_field_of_view(width, height, 60.0);
-    EXPECT_NO_THROW(with_square_pixels(config, camera).validate()) << width;
+    EXPECT_NO_THROW(fitted_to(config, camera).validate()) << width;
+  }
+}
+
+TEST(ImageConfig, TheFocalLengthIsTheCameras) {
+  for (const double degrees : {43.6, 60.0, 90.0}) {
+    const ImageConfig fitted = fitted_to(ImageConfig(), camera_from_field_of_view(1280, 720, degrees));
+    EXPECT_NEAR(fitted.segmentation.focal_length, 0.5 / std::tan(degrees / 2 * M_PI / 180), 1e-3) << degrees;
   }
 }
 

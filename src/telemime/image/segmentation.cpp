@@ -184,10 +184,10 @@ constexpr float kHips = 6.6F;
 
 /// What has the skin's colour but is farther from the head than hands come - bare legs, feet, wood - is
 /// ignored. Hands that reach out to a near camera are seen anywhere.
-void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head) {
+void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head, const SegmentationConfig& config) {
   constexpr float kHalfHead = 0.12F;  // m, hair included
   constexpr float kReach = 1.15F;  // m: neck and shoulder 0.3, arm and hand 0.7; and a head that seems small
-  const float focal_length = 0.87F * static_cast<float>(labels.cols);  // of a field of view of 60 degrees
+  const float focal_length = config.focal_length * static_cast<float>(labels.cols);
   const float sine = kReach * head.ry / (kHalfHead * focal_length);
   if (sine > 0.9F) {
     return;
@@ -206,7 +206,7 @@ void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head) {
 }
 
 cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
-              bool colours_known) {
+              bool colours_known, const SegmentationConfig& config) {
   cv::Mat labels = cv::Mat::zeros(silhouette.size(), CV_8UC1);
   const std::optional<Ellipse> ellipse = head ? std::optional<Ellipse>(Ellipse(*head)) : std::nullopt;
   const auto code = [](Label l) { return static_cast<unsigned char>(l); };
@@ -238,7 +238,7 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
   }
   if (ellipse && colours_known) {
     name_the_neck(labels, *ellipse);
-    ignore_out_of_reach(labels, *ellipse);
+    ignore_out_of_reach(labels, *ellipse, config);
   }
   return labels;
 }
@@ -274,7 +274,7 @@ Segmentation segment(const LogColour& picture, const BackgroundEnergy& backgroun
   give_scraps_to_neighbours(votes, out.silhouette,
                             4 * config.least_part * static_cast<double>(out.silhouette.total()));
   cv::compare(votes.colour, static_cast<int>(kSkin), out.skin, cv::CMP_EQ);
-  out.labels = label(out.silhouette, votes, head, colours.known());
+  out.labels = label(out.silhouette, votes, head, colours.known(), config);
   const double island = 0.5 * config.least_part * static_cast<double>(out.silhouette.total());
   drown_islands(out.labels, Label::clothes, Label::arms, 2 * island);
   drown_islands(out.labels, Label::arms, Label::clothes, island);

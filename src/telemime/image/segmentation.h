@@ -17,6 +17,7 @@ struct SegmentationConfig {
   float vote_limit = 14.0F;              ///< one pixel's say in the 3x3 vote on person or background
   float head_bonus = 8.0F;               ///< in favour of the person inside the head's ellipse
   double least_part = 0.0015;            ///< of the picture: smaller pieces of silhouette are dropped
+  float focal_length = 0.866F;           ///< in widths of the picture; of a field of view of 60 degrees
 };
 
 /// Labels and silhouette of one frame (see Observation).

@@ -67,7 +67,7 @@ TEST(Segmentation, EveryPartGetsItsLabel) {
 }
 
 // Somebody who is seen whole, in a picture of twice the size, with an arm that hangs down so many pixels.
-Segmentation seen_whole(int arm, double head_height) {
+Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& config = {}) {
   const cv::Mat empty(240, 320, CV_8UC3, kWall);
   cv::Mat image = empty.clone();
   cv::rectangle(image, cv::Rect(142, 46, 36, 60), kShirt, cv::FILLED);
@@ -84,7 +84,7 @@ Segmentation seen_whole(int arm, double head_height) {
   EXPECT_TRUE(
       learn_person(colour, segment(colour, background, {}, head, {}).silhouette, head, colours).accepted);
   head.radii.y() = head_height;
-  return segment(colour, background, colours, head, {});
+  return segment(colour, background, colours, head, config);
 }
 
 TEST(Segmentation, BareAnklesAreNoArms) {
@@ -99,6 +99,12 @@ TEST(Segmentation, FingersOfALongArmAreSeenThoughTheHeadIsBowed) {
   const Segmentation out = seen_whole(76, 12.15);
   EXPECT_EQ(at(out.labels, 136, 138), Label::arms);
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore) << "ankles";
+}
+
+TEST(Segmentation, AWideLensSeesHandsThatReachOutFartherFromTheHead) {
+  SegmentationConfig wide;
+  wide.focal_length = 0.5F;  // 90 degrees: who looks as big is nearer
+  EXPECT_EQ(at(seen_whole(76, 12.15, wide).labels, 160, 194), Label::arms);
 }
 
 TEST(Segmentation, BackgroundIsWhereTheSilhouetteIsNot) {

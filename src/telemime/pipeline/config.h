@@ -53,8 +53,7 @@ struct Config {
   bool look_back = false;  ///< `track --offline`: decide with the frames that come after, too
   TrajectoryConfig offline;
 
-  /// The working image has as many pixels as one of 320x240 by default, in the input's shape
-  /// (with_square_pixels).
+  /// The working image has as many pixels as one of 320x240 by default, in the input's shape (fitted_to).
   Config();
   /// Throws Error(config) with what to change.
   void validate() const;

@@ -60,7 +60,7 @@ Config with_budget(const Config& config, const Camera& camera) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
   constexpr int kRepeats = 5;
-  const ImageConfig image = with_square_pixels(config.image, camera);
+  const ImageConfig image = fitted_to(config.image, camera);
   const EvaluationCost cost = measure_cost(
       *backend, make_model(Shape{}), camera.scaled_to(image.width, image.height), kRepeats, random, seconds);
   const Split split = split_for_budget(*config.budget_ms, cost.region_ms, cost.edge_ms, default_fit());

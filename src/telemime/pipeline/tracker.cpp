@@ -37,7 +37,7 @@ constexpr double kRate = 25.0;  // frames a second that the motion model is made
 
 Config fitted_to(Config config, const Camera& camera) {
   config.validate();
-  config.image = with_square_pixels(config.image, camera);
+  config.image = fitted_to(config.image, camera);
   return config;
 }
 
