@@ -183,29 +183,36 @@ class Soak:
         """In a tenth of the time, from the middle of the warm-up on: recorded, downloaded, deleted."""
         period = min(300.0, self.options.seconds / 6)
         while not self.over:
-            await asyncio.sleep(0.45 * period)
+            try:
+                await self.record(period)
+            except (ConnectionError, OSError, asyncio.IncompleteReadError) as error:
+                if not self.over:
+                    self.fail(f"the page that records was thrown out: {error!r}")
+                raise
+
+    async def record(self, period):
+        await asyncio.sleep(0.45 * period)
+        async with self.page() as page:
+            page.say({"type": "pictures", "on": False})
+            page.say({"type": "record", "on": True})
+            await page.read_for(0.1 * period)
+            page.say({"type": "record", "on": False})
+            await page.settle()
+        until = time.monotonic() + 20
+        while not self.status.get("recordings") and time.monotonic() < until:
+            await asyncio.sleep(0.2)
+        if not self.status.get("recordings"):
+            self.fail("no recording has come of it")
+        for recording in self.status.get("recordings", []):
+            for file in recording["files"]:
+                await self.get(f"/recordings/{recording['number']}/{file['name']}")
             async with self.page() as page:
-                page.say({"type": "pictures", "on": False})
-                page.say({"type": "record", "on": True})
-                await page.writer.drain()
-                await asyncio.sleep(0.1 * period)
-                page.say({"type": "record", "on": False})
+                page.say({"type": "forget", "recording": recording["number"]})
                 await page.settle()
-            until = time.monotonic() + 20
-            while not self.status.get("recordings") and time.monotonic() < until:
-                await asyncio.sleep(0.2)
-            if not self.status.get("recordings"):
-                self.fail("no recording has come of it")
-            for recording in self.status.get("recordings", []):
-                for file in recording["files"]:
-                    await self.get(f"/recordings/{recording['number']}/{file['name']}")
-                async with self.page() as page:
-                    page.say({"type": "forget", "recording": recording["number"]})
-                    await page.settle()
-            self.count("recordings")
-            await self.get("/")
-            await self.get("/avatars/robot.vrm")
-            await asyncio.sleep(0.35 * period)
+        self.count("recordings")
+        await self.get("/")
+        await self.get("/avatars/robot.vrm")
+        await asyncio.sleep(0.35 * period)
 
     # -- receivers
 

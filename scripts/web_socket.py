@@ -68,5 +68,12 @@ class WebSocket:
             if isinstance(message, dict) and message["type"] == "pong":
                 return
 
+    async def read_for(self, seconds):
+        """Reads and forgets. (No message may be cut in two: the wait is for one's end.)"""
+        await self.writer.drain()
+        until = asyncio.get_running_loop().time() + seconds
+        while asyncio.get_running_loop().time() < until:
+            await self.hear()
+
     async def close(self):
         self.writer.transport.abort()

@@ -46,7 +46,11 @@ class Server {
     EXPECT_TRUE(stream_->got_text());
     return json::parse(beast::buffers_to_string(buffer.data()));
   }
-  void write(const std::string& text) { stream_->write(asio::buffer(text)); }
+  /// The client may hang up in between.
+  void write(const std::string& text) {
+    boost::system::error_code hung_up;
+    stream_->write(asio::buffer(text), hung_up);
+  }
   void close() { stream_->close(beast::websocket::close_code::going_away); }
 
  private:

@@ -81,7 +81,7 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
   sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - facing) / 0.5) + bend(Angle::root_roll, 0.25) +
                 bend(Angle::root_tilt, 0.3));
-  sum += 0.3 * (bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3));
+  sum += bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3);
   sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +
                 bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25));
   sum += 0.1 * (bend(Angle::l_wrist_twisting, 1.0) + bend(Angle::r_wrist_twisting, 1.0));

@@ -21,9 +21,13 @@ std::vector<Eigen::VectorXd> axis_simplex(const Eigen::VectorXd& start, const Ei
   std::vector<Eigen::VectorXd> points = {origin};
   for (Eigen::Index i = 0; i < origin.size(); ++i) {
     Eigen::VectorXd point = origin;
-    const double up = std::min(origin[i] + steps[i], bounds.high[i]);
-    const double down = std::max(origin[i] - steps[i], bounds.low[i]);
-    point[i] = up - origin[i] >= 0.999 * steps[i] || up - origin[i] >= origin[i] - down ? up : down;
+    const auto way = [&](double step) {
+      return std::clamp(origin[i] + step, bounds.low[i], bounds.high[i]) - origin[i];
+    };
+    const double there = way(steps[i]);
+    const double back = way(-steps[i]);
+    const bool free = std::abs(there) >= 0.999 * std::abs(steps[i]);
+    point[i] = origin[i] + (free || std::abs(there) >= std::abs(back) ? there : back);
     points.push_back(point);
   }
   return points;

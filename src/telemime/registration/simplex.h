@@ -38,8 +38,8 @@ struct SimplexResult {
   const Vertex& best() const { return simplex.front(); }
 };
 
-/// The start point and one vertex along each axis, at +step (or -step where +step leaves the bounds). All
-/// inside.
+/// The start point and one vertex along each axis, a step away: steps may be negative, and are turned around
+/// where they would leave the bounds. All inside.
 std::vector<Eigen::VectorXd> axis_simplex(const Eigen::VectorXd& start, const Eigen::VectorXd& steps,
                                           const Bounds& bounds);
 

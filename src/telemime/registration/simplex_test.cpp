@@ -167,6 +167,16 @@ TEST(AxisSimplex, HasOneVertexAlongEachAxis) {
   }
 }
 
+TEST(AxisSimplex, StepsMayGoBack) {
+  VectorXd steps(2);
+  steps << -0.5, 0.5;
+  const auto inside = axis_simplex(VectorXd::Zero(2), steps, box(2, -1, 1));
+  EXPECT_NEAR(inside[1][0], -0.5, 1e-15);
+  EXPECT_NEAR(inside[2][1], 0.5, 1e-15);
+  const auto turned = axis_simplex(VectorXd::Constant(2, -0.9), steps, box(2, -1, 1));
+  EXPECT_NEAR(turned[1][0], -0.4, 1e-15);
+}
+
 TEST(AxisSimplex, TurnsAroundAtTheBorder) {
   const VectorXd steps = VectorXd::Constant(2, 0.5);
   const auto points = axis_simplex(VectorXd::Constant(2, 0.9), steps, box(2, -1, 1));

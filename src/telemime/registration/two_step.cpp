@@ -35,21 +35,28 @@ SearchBlock make_block(std::size_t part, int round, const Objective& objective, 
                         : arm_block(body, pose, side, limits, factor);
 }
 
-std::vector<Eigen::VectorXd> first_simplex(const SearchBlock& block, const std::vector<Vertex>* last,
-                                           double shrink) {
+// How far the first simplex reaches along each axis.
+Eigen::VectorXd first_steps(const SearchBlock& block, const std::vector<Vertex>* last, double shrink) {
   if (last == nullptr || last->size() < 2) {
-    return axis_simplex(block.start, block.steps, block.bounds);
+    return block.steps;
   }
   // The last simplex's extent, laid about where this block is now (other blocks may have moved on).
   Eigen::VectorXd extent = block.steps * shrink;
   for (const Vertex& v : *last) {
     extent = extent.cwiseMax((v.point - last->front().point).cwiseAbs().cwiseMin(block.steps));
   }
-  return axis_simplex(block.start, extent, block.bounds);
+  return extent;
+}
+
+Eigen::VectorXd either_way(Eigen::VectorXd steps, Random& random) {
+  for (double& step : steps) {
+    step = random.uniform() < 0.5 ? -step : step;
+  }
+  return steps;
 }
 
 StepResult run_step(Objective& objective, const Pose& start, const RegistrationConfig& config,
-                    const ObjectiveWeights& weights, int budget, const StepResult* before) {
+                    const ObjectiveWeights& weights, int budget, const StepResult* before, Random& random) {
   StepResult result;
   result.pose = start;
   result.simplexes.resize(kParts);
@@ -59,12 +66,18 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
       return;
     }
     const auto* last = before != nullptr ? &before->simplexes[part] : nullptr;
+    Eigen::VectorXd steps = first_steps(block, last, shrink);
+    if (config.blocks && part == 0) {
+      // Where the face points is hardly seen: it would drift from frame to frame to the side on which the
+      // simplex always begins. Arms are seen; chance makes them less steady.
+      steps = either_way(steps, random);
+    }
     SimplexOptions options;
     options.tolerance = config.tolerance;
     options.max_evaluations = evaluations;
     const SimplexResult found =
         minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
-                 first_simplex(block, last, shrink), block.bounds, options);
+                 axis_simplex(block.start, steps, block.bounds), block.bounds, options);
     result.pose = block.decode(found.best().point);
     result.simplexes[part] = found.simplex;
     result.converged = result.converged && found.reason == StopReason::converged;
@@ -173,7 +186,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   if (region_budget > 0) {
     const Pose from = propose(objective, start, config, region_budget, random);
     const int spent = objective.evaluations() - before;
-    step = run_step(objective, from, config, config.region, region_budget - spent, nullptr);
+    step = run_step(objective, from, config, config.region, region_budget - spent, nullptr, random);
   }
   result.region_evaluations = objective.evaluations() - before;
   result.region_ms = milliseconds_since(clock);
@@ -182,7 +195,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   clock = std::chrono::steady_clock::now();
   if (budget - region_budget > 0) {
     step = run_step(objective, step.pose, config, config.edge, budget - region_budget,
-                    region_budget > 0 ? &step : nullptr);
+                    region_budget > 0 ? &step : nullptr, random);
   }
   result.edge_evaluations = objective.evaluations() - before;
   result.edge_ms = milliseconds_since(clock);
