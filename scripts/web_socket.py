@@ -69,11 +69,14 @@ class WebSocket:
                 return
 
     async def read_for(self, seconds):
-        """Reads and forgets. (No message may be cut in two: the wait is for one's end.)"""
+        """Reads and forgets. Raises ConnectionError when nothing comes for 20 s."""
         await self.writer.drain()
         until = asyncio.get_running_loop().time() + seconds
         while asyncio.get_running_loop().time() < until:
-            await self.hear()
+            try:
+                await asyncio.wait_for(self.hear(), 20)
+            except asyncio.TimeoutError:
+                raise ConnectionError("nothing came for 20 s") from None
 
     async def close(self):
         self.writer.transport.abort()

@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLongestUrl = 2000;
+constexpr int kDeepest = 8;  // no message of ours has half of it
 
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ErrorKind::usage, "this message is not understood: " + why);
@@ -95,25 +96,18 @@ constexpr std::array<std::pair<const char*, Command (*)(const Json&)>, 9> kComma
     {"ping", [](const Json& m) -> Command { return Ping{whole(m, "id", std::int64_t{1} << 53)}; }},
 }};
 
-// nlohmann's parser recurses: a depth that no message of ours has would fill the stack.
-bool too_deep(std::string_view text) {
-  int depth = 0;
-  for (const char c : text) {
-    depth += (c == '[' || c == '{') ? 1 : (c == ']' || c == '}') ? -1 : 0;
-    if (depth > 20) {
-      return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 Command parse_command(std::string_view text_of) {
-  if (too_deep(text_of)) {
+  bool too_deep = false;
+  const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+    too_deep = too_deep || depth > kDeepest;
+    return !too_deep;
+  };
+  const Json message = Json::parse(text_of, shallow, /*allow_exceptions=*/false);
+  if (too_deep) {
     refuse("it is nested too deep");
   }
-  const Json message = Json::parse(text_of, nullptr, /*allow_exceptions=*/false);
   if (!message.is_object()) {
     refuse("it is no JSON object");
   }

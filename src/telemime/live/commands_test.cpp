@@ -61,6 +61,10 @@ TEST(Commands, AnythingElseIsRefusedInWords) {
     EXPECT_NE(refusal(text).find("not understood"), std::string::npos) << text;
   }
   EXPECT_NE(refusal(std::string(10000, '[')).find("deep"), std::string::npos);
+  EXPECT_NE(refusal(R"({"x":"]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]","y":)" + std::string(30, '[')).find("deep"),
+            std::string::npos);
+  EXPECT_EQ(refusal(R"({"type":"ping","id":1,"x":"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[["})"), "")
+      << "brackets in a text";
   EXPECT_NE(refusal(R"({"type":"output","add":")" + std::string(5000, 'a') + "\"}").find("2000"),
             std::string::npos);
 }

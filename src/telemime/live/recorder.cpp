@@ -136,10 +136,10 @@ struct Recorder::State {
   void begin() {
     Recording recording;
     recording.number = next_number++;
+    std::error_code failed;
     do {  // recordings of earlier runs stay
       recording.folder = folder / ("recording-" + std::to_string(next_folder++));
-    } while (std::filesystem::exists(recording.folder));
-    std::error_code failed;
+    } while (std::filesystem::exists(recording.folder, failed));
     std::filesystem::create_directories(recording.folder, failed);
     if (failed) {
       throw Error(ErrorKind::output,

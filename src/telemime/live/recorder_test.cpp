@@ -181,6 +181,18 @@ TEST_F(Records, AFolderThatCannotBeMadeIsAnErrorInWords) {
   EXPECT_FALSE(r->current());
 }
 
+// As behind a folder that may not be entered: even whether it is there cannot be said.
+TEST_F(Records, AFolderThatCannotBeLookedIntoIsAnErrorInWords) {
+  fs::create_symlink(folder_.path() / "r", folder_.path() / "r");
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  write(*r, 1);
+  ASSERT_TRUE(comes_true([&] { return !errors().empty(); }));
+  EXPECT_NE(errors().find("--recordings"), std::string::npos) << errors();
+  EXPECT_FALSE(r->current());
+}
+
 // A limit to the size of files stands for the full disk: the system refuses to write in the same way.
 TEST_F(Records, AFullDiskIsAnErrorInWordsAndWhatWasWrittenIsKept) {
   rlimit before{};

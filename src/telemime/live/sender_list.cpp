@@ -36,28 +36,36 @@ void SenderList::require_room() const {
   }
 }
 
-void SenderList::add(const std::string& given) {
-  const std::string meaning = meaning_of(given);
-  const std::lock_guard lock(mutex_);
-  Entry* entry = find(meaning);
-  const std::string known = entry == nullptr ? "" : without_password(entry->url);
-  if (entry != nullptr && entry->sender) {
+std::string SenderList::url_of_new(const std::string& given, const std::string& meaning) {
+  const Entry* const entry = find(meaning);
+  if (entry == nullptr) {
+    require_room();
+    return given;
+  }
+  const std::string known = without_password(entry->url);
+  if (entry->sender) {
     const std::string shown = without_password(given);
     throw Error(ErrorKind::usage, shown + " is sent to already" + (known == shown ? "" : ", as " + known));
   }
-  if (entry == nullptr) {
-    require_room();
+  return given == known ? entry->url : given;
+}
+
+void SenderList::add(const std::string& given) {
+  const std::string meaning = meaning_of(given);
+  std::string url;
+  {
+    const std::lock_guard lock(mutex_);
+    url = url_of_new(given, meaning);
   }
-  // A page knows outputs without their passwords.
-  const std::string url = entry != nullptr && given == known ? entry->url : given;
+  // Outside the lock: it reads files (ca=, key=), and frames do not wait for a slow disk.
   const std::shared_ptr<Sender> sender = make_sender(url);
+  const std::lock_guard lock(mutex_);
+  url_of_new(given, meaning);  // another page may have been faster
   if (header_) {
     sender->begin(*header_);
   }
-  if (entry == nullptr) {
-    entry = &entries_.emplace_back();
-  }
-  *entry = {url, meaning, sender};
+  Entry* const entry = find(meaning);
+  (entry == nullptr ? entries_.emplace_back() : *entry) = {url, meaning, sender};
 }
 
 void SenderList::offer(const std::string& url) {

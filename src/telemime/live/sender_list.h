@@ -39,6 +39,9 @@ class SenderList {
   };
   Entry* find(const std::string& meaning);
   void require_room() const;
+  /// Where an output that is to be added sends: a page knows outputs without their passwords. Throws when it
+  /// cannot be added. The lock is held.
+  std::string url_of_new(const std::string& given, const std::string& meaning);
 
   mutable std::mutex mutex_;
   std::vector<Entry> entries_;

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/mqtt_key.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <nlohmann/json.hpp>
-#include <system_error>
+#include <stdexcept>
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/network/plain_file.h"
 
 namespace telemime {
 namespace {
@@ -25,43 +22,6 @@ constexpr std::size_t kLongestText = 256;   // bytes, of user and password
 [[noreturn]] void unusable(const std::filesystem::path& file, const std::string& why) {
   throw Error(ErrorKind::usage, "the key file " + file.string() + " cannot be used: " + why,
               R"(It holds {"user": "...", "password": "..."}.)");
-}
-
-/// A file that is open for reading.
-class OpenFile {
- public:
-  explicit OpenFile(const std::filesystem::path& path)
-      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-std::string content_of(const OpenFile& open, const std::filesystem::path& file) {
-  std::array<char, kLongestFile + 1> bytes{};
-  std::size_t size = 0;
-  while (size < bytes.size()) {
-    const ssize_t count = ::read(open.get(), bytes.data() + size, bytes.size() - size);
-    if (count == 0) {
-      break;
-    }
-    if (count < 0 && errno != EINTR) {
-      unusable(file, std::generic_category().message(errno));
-    }
-    size += count > 0 ? static_cast<std::size_t>(count) : 0;
-  }
-  if (size > kLongestFile) {
-    unusable(file, "it is too long");
-  }
-  return {bytes.data(), size};
 }
 
 bool is_key_text(const std::string& text) {
@@ -79,17 +39,15 @@ MqttKey checked(MqttKey key, const std::string& where) {
 }  // namespace
 
 MqttKey read_key_file(const std::filesystem::path& file) {
-  errno = 0;
-  const OpenFile open(file);
-  struct stat about {};
-  if (open.get() < 0 || ::fstat(open.get(), &about) != 0) {
-    unusable(file, std::generic_category().message(errno));
-  }
-  if (!S_ISREG(about.st_mode)) {
-    unusable(file, "it is no file");
-  }
+  const PlainFile read = [&file] {
+    try {
+      return read_plain_file(file, kLongestFile);
+    } catch (const std::runtime_error& e) {
+      unusable(file, e.what());
+    }
+  }();
   const Json json = Json::parse(
-      content_of(open, file), [](int depth, Json::parse_event_t, Json&) { return depth < 4; },
+      read.content, [](int depth, Json::parse_event_t, Json&) { return depth < 4; },
       /*allow_exceptions=*/false);
   const auto text = [&json](const char* name) {
     return json.is_object() && json.contains(name) && json[name].is_string() ? json[name].get<std::string>()
@@ -99,7 +57,7 @@ MqttKey read_key_file(const std::filesystem::path& file) {
   if (!is_key_text(key.user) || !is_key_text(key.password)) {
     unusable(file, "it holds no user and password");
   }
-  if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
+  if ((read.mode & (S_IRWXG | S_IRWXO)) != 0) {
     key.warning = "other users of this computer may read the key: chmod 600 " + file.string();
   }
   return key;

@@ -70,7 +70,10 @@ TEST_F(MqttKeys, OtherFilesAreRefusedWithoutTellingWhatIsInThem) {
   }
   EXPECT_NE(refusal(folder_.file("none")).find("none"), std::string::npos);
   EXPECT_NE(refusal(folder_.path().string()), "");
-  EXPECT_NE(refusal("/dev/zero"), "");
+  EXPECT_NE(refusal("/dev/zero").find("it is no file"), std::string::npos);
+  const std::string pipe = folder_.file("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(refusal(pipe).find("it is no file"), std::string::npos) << "and nobody waits for a writer";
 }
 
 TEST_F(MqttKeys, TheUrlComesFirstThenTheFileThenTheEnvironment) {

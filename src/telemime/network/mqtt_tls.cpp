@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/mqtt_tls.h"
 
-#include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509_vfy.h>
 #include <openssl/x509v3.h>
@@ -9,6 +8,7 @@
 #include <boost/asio/ip/address.hpp>
 
 #include "telemime/core/errors.h"
+#include "telemime/network/certificates.h"
 
 namespace telemime {
 namespace {
@@ -60,13 +60,7 @@ MqttTls::MqttTls(const std::string& host, const std::string& ca_file)
     throw Error(ErrorKind::usage, "\"" + host + "\" cannot stand in a certificate",
                 "Give the broker's name or address.");
   }
-  if (ca_file.empty()) {
-    SSL_CTX_set_default_verify_paths(context);
-  } else if (SSL_CTX_load_verify_file(context, ca_file.c_str()) != 1) {
-    throw Error(ErrorKind::usage, "there are no certificates to be read in " + ca_file,
-                "ca=FILE names a file of certificates in PEM form.");
-  }
-  ERR_clear_error();
+  trust_authorities(context, ca_file);
   SSL_CTX_set_verify(context, SSL_VERIFY_PEER, verify);
   SSL_CTX_set_info_callback(context, on_progress);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/room_entry.h"
 
-#include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
 
@@ -18,6 +17,7 @@
 #include <optional>
 
 #include "telemime/core/errors.h"
+#include "telemime/network/certificates.h"
 #include "telemime/network/mqtt_tls.h"
 #include "telemime/network/resolve.h"
 #include "telemime/network/tcp.h"
@@ -63,13 +63,7 @@ asio::ssl::context client_tls(const std::filesystem::path& ca) {
   asio::ssl::context tls(asio::ssl::context::tls_client);
   SSL_CTX* const native = tls.native_handle();
   SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
-  if (ca.empty()) {
-    SSL_CTX_set_default_verify_paths(native);
-  } else if (SSL_CTX_load_verify_file(native, ca.c_str()) != 1) {
-    throw Error(ErrorKind::usage, "there are no certificates to be read in " + ca.string(),
-                "Name a file of certificates in PEM form.");
-  }
-  ERR_clear_error();
+  trust_authorities(native, ca);
   SSL_CTX_set_verify(native, SSL_VERIFY_PEER, nullptr);
   return tls;
 }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/network/vmc.h"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 #include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/udp.hpp>
+#include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,6 +24,10 @@ namespace telemime {
 namespace {
 
 namespace asio = boost::asio;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLongestWait{5000};  // for a network that takes nothing
+constexpr std::chrono::seconds kLongestSearch{5};        // for a computer's address: Linux asks three times
 
 class VmcLink final : public Link {
  public:
@@ -33,6 +42,8 @@ class VmcLink final : public Link {
     // IPv4 where the host has it: the avatar programs listen there.
     const asio::ip::udp::endpoint endpoint(asio::ip::make_address(resolve(loop_, host_).front()), port_);
     frames_ = 0;
+    told_ = false;
+    believed_at_ = SteadyClock::now() + (unreachable_ ? kLongestSearch : std::chrono::seconds(0));
     boost::system::error_code error;
     socket_.open(endpoint.protocol(), error);
     if (!error) {
@@ -42,6 +53,7 @@ class VmcLink final : public Link {
       throw LinkBroken(in_words(error));
     }
     socket_.non_blocking(true);
+    tell_of_unreachable(endpoint.protocol() == asio::ip::udp::v4());
     read_on();
     loop_.waiting("waits for a person to follow");
   }
@@ -58,15 +70,13 @@ class VmcLink final : public Link {
     const auto motion = (*motion_)(frame);
     for (const std::string& datagram :
          vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.time, options_)) {
-      boost::system::error_code error;
-      socket_.send(asio::buffer(datagram), 0, error);
-      if (error) {
-        throw LinkBroken(in_words(error));
-      }
+      send(datagram);
     }
     // A refusal comes back after the frame: the one behind it would have heard of it.
-    if (++frames_ == 2) {
+    if (++frames_ >= 2 && !told_ && SteadyClock::now() >= believed_at_) {
       loop_.sending();
+      told_ = true;
+      unreachable_ = false;
     }
     return true;
   }
@@ -77,6 +87,33 @@ class VmcLink final : public Link {
   }
 
  private:
+  /// Else only a refusal comes back, and a computer that is off is sent to for ever.
+  void tell_of_unreachable(bool v4) {
+    const int on = 1;
+    ::setsockopt(socket_.native_handle(), v4 ? IPPROTO_IP : IPPROTO_IPV6, v4 ? IP_RECVERR : IPV6_RECVERR, &on,
+                 sizeof on);
+  }
+
+  void send(const std::string& datagram) {
+    boost::system::error_code error;
+    while (socket_.send(asio::buffer(datagram), 0, error), error == asio::error::would_block) {
+      // Nothing leaves this computer for now: the receiver's address is being looked for, or a radio is slow.
+      const auto room = std::make_shared<Completion>();
+      socket_.async_wait(asio::socket_base::wait_write, note<>(room));
+      if (!loop_.wait([&room] { return room->done; }, kLongestWait)) {
+        throw LinkBroken("the network takes nothing that is sent there");
+      }
+    }
+    if (error && error != asio::error::no_buffer_space) {  // lost, as datagrams may be
+      fail(error);
+    }
+  }
+
+  [[noreturn]] void fail(const boost::system::error_code& error) {
+    unreachable_ = error == asio::error::host_unreachable;
+    throw LinkBroken(in_words(error));
+  }
+
   /// Nothing is expected; what matters is the refusal.
   void read_on() {
     socket_.async_receive(asio::buffer(rubbish_),
@@ -85,7 +122,7 @@ class VmcLink final : public Link {
                               return;
                             }
                             if (error && error != asio::error::message_size) {
-                              throw LinkBroken(in_words(error));
+                              fail(error);
                             }
                             read_on();
                           });
@@ -98,6 +135,9 @@ class VmcLink final : public Link {
   std::optional<PersonMotion> motion_;
   std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
   std::int64_t frames_ = 0;                     ///< of this attempt
+  bool told_ = false;                           ///< that frames arrive
+  bool unreachable_ = false;                    ///< the computer was, in the last attempt
+  SteadyClock::time_point believed_at_;         ///< when frames without an answer are thought to arrive
   asio::ip::udp::socket socket_;
   std::array<char, 512> rubbish_{};
 };

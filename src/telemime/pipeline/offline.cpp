@@ -80,7 +80,7 @@ void OfflineTracker::decide(std::size_t frames, std::size_t keep, const Model& m
     stretch.push_back(&*waiting_[t].stretch);
   }
   const TrajectoryContext context{model, limits_, config_.registration, config_.offline, evaluators_};
-  const std::vector<Pose> poses = best_trajectory(context, stretch, before_ ? &*before_ : nullptr);
+  const std::vector<Pose> poses = best_trajectory(context, stretch, before_ ? &*before_ : nullptr, seeds_);
   for (std::size_t t = 0; t < keep; ++t) {
     MotionFrame& motion = waiting_[t].motion;
     const JointPositions joints = motion.joints;

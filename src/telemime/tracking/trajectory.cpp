@@ -172,7 +172,8 @@ std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vec
 }
 
 std::vector<Pose> best_trajectory(const TrajectoryContext& context,
-                                  std::span<const StretchFrame* const> frames, const Pose* before) {
+                                  std::span<const StretchFrame* const> frames, const Pose* before,
+                                  Random& random) {
   const Body& body = context.model.body;
   const TrajectoryConfig& config = context.config;
   std::vector<std::vector<ScoredPose>> choices(frames.size());
@@ -192,6 +193,7 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
   search.iterations = config.evaluations;
   search.proposals = no_proposals();
   search.region.temporal = search.edge.temporal = config.between;
+  const std::uint64_t seed = random.bits();
   for (int half = 0; half < 2 * config.sweeps; ++half) {
     // Every other frame, so that the neighbours stand still and threads do not matter.
     const auto first = static_cast<std::size_t>(half % 2);
@@ -203,8 +205,8 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
       Objective objective(backend, frames[t]->frame, context.model, context.limits);
       objective.face(frames[t]->facing);
       objective.expect_between(earlier, later);
-      Random nothing(0);  // without proposals nothing is drawn
-      poses[t] = register_pose(objective, poses[t], search, nothing).pose;
+      Random own(seed, static_cast<std::size_t>(half) * frames.size() + t);
+      poses[t] = register_pose(objective, poses[t], search, own).pose;
     });
   }
   return poses;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "telemime/core/random.h"
 #include "telemime/tracking/context.h"
 
 namespace telemime {
@@ -60,6 +61,7 @@ std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vec
 /// and after it. `before`: the pose in the frame before the first, null when there is none. The same
 /// for any number of threads.
 std::vector<Pose> best_trajectory(const TrajectoryContext& context,
-                                  std::span<const StretchFrame* const> frames, const Pose* before);
+                                  std::span<const StretchFrame* const> frames, const Pose* before,
+                                  Random& random);
 
 }  // namespace telemime

@@ -158,7 +158,8 @@ TEST(BestTrajectory, MendsAFrameBetweenFramesThatAreRight) {
   Scene scene;
   const auto frames = with_one_lost(scene, 3);
   TrajectoryConfig config;
-  const auto poses = best_trajectory(context_of(scene, config), pointers(frames), nullptr);
+  Random random(1);
+  const auto poses = best_trajectory(context_of(scene, config), pointers(frames), nullptr, random);
   ASSERT_EQ(poses.size(), frames.size());
   const double was = farthest_joint(scene.joints(frames[3].candidates.front()), scene.joints(raised(6)));
   const double now = farthest_joint(scene.joints(poses[3]), scene.joints(raised(6)));
@@ -171,10 +172,12 @@ TEST(BestTrajectory, SamePosesForAnyNumberOfThreads) {
   const auto frames = with_one_lost(scene, 2);
   TrajectoryConfig config;
   config.evaluations = 200;
-  const auto one = best_trajectory(context_of(scene, config), pointers(frames), nullptr);
+  Random first(1);
+  const auto one = best_trajectory(context_of(scene, config), pointers(frames), nullptr, first);
   Evaluators two("scalar", 2);
   const TrajectoryContext context{scene.model, scene.limits, scene.search, config, two};
-  const auto many = best_trajectory(context, pointers(frames), nullptr);
+  Random second(1);
+  const auto many = best_trajectory(context, pointers(frames), nullptr, second);
   for (std::size_t t = 0; t < one.size(); ++t) {
     EXPECT_EQ(one[t].vector(), many[t].vector()) << t;
   }
@@ -183,7 +186,8 @@ TEST(BestTrajectory, SamePosesForAnyNumberOfThreads) {
 TEST(BestTrajectory, NoFramesGiveNoPoses) {
   Scene scene;
   const TrajectoryConfig config;
-  EXPECT_TRUE(best_trajectory(context_of(scene, config), {}, nullptr).empty());
+  Random random(1);
+  EXPECT_TRUE(best_trajectory(context_of(scene, config), {}, nullptr, random).empty());
 }
 
 TEST(TrajectoryConfig, RefusesWhatIsOutOfRange) {

@@ -89,10 +89,13 @@ export class Avatars {
       const data = await file.arrayBuffer();
       const name = file.name.replace(/\.vrm$/i, "").slice(0, 60) || "Avatar";
       if (!(await this.put("", name, data, turn))) return false;
+      const info = this.info;
       try {
-        const entry = await putAvatar(name, data);
-        this.info!.id = `own:${entry.id}`;
-        this.uses.remember(this.info!.id);
+        const id = `own:${(await putAvatar(name, data)).id}`;
+        if (info && info === this.info) {
+          info.id = id;
+          this.uses.remember(id);
+        } // else another was chosen meanwhile
       } catch {
         this.uses.say(
           "warning",
