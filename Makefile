@@ -3,6 +3,8 @@
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
 JOBS ?= $(shell nproc)
+# Tests wait for clocks and for each other as long as they compute.
+TEST_JOBS ?= $(shell echo $$(($(JOBS) + 1)))
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture outputs rooms network hosting live_stream
@@ -32,7 +34,7 @@ demo: deps build ## track the clip in data/demo and score the result: out/demo
 
 test: deps-test configure ## build and run all tests
 	@cmake --build --preset release -j $(JOBS)
-	@ctest --preset release -j $(JOBS)
+	@ctest --preset release -j $(TEST_JOBS)
 
 bench: deps configure ## run the benchmarks
 	@cmake --build --preset release -j $(JOBS)
@@ -49,18 +51,18 @@ lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 asan: deps ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
 	@cmake --preset asan $(CCACHE)
 	@cmake --build --preset asan -j $(JOBS)
-	@ctest --preset asan -j $(JOBS)
+	@ctest --preset asan -j $(TEST_JOBS)
 
 asan-quick: deps ## of these the tests of what reads bytes from elsewhere
 	@scripts/deps.sh check
 	@cmake --preset asan-quick $(CCACHE)
 	@cmake --build --preset asan-quick --target $(ASAN_QUICK:=_test) -j $(JOBS)
-	@ctest --preset asan-quick -j $(JOBS) -R '^($(subst $(empty) $(empty),|,$(ASAN_QUICK)))\.'
+	@ctest --preset asan-quick -j $(TEST_JOBS) -R '^($(subst $(empty) $(empty),|,$(ASAN_QUICK)))\.'
 
 tsan: deps ## all but the slow tests under the thread sanitizer
 	@cmake --preset tsan $(CCACHE)
 	@setarch -R cmake --build --preset tsan -j $(JOBS)
-	@setarch -R ctest --preset tsan -j $(JOBS)
+	@setarch -R ctest --preset tsan -j $(TEST_JOBS)
 
 fuzz: deps ## every fuzz target for FUZZ_SECONDS (20)
 	@scripts/deps.sh check
