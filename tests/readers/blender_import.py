@@ -54,31 +54,40 @@ def blender_from_y_up(p):
     return Vector((p[0], -p[2], p[1]))
 
 
-def compare(name, frames, first, fps, bones, world):
+def pose_bone(bone):
+    """Where an armature's bone begins, in Blender's world."""
+    rig = armature()
+    return rig.matrix_world @ rig.pose.bones[bone].head
+
+
+def node(bone):
+    """The same of a file without a mesh: its nodes are empties."""
+    return bpy.data.objects[bone].matrix_world.translation
+
+
+def compare(name, frames, first, fps, bones, world, place=pose_bone):
     """Largest distances; world: joint in the camera frame, mm, to Blender's world, m."""
-    scene, rig, worst = bpy.context.scene, armature(), {}
+    scene, worst = bpy.context.scene, {}
     for frame in frames:
         at = first + frame["time"] * fps
         whole = math.floor(at + 1e-3)
         scene.frame_set(whole, subframe=max(0.0, min(0.999, at - whole)))
         for bone, joint in bones.items():
-            place = rig.matrix_world @ rig.pose.bones[bone].head
-            far = 1000.0 * (place - world(frame["joints"][joint])).length
+            far = 1000.0 * (place(bone) - world(frame["joints"][joint])).length
             worst[joint] = max(worst.get(joint, 0.0), far)
     words = ", ".join(f"{joint} {far:.2f}" for joint, far in worst.items())
     print(f"{name} in Blender {bpy.app.version_string}, {len(frames)} frames, at most, mm: {words}")
     return max(worst.values()) < NEAR
 
 
-def forward(frames, first, fps, bones):
+def forward(frames, first, fps, bones, place=pose_bone):
     """Of the arm that comes nearest to the camera: how far it comes, mm, and how far to Blender's -y, mm."""
     def toward(frame, side):
         return frame["joints"][f"{side}_shoulder"][2] - frame["joints"][f"{side}_wrist"][2]
 
     frame, side = max(((f, s) for f in frames for s in "lr"), key=lambda choice: toward(*choice))
     bpy.context.scene.frame_set(first + round(frame["time"] * fps))
-    rig = armature()
-    head = {joint: (rig.matrix_world @ rig.pose.bones[bone].head).y for bone, joint in bones.items()}
+    head = {joint: place(bone).y for bone, joint in bones.items()}
     reach = 1000.0 * (head[f"{side}_shoulder"] - head[f"{side}_wrist"])
     print(f"the {side}_wrist is {toward(frame, side):.0f} mm nearer to the camera, {reach:.0f} mm toward -y")
     return toward(frame, side) > 150.0 and abs(reach - toward(frame, side)) < 2 * NEAR
@@ -92,8 +101,8 @@ def check_bvh(folder, frames, fps):
     return forward(frames, 1, fps, BVH) and near
 
 
-def check_glb(folder, frames, fps):
-    file = folder / "motion.glb"
+def import_gltf(file):
+    """Opens the file; gives joint in the camera frame, mm, to Blender's world, m."""
     data = file.read_bytes()
     about = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
     offset = {n["name"]: Vector(n["translation"]) for n in about["nodes"] if "translation" in n}
@@ -104,12 +113,25 @@ def check_glb(folder, frames, fps):
         x, y, z = ((p[i] - start[i]) / 1000.0 for i in range(3))
         return blender_from_y_up(root + Vector((x, -y, -z)))
 
-    empty_scene(fps)
     import_glb(file)
+    return world
+
+
+def check_glb(folder, frames, fps):
+    empty_scene(fps)
+    world = import_gltf(folder / "motion.glb")
     rest = armature().data.bones
     assert rest["leftHand"].head_local.x > 0.4 > -0.4 > rest["rightHand"].head_local.x, "no T-pose at rest"
     near = compare("GLB", frames, 0, fps, HUMANOID, world)
     return forward(frames, 0, fps, HUMANOID) and near
+
+
+def check_vrma(folder, frames, fps):
+    """A VRMA is a glTF file, which Blender's own importer opens; what makes it a VRM animation it leaves alone."""
+    empty_scene(fps)
+    world = import_gltf(folder / "motion.vrma")
+    near = compare("VRMA", frames, 0, fps, HUMANOID, world, node)
+    return forward(frames, 0, fps, HUMANOID, node) and near
 
 
 def main():
@@ -117,7 +139,7 @@ def main():
     header, *lines = (json.loads(line) for line in (folder / "pose.jsonl").read_text().splitlines())
     frames = [f for f in lines if f["state"] == "tracking"]
     assert len(frames) > 100, f"{len(frames)} tracked frames"
-    checks = [check(folder, frames, header["fps"]) for check in (check_bvh, check_glb)]
+    checks = [check(folder, frames, header["fps"]) for check in (check_bvh, check_glb, check_vrma)]
     print(f"{sum(checks)} passed, {len(checks) - sum(checks)} failed")
     sys.exit(0 if all(checks) else 1)
 
