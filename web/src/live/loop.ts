@@ -37,10 +37,15 @@ export class Loop {
 
   private async openStage(): Promise<Stage | null> {
     if (this.stage) return this.stage;
-    const { Stage } = await import("../avatar/stage");
+    const loaded = await import("../avatar/stage").catch(() => null);
     if (this.stage) return this.stage;
+    if (!loaded) {
+      this.complain("The part of this page that draws the avatar did not load: load the page again.");
+      return null;
+    }
     try {
-      this.stage = new Stage(byId("avatar-canvas", HTMLCanvasElement), byId("avatar-view", HTMLElement));
+      const [canvas, view] = [byId("avatar-canvas", HTMLCanvasElement), byId("avatar-view", HTMLElement)];
+      this.stage = new loaded.Stage(canvas, view);
       this.driver.direct = this.stage.software;
     } catch {
       this.complain(

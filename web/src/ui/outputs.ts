@@ -7,11 +7,9 @@ import { byId, h, icon, renderOnce } from "./dom";
 const ANSWER = 3000; // ms in which the program says what is wrong with an address
 const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
 
-/** Colour of the dot: the state's name is free text of the program. */
+/** Colour of the dot; a state that this page does not know yet waits. */
 function mood(o: Output): "good" | "bad" | "wait" {
-  if (/send|serv|connected|ready|ok|open/i.test(o.state)) return "good";
-  if (/fail|error|refused|dead|lost/i.test(o.state)) return "bad";
-  return "wait";
+  return o.state === "sending" ? "good" : o.state === "failed" ? "bad" : "wait";
 }
 
 function facts(o: Output): string {
