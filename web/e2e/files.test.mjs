@@ -9,6 +9,8 @@ import { boneErrors } from "./bones.mjs";
 import { Listener } from "./listener.mjs";
 import { LIGHT, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
 
+const LONG = { timeout: 2 * PATIENCE };
+
 let program, listener, browser, page, close, complaints;
 before(async () => {
   browser = await startBrowser();
@@ -24,30 +26,26 @@ after(async () => {
   assert.equal(await program?.stop(), 0, "the program ends well");
 });
 
-test(
-  "what cannot be an avatar is told in words, and the old one stays",
-  { timeout: 2 * PATIENCE },
-  async () => {
-    for (const [file, words] of badAvatars(program.folder)) {
-      await drop(page, file);
-      const toast = page.locator(".toast.error").last();
-      await toast.filter({ hasText: words }).filter({ hasText: "The avatar stays as it was." }).waitFor();
-      console.log(`${basename(file)}: ${await toast.innerText()}`);
-      await toast.getByRole("button", { name: "Close this message" }).click();
-      await page.locator(".toast").waitFor({ state: "detached" });
-      assert.equal(await page.evaluate(() => window.telemime.avatar.name), "Plain");
-    }
-    const before = await page.evaluate(() => window.telemime.counters.renders);
-    await page.waitForFunction((n) => window.telemime.counters.renders > n + 5, before);
-    assert.deepEqual(complaints, []);
-  },
-);
+test("what cannot be an avatar is told in words, and the old one stays", LONG, async () => {
+  for (const [file, words] of badAvatars(program.folder)) {
+    await drop(page, file);
+    const toast = page.locator(".toast.error").last();
+    await toast.filter({ hasText: words }).filter({ hasText: "The avatar stays as it was." }).waitFor();
+    console.log(`${basename(file)}: ${await toast.innerText()}`);
+    await toast.getByRole("button", { name: "Close this message" }).click();
+    await page.locator(".toast").waitFor({ state: "detached" });
+    assert.equal(await page.evaluate(() => window.telemime.avatar.name), "Plain");
+  }
+  const before = await page.evaluate(() => window.telemime.counters.renders);
+  await page.waitForFunction((n) => window.telemime.counters.renders > n + 5, before);
+  assert.deepEqual(complaints, []);
+});
 
 for (const [name, version, make] of [
   ["boxes", "1", (folder) => boxes(folder)],
   ["stranger", "0", (folder) => strangersVrm0(program, folder)],
 ]) {
-  test(`VRM ${version} with rests of its own, dropped: ${name}`, { timeout: 2 * PATIENCE }, async () => {
+  test(`VRM ${version} with rests of its own, dropped: ${name}`, LONG, async () => {
     await drop(page, await make(program.folder));
     await hasAvatar(page, name);
     assert.equal(await page.evaluate(() => window.telemime.avatar.version), version);
@@ -61,3 +59,33 @@ for (const [name, version, make] of [
     assert.deepEqual(complaints, []);
   });
 }
+
+test("a file dropped while the kept avatar still loads stays, now and the next time", LONG, async () => {
+  const other = await openPage(browser, program);
+  await hasAvatar(other.page, "Plain");
+  await other.page.evaluate(() =>
+    localStorage.setItem("telemime", JSON.stringify({ avatar: "look:casual" })),
+  );
+  let goOn;
+  const late = new Promise((resolve) => (goOn = resolve));
+  const casual = /\/avatars\/casual.*\.vrm$/;
+  await other.page.route(casual, async (route) => {
+    await late;
+    await route.continue();
+  });
+  const asked = other.page.waitForRequest(casual);
+  await other.page.reload();
+  await asked;
+  await drop(other.page, boxes(program.folder));
+  await hasAvatar(other.page, "boxes");
+  const came = other.page.waitForResponse(casual);
+  goOn();
+  await (await came).finished();
+  const before = await other.page.evaluate(() => window.telemime.counters.renders);
+  await other.page.waitForFunction((n) => window.telemime.counters.renders > n + 10, before);
+  assert.equal(await other.page.evaluate(() => window.telemime.avatar.name), "boxes");
+  await other.page.reload();
+  await hasAvatar(other.page, "boxes");
+  assert.deepEqual(other.complaints, []);
+  await other.close();
+});

@@ -31,7 +31,8 @@ function inputs() {
   if (GESTURES.every((g) => existsSync(clip(g, "video")))) {
     return GESTURES.map((g) => [g, [clip(g, "video"), "--background", clip(g, "background"), "--loop"]]);
   }
-  console.log(`the four gestures are not at ${CLIPS}: the bundled clip alone`);
+  for (const g of GESTURES)
+    test(g, { skip: `its clip is not at ${CLIPS} (TELEMIME_CLIPS)` }, () => undefined);
   return [["asking, the bundled clip", ["demo"]]];
 }
 

@@ -91,6 +91,18 @@ test("what was chosen is kept when the page is loaded again", LONG, async () => 
   assert.ok((await boneErrors(page, listener.poses, 5, { mirror: true })).mean < 2);
 });
 
+test("in a narrow window, too, the panel's key leads into it, and Escape out of it", LONG, async () => {
+  const wide = page.viewportSize();
+  await page.setViewportSize({ width: 900, height: 640 });
+  await page.locator("#panel").waitFor({ state: "hidden" });
+  const active = () => page.evaluate(() => document.activeElement.id);
+  await page.keyboard.press("2");
+  assert.equal(await active(), "tab-send");
+  await page.keyboard.press("Escape");
+  await page.locator("#panel").waitFor({ state: "hidden" });
+  await page.setViewportSize(wide);
+});
+
 test("help by keyboard; single keys can be turned off", LONG, async () => {
   const help = page.locator("#help-dialog");
   const overlay = await pressed("#overlay");
@@ -128,7 +140,7 @@ test("records by keyboard; every file can be saved; a recording can be deleted",
     assert.ok(file.length > 100, download.suggestedFilename());
     names.push(download.suggestedFilename());
   }
-  for (const ending of ["bvh", "glb", "vrma", "csv", "trc", "jsonl"]) {
+  for (const ending of ["bvh", "glb", "vrma", "csv", "trc", "jsonl", "bap"]) {
     assert.ok(
       names.some((n) => n.endsWith(`.${ending}`)),
       `${ending} among ${names}`,

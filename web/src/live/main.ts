@@ -22,7 +22,11 @@ import { exposeDebug } from "./debug";
 import { Loop } from "./loop";
 
 const settings: Settings = loadSettings();
-const keep = () => saveSettings(settings);
+let kept: Settings = { ...settings };
+const keep = () => {
+  saveSettings(settings, kept);
+  kept = { ...settings };
+};
 
 const send = (c: Command): boolean => connection.send(c);
 const driver = new PoseDriver();

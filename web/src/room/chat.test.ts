@@ -48,6 +48,14 @@ describe("what one says", () => {
     out.done("77-1");
     expect(out.waiting.map((m) => m.id)).toEqual(["77-2"]);
   });
+  it("is said no faster than the others listen", () => {
+    const [out, log] = [new Outbox(1), new ChatLog()];
+    for (let n = 0, t = 0; n < 100; t += 0.1) {
+      if (!out.mayGo(t)) continue;
+      // On the way some take up to a second longer.
+      expect(say(log, "p01", n++, t + (n % 2 ? 1 : 0))).not.toBeNull();
+    }
+  });
   it("is refused in words when it is too long, and when too much waits", () => {
     const out = new Outbox(1);
     expect(out.add("")).toBe("");

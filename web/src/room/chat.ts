@@ -9,6 +9,9 @@ const MOST_IDS = 2000; // remembered, to know what comes twice
 /** Lines of one participant at once, and a second in the long run. */
 export const AT_ONCE = 8;
 const A_SECOND = 1;
+/** Oneself keeps somewhat below that: on the way messages come closer together than they were said. */
+const OWN_AT_ONCE = AT_ONCE - 2;
+const OWN_A_SECOND = 0.9 * A_SECOND;
 
 export type Line =
   | { kind: "said"; number: number; from: string; name: string; text: string; mine: boolean }
@@ -19,7 +22,7 @@ export class ChatLog {
   /** Lines that were left out, because their sender said too much. */
   flooded = 0;
   private readonly ids = new Set<string>();
-  private readonly room = new Map<string, { left: number; at: number }>();
+  private readonly room = new Map<string, Pace>();
   private number = 0;
 
   /** Null when it is not shown: known already, empty, or too much. `now` in s. */
@@ -49,18 +52,36 @@ export class ChatLog {
   }
 
   private maySpeak(from: string, now: number): boolean {
-    const r = this.room.get(from) ?? { left: AT_ONCE, at: now };
-    r.left = Math.min(AT_ONCE, r.left + (now - r.at) * A_SECOND);
-    r.at = now;
-    this.room.set(from, r);
-    if (r.left < 1) return false;
-    r.left--;
+    const pace = this.room.get(from) ?? new Pace(AT_ONCE, A_SECOND);
+    this.room.set(from, pace);
+    return pace.take(now);
+  }
+}
+
+/** So many at once, and so many a second in the long run. Times in s. */
+class Pace {
+  private left: number;
+  private at = -Infinity;
+
+  constructor(
+    private readonly most: number,
+    private readonly aSecond: number,
+  ) {
+    this.left = most;
+  }
+
+  take(now: number): boolean {
+    this.left = Math.min(this.most, this.left + (now - this.at) * this.aSecond);
+    this.at = now;
+    if (this.left < 1) return false;
+    this.left--;
     return true;
   }
 }
 
-/** What this person says: kept until the broker has it. */
+/** What this person says: kept until the broker has it, and said no faster than the others listen. */
 export class Outbox {
+  private readonly pace = new Pace(OWN_AT_ONCE, OWN_A_SECOND);
   private next = 0;
   private readonly kept: { id: string; bytes: Uint8Array }[] = [];
 
@@ -83,6 +104,11 @@ export class Outbox {
 
   get waiting(): readonly { id: string; bytes: Uint8Array }[] {
     return this.kept;
+  }
+
+  /** One more may be said; it counts as said. `now` in s. */
+  mayGo(now: number): boolean {
+    return this.pace.take(now);
   }
 
   /** The broker has it. */

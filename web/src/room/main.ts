@@ -12,7 +12,7 @@ import type { Dial, LinkState } from "./link";
 import type { Me, MyState } from "./me";
 import { plainLine } from "./names";
 import { Rig, VIEWS, type View } from "./rig";
-import { RoomClient } from "./room_client";
+import { RoomClient, type RoomListener } from "./room_client";
 import { Roster } from "./roster";
 import { loadRoomSettings, saveRoomSettings } from "./settings";
 import { SceneUi } from "./scene/ui";
@@ -159,11 +159,18 @@ async function come(w: Wish): Promise<void> {
     toasts.say("info", "With this link you can watch, but not take part.");
 }
 
+/** What was written and is not on its way any more is told: the chat does not show it. */
+function tellUnsaid(c: RoomClient | null): void {
+  const n = c?.outbox.waiting.length ?? 0;
+  if (n) toasts.say("warning", n === 1 ? "One message was not sent." : `${n} messages were not sent.`);
+}
+
 function start(entered: Entered, seat: number | null): void {
+  const before = client?.outbox;
   client?.stop();
   scene.cast?.clear();
   const state: MyState | null = wish!.watch ? null : { name: wish!.name, avatar: wish!.avatar, seat };
-  const c = new RoomClient(entered, state, (will) => brokerDial!(entered, will), {
+  const listener: RoomListener = {
     link: (s) => c === client && linked(s),
     event: (e) => {
       if (e.kind !== "said" && e.kind !== "page") scene.follow(c.roster, c.me?.id ?? null);
@@ -180,7 +187,15 @@ function start(entered: Entered, seat: number | null): void {
     },
     strokes: (s) => scene.slate.add(s),
     mine: showStatus,
-  });
+  };
+  const c: RoomClient = new RoomClient(
+    entered,
+    state,
+    (will) => brokerDial!(entered, will),
+    listener,
+    before,
+  );
+  if (!c.me) tellUnsaid(c);
   client = c;
   scene.slate.add(null);
   chat.enable(c.me !== null);
@@ -196,6 +211,7 @@ function start(entered: Entered, seat: number | null): void {
 
 /** Back to the door. */
 function leave(words: string): void {
+  tellUnsaid(client);
   client?.leave();
   client = null;
   scene.cast?.clear();

@@ -42,7 +42,6 @@ export class RoomClient {
   readonly board = new Board();
   readonly own = new OwnStrokes();
   readonly log = new ChatLog();
-  readonly outbox = new Outbox(anySession());
   /** Null for those who only watch. */
   readonly me: Me | null;
   private readonly desk = new RoomDesk(
@@ -63,6 +62,8 @@ export class RoomClient {
   private readonly greeted = new Map<string, number>(); // who came and is not announced yet: since when
   private everSettled = false;
   private gatherUntil = 0;
+  /** It has words for people whom it has not met: who of them is not back yet cannot be told. */
+  private blind: boolean;
   private readonly sending = new Set<string>(); // messages on their way
   /** What those who are here were called last. */
   private readonly names = new Map<string, string>();
@@ -73,8 +74,11 @@ export class RoomClient {
     state: MyState | null,
     dialer: (will: Me["will"] | null) => Dial,
     private readonly listener: RoomListener,
+    /** What still waited when this page was in the room before. */
+    readonly outbox = new Outbox(anySession()),
   ) {
     this.base = entered.topic;
+    this.blind = outbox.waiting.length > 0;
     this.roster = new Roster(this.base);
     const id = entered.participant;
     this.me =
@@ -187,7 +191,8 @@ export class RoomClient {
       this.settled = false;
       this.roomHeard = false;
       this.roster.connected(seconds());
-      this.gatherUntil = this.everSettled ? seconds() + GATHER : 0;
+      this.blind &&= !this.everSettled;
+      this.gatherUntil = this.everSettled || this.blind ? seconds() + GATHER : 0;
       this.me?.connected(this.link.session);
       this.own.connected();
       this.sending.clear();
@@ -357,10 +362,11 @@ export class RoomClient {
   private sendChat(): void {
     this.listener.mine();
     if (!this.me || !this.settled) return;
-    if (!this.roster.complete && seconds() < this.gatherUntil) return;
+    if ((this.blind || !this.roster.complete) && seconds() < this.gatherUntil) return;
     const topic = topicOf(this.base, this.me.id, "chat");
     for (const m of this.outbox.waiting) {
       if (this.sending.has(m.id)) continue;
+      if (!this.outbox.mayGo(seconds())) return; // step() comes back to it
       this.sending.add(m.id);
       void this.link.publish(topic, m.bytes, false).then((done) => {
         this.sending.delete(m.id);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // For tests: a broker in memory, and pages that are connected to it.
-import type { Line } from "./chat";
+import type { Line, Outbox } from "./chat";
 import type { Entered, Role } from "./entry";
 import type { Dial, WireEvents } from "./link";
 import { RoomClient } from "./room_client";
@@ -96,7 +96,13 @@ export class FakeBroker {
 export class Page {
   readonly lines: Line[] = [];
   readonly client: RoomClient;
-  constructor(broker: FakeBroker, id: string | null, name: string, roles: Role[] = ["speak", "board"]) {
+  constructor(
+    broker: FakeBroker,
+    id: string | null,
+    name: string,
+    roles: Role[] = ["speak", "board"],
+    outbox?: Outbox,
+  ) {
     const entered: Entered = {
       user: `main.${id}`,
       password: "x",
@@ -119,6 +125,7 @@ export class Page {
         strokes: () => undefined,
         mine: () => undefined,
       },
+      outbox,
     );
     this.client.start();
   }

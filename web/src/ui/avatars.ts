@@ -21,6 +21,8 @@ interface Uses {
   remember: (id: string) => void;
 }
 
+const NONE = "No avatar is shown.";
+
 const lookName = (look: string): string => {
   const words = look.replace(/[-_]+/g, " ");
   return words.charAt(0).toUpperCase() + words.slice(1);
@@ -32,6 +34,8 @@ export class Avatars {
   private own: StoredEntry[] = [];
   private wanted = "";
   private turn = 0;
+  /** The program has said what it has. */
+  private ready = false;
 
   constructor(
     private readonly uses: Uses,
@@ -52,26 +56,39 @@ export class Avatars {
   async setLooks(looks: readonly string[]): Promise<void> {
     this.looks = [...looks];
     this.own = await listAvatars();
+    this.ready = true;
     this.list();
     if (this.info || this.wanted) return;
     const first = this.looks[0] ? `look:${this.looks[0]}` : "";
-    const known = this.ids().includes(this.preferred);
-    const shown = known && (await this.choose(this.preferred));
-    if (!shown && first && first !== this.preferred) await this.choose(first);
+    if (this.ids().includes(this.preferred) && this.preferred !== first) {
+      const turn = this.turn + 1;
+      // A stand-in is not what the user chose: the next time the choice is tried again.
+      if (await this.bring(this.preferred, false, first ? "Another is shown." : NONE)) return;
+      if (turn !== this.turn) return; // the user chose another meanwhile
+    }
+    if (first) await this.bring(first, false, NONE);
   }
 
-  /** True when it is shown. The old one stays when it cannot be. */
-  async choose(id: string): Promise<boolean> {
+  /** Shows it, and again the next time. True when it is shown; the old one stays when it cannot be. */
+  choose(id: string): Promise<boolean> {
+    return this.bring(id, true, NONE);
+  }
+
+  /** `instead`: what is shown when it cannot be and nothing was before, in words. */
+  private async bring(id: string, remember: boolean, instead: string): Promise<boolean> {
     const turn = ++this.turn;
     this.wanted = id;
+    this.list();
     try {
       const got = id.startsWith("own:")
         ? await this.fromStore(id.slice(4))
         : await this.fromProgram(id.slice(5));
       if (turn !== this.turn) return false; // another was chosen meanwhile
-      return await this.put(id, got.name, got.data, turn);
+      const shown = await this.put(id, got.name, got.data, turn);
+      if (shown && remember) this.uses.remember(id);
+      return shown;
     } catch (e) {
-      if (turn === this.turn) this.failed(e, "The avatar could not be loaded");
+      if (turn === this.turn) this.failed(e, "The avatar could not be loaded", instead);
       return false;
     } finally {
       if (turn === this.turn) this.wanted = "";
@@ -105,7 +122,7 @@ export class Avatars {
       this.own = await listAvatars();
       return true;
     } catch (e) {
-      if (turn === this.turn) this.failed(e, `${file.name} could not be read`);
+      if (turn === this.turn) this.failed(e, `${file.name} could not be read`, NONE);
       return false;
     } finally {
       if (turn === this.turn) this.wanted = "";
@@ -138,13 +155,12 @@ export class Avatars {
     }
     this.info = { id, name, version: avatar.facts.version, author: avatar.facts.author };
     this.uses.show(avatar);
-    if (id) this.uses.remember(id);
     return true;
   }
 
-  private failed(e: unknown, otherwise: string): void {
+  private failed(e: unknown, otherwise: string, instead: string): void {
     const words = e instanceof AvatarError ? e.message : `${otherwise}. Try again.`;
-    this.uses.say("error", `${words} ${this.info ? "The avatar stays as it was." : "No avatar is shown."}`);
+    this.uses.say("error", `${words} ${this.info ? "The avatar stays as it was." : instead}`);
   }
 
   private list(): void {
@@ -159,8 +175,10 @@ export class Avatars {
     box.replaceChildren(...rows);
     box.setAttribute("aria-busy", String(Boolean(this.wanted)));
     byId("avatar-view", HTMLElement).classList.toggle("loading", Boolean(this.wanted));
-    byId("avatar-none", HTMLElement).hidden = Boolean(this.info) || Boolean(this.wanted);
-    if (focus) box.querySelector<HTMLElement>(`[data-id="${CSS.escape(focus)}"]`)?.focus();
+    byId("avatar-none", HTMLElement).hidden = !this.ready || Boolean(this.info) || Boolean(this.wanted);
+    if (!focus) return;
+    const again = box.querySelector<HTMLElement>(`[data-id="${CSS.escape(focus)}"]`);
+    (again ?? box.querySelector<HTMLElement>("input:checked") ?? box.querySelector("input"))?.focus();
   }
 
   private row(id: string, name: string, note: string, own: string | null): HTMLElement {
@@ -179,7 +197,7 @@ export class Avatars {
     if (!own) return h("div", { class: "row" }, label);
     const remove = h(
       "button",
-      { class: "icon-button", "aria-label": `Forget ${name}`, title: "Forget" },
+      { class: "icon-button", "aria-label": `Forget ${name}`, title: "Forget", "data-id": `forget ${id}` },
       icon("trash"),
     );
     remove.addEventListener("click", () => void this.forget(own));

@@ -21,7 +21,7 @@ const STEPS: Partial<Record<Phase | "done", Step>> = {
   empty_room: {
     number: 1,
     title: "Step out of the picture",
-    text: "Telemime looks at the empty room first. Start the countdown and walk out, or just wait outside.",
+    text: "Telemime looks at the empty room first. Start the countdown and walk out, or say when the room is empty.",
     figure: "out",
     busy: false,
   },
@@ -102,7 +102,7 @@ export class Guide {
   }
 
   skip(): void {
-    if (this.phase === "empty_room" || this.phase === "background") this.answer("skip");
+    if (this.phase === "empty_room") this.answer("skip");
     this.stopCount();
   }
 

@@ -115,6 +115,7 @@ export class OutputList {
     if (this.send({ type: "output", add: url })) {
       this.asked = { url, at: performance.now() };
       this.input.value = "";
+      this.complain("");
     } else {
       this.complain("There is no connection to Telemime at the moment.");
     }

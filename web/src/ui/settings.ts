@@ -54,9 +54,16 @@ export function loadSettings(): Settings {
   }
 }
 
-export function saveSettings(s: Settings): void {
+/** What differs from `before`. */
+export function changed(s: Settings, before: Settings): Partial<Settings> {
+  const keys = Object.keys(s) as (keyof Settings)[];
+  return Object.fromEntries(keys.filter((key) => s[key] !== before[key]).map((key) => [key, s[key]]));
+}
+
+/** Keeps what has changed since `before`, and nothing else: another window may have kept other choices. */
+export function saveSettings(s: Settings, before: Settings): void {
   try {
-    localStorage.setItem(KEY, JSON.stringify(s));
+    localStorage.setItem(KEY, JSON.stringify({ ...loadSettings(), ...changed(s, before) }));
   } catch {
     // A browser that keeps nothing: the settings hold until the page is closed.
   }

@@ -9,6 +9,11 @@ const STAYS = { info: 6000, warning: 12000, error: 0 } as const; // ms
 
 const ICON = { info: "info", warning: "warning", error: "warning" } as const;
 
+/** Which of too many messages goes, oldest first: an error only when all are errors. */
+export function superfluous(errors: readonly boolean[]): number {
+  return Math.max(0, errors.indexOf(false));
+}
+
 export class Toasts {
   private readonly box = byId("toasts", HTMLElement);
 
@@ -26,7 +31,10 @@ export class Toasts {
     const remove = () => toast.remove();
     close.addEventListener("click", remove);
     this.box.append(toast);
-    while (this.box.children.length > MOST) this.box.firstElementChild?.remove();
+    while (this.box.children.length > MOST) {
+      const shown = [...this.box.children];
+      shown[superfluous(shown.map((t) => t.classList.contains("error")))]!.remove();
+    }
     if (STAYS[level]) window.setTimeout(remove, STAYS[level]);
   }
 }

@@ -3,7 +3,8 @@ import { describe, expect, it } from "vitest";
 import { pause } from "../connection";
 import { clock, megabytes } from "./dom";
 import { fileAddress } from "./recordings";
-import { DEFAULTS, readSettings } from "./settings";
+import { DEFAULTS, changed, readSettings } from "./settings";
+import { superfluous } from "./toasts";
 
 describe("settings", () => {
   it("come back as they were", () => {
@@ -14,6 +15,20 @@ describe("settings", () => {
     for (const t of [null, "", "{", "3", "null", '{"tab":"else","keys":1,"avatar":7}']) {
       expect(readSettings(t)).toEqual(DEFAULTS);
     }
+  });
+  it("of two windows are those that were changed last, one by one", () => {
+    const here = { ...DEFAULTS, overlay: false };
+    const there = { ...DEFAULTS, avatar: "look:casual" };
+    const both = { ...DEFAULTS, ...changed(there, DEFAULTS), ...changed(here, DEFAULTS) };
+    expect(both).toEqual({ ...DEFAULTS, overlay: false, avatar: "look:casual" });
+  });
+});
+
+describe("of too many messages", () => {
+  it("the oldest goes that is no error; an error only when all are", () => {
+    expect(superfluous([true, false, false, true, false])).toBe(1);
+    expect(superfluous([false, true])).toBe(0);
+    expect(superfluous([true, true, true])).toBe(0);
   });
 });
 

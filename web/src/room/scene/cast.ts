@@ -142,6 +142,7 @@ export class Cast {
   private put(member: Member, avatar: Avatar | null): void {
     const before = member.figure.setAvatar(avatar);
     if (before) this.library.release(before);
+    if (avatar) avatar.headless = this.hidden !== null && this.all.get(this.hidden) === member;
     this.stage.touch();
   }
 

@@ -52,12 +52,23 @@ export class SceneUi {
   /** `complain`: why there is no picture, in words. */
   async open(complain: (words: string) => void): Promise<void> {
     const canvas = byId("room-canvas", HTMLCanvasElement);
+    const parts = await Promise.all([
+      import("./room_stage"),
+      import("./cast"),
+      import("./avatar_library"),
+    ]).catch(() => null);
+    const missing = (why: string): void => {
+      const none = byId("room-none", HTMLElement);
+      none.hidden = false;
+      none.textContent = `${why} The side panel and the blackboard work.`;
+      complain(`${why} Avatars are not shown. All else works.`);
+    };
+    if (!parts) {
+      missing("The part of this page that draws the room did not load: load the page again.");
+      return;
+    }
+    const [{ RoomStage }, { Cast, furtherSeats }, { AvatarLibrary }] = parts;
     try {
-      const [{ RoomStage }, { Cast, furtherSeats }, { AvatarLibrary }] = await Promise.all([
-        import("./room_stage"),
-        import("./cast"),
-        import("./avatar_library"),
-      ]);
       const view = byId("room-view", HTMLElement);
       const stage = new RoomStage(canvas, view, this.tags, this.rig, this.slate.canvas);
       const cast = new Cast(stage, new AvatarLibrary(), this.tags, (n) =>
@@ -76,11 +87,7 @@ export class SceneUi {
       this.loop.start();
     } catch (e) {
       console.warn("3-D:", e);
-      const none = byId("room-none", HTMLElement);
-      none.hidden = false;
-      none.textContent =
-        "This browser cannot draw in 3-D (WebGL is off). The side panel and the blackboard work.";
-      complain("This browser cannot draw in 3-D (WebGL is off): avatars are not shown. All else works.");
+      missing("This browser cannot draw in 3-D (WebGL is off).");
     }
   }
 
