@@ -195,7 +195,8 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   command->get_option("INPUT")->required(false)->default_str("0")->description(
       "camera index or device, stream URL, file, or demo: the bundled clip [0]");
   command->remove_option(command->get_option("--frames"));
-  command->get_option("--quiet")->description("print only warnings and errors");
+  command->get_option("--quiet")->description(
+      "print only the page's address, the numbers at the end, warnings and errors");
   options->track.request.input = "0";
   LiveRequest& live = options->live;
   command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");

@@ -8,6 +8,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
 #include "telemime/network/testing_web_socket.h"
+#include "telemime/outputs/all.h"
 
 namespace telemime {
 namespace {
@@ -57,8 +58,10 @@ TEST_F(Program, APageSeesThePersonAndThePicture) {
   const Json pose = hear(page, "pose", [](const Json& j) { return j.at("state") == "tracking"; });
   EXPECT_EQ(pose.at("bones").at("head").size(), 4U);
   EXPECT_EQ(pose.at("pixels").at("l_wrist").size(), 2U);
-  const Json status = hear(page, "status", [](const Json& j) { return j.at("phase") == "tracking"; });
-  EXPECT_GT(status.at("fps").at("tracked").get<double>(), 0.0);
+  // A rate is known from the second pose on.
+  hear(page, "status", [](const Json& j) {
+    return j.at("phase") == "tracking" && j.at("fps").at("tracked").get<double>() > 0.0;
+  });
 
   std::optional<SocketClient::Frame> picture;
   while ((picture = page.message()) && picture->opcode != SocketClient::binary) {
@@ -99,7 +102,7 @@ TEST_F(Program, RecordsAndHandsOutTheFiles) {
   const Json status = hear(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
   const Json& recording = status.at("recordings").at(0);
   EXPECT_EQ(recording.at("number"), 1);
-  ASSERT_GE(recording.at("files").size(), 4U);
+  ASSERT_EQ(recording.at("files").size(), kOutputFormats.size());
   for (const Json& file : recording.at("files")) {
     const std::string bytes = get(program.port(), "/recordings/1/" + file.at("name").get<std::string>(), 200);
     EXPECT_EQ(bytes.size(), file.at("bytes").get<std::size_t>()) << file.at("name");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -68,17 +69,20 @@ TEST(HandOver, WhatWasGivenIsDealtWithBeforeTheEnd) {
 
 TEST(HandOver, StopEndsEveryWait) {
   HandOver hand_over;
-  std::thread search([&] { EXPECT_EQ(hand_over.take(), nullptr); });
-  std::thread image([&] {
-    while (hand_over.begin() != nullptr) {
-      std::this_thread::yield();
-    }
+  ASSERT_NE(hand_over.begin(), nullptr);
+  std::thread search([&] {
+    EXPECT_NE(hand_over.take(), nullptr);
+    EXPECT_EQ(hand_over.take(), nullptr);  // nothing more is given, and the search is never done
   });
+  hand_over.give();
+  std::thread image([&] { EXPECT_EQ(hand_over.begin(), nullptr); });
+  std::thread other([&] { EXPECT_FALSE(hand_over.wait_for_search()); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // by now all of them wait
   hand_over.stop();
   search.join();
   image.join();
+  other.join();
   EXPECT_TRUE(hand_over.stopping());
-  EXPECT_FALSE(hand_over.wait_for_search());
   EXPECT_EQ(hand_over.take(), nullptr);
 }
 

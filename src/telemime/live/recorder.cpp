@@ -80,6 +80,11 @@ struct Recorder::State {
     switch (task.kind) {
       case Task::Kind::person:
         header = task.header;
+        if (open) {
+          say(MessageLevel::info, "a person is measured anew: recording " +
+                                      std::to_string(open->recording.number) +
+                                      " ends there, and goes on in the next one");
+        }
         close();
         break;
       case Task::Kind::start:

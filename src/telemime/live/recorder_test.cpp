@@ -140,6 +140,22 @@ TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
       << warnings_;
 }
 
+TEST_F(Records, AnotherBodyGoesOnInTheNext) {
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  write(*r, 20);
+  r->person(header_);
+  write(*r, 10);
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 2; }));
+  EXPECT_EQ(r->ended()[0].frames, 20);
+  EXPECT_EQ(r->ended()[1].frames, 10);
+  const std::lock_guard lock(mutex_);
+  EXPECT_NE(infos_.find("measured anew: recording 1 ends there"), std::string::npos) << infos_;
+  EXPECT_EQ(infos_.find("recording 2 ends there"), std::string::npos) << infos_;
+}
+
 // A format whose tail needs more memory than there is.
 class NoEnd final : public Encoder {
  public:

@@ -71,6 +71,9 @@ TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
   EXPECT_TRUE(same("ws://h:80", "ws://h/?mirror=0"));
   EXPECT_TRUE(same("bap+tcp://h:5000", "bap+tcp://h:5000?profile=iso"));
   EXPECT_TRUE(same("mqtt://h/a/b", "mqtt://h:1883/a/b?mirror=0"));
+  EXPECT_TRUE(same("mqtt://h/a/b", "mqtt://h/a/b?look=plain"));
+  EXPECT_FALSE(same("mqtt://h/a/b", "mqtt://h/a/b?look=robot"));
+  EXPECT_TRUE(same("http://h/room", "http://h/room?look=plain#k=a"));
   EXPECT_TRUE(same("mqtts://u:one@h/a/b", "mqtts://u:two@h:8883/a/b"));
   EXPECT_TRUE(same("mqtts://u:one@h/a/b", "mqtts://u@h/a/b"));
 
