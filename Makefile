@@ -32,7 +32,7 @@ build: configure ## the program: build/release/telemime
 demo: deps build ## track the clip in data/demo and score the result: out/demo
 	@scripts/demo.sh
 
-test: deps-test configure ## build and run all tests
+test: deps-test configure ## build and run the tests (the long ones: ctest --preset release -C long -L long)
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(TEST_JOBS)
 
