@@ -252,29 +252,6 @@ TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
             first.calibration()->shape[Segment::l_forearm].length);
 }
 
-TEST(Tracker, AfterARecalibrationNoOldParticleIsLeft) {
-  Config config = quick_config();
-  config.look_back = true;  // its candidates show what the filter holds
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
-  std::size_t most = 0;
-  for (const Frame& frame : clip().person) {
-    const TrackedFrame seen = tracker.step(frame);
-    most = seen.stretch ? std::max(most, seen.stretch->candidates.size()) : most;
-  }
-  ASSERT_GT(most, 1U) << "the filter is at work";
-  tracker.recalibrate();
-  for (const Frame& frame : clip().person) {
-    const TrackedFrame seen = tracker.step(frame);
-    if (seen.stretch) {
-      ASSERT_EQ(seen.stretch->candidates.size(), 1U);
-      EXPECT_EQ(seen.stretch->candidates.front().vector(), seen.motion.pose.vector());
-      return;
-    }
-  }
-  FAIL() << "nobody was calibrated again";
-}
-
 TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
   Tracker in_turn = make_tracker(quick_config());
   in_turn.learn_background(clip().background);
@@ -305,19 +282,6 @@ TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
     ASSERT_EQ(ours.note, theirs.note) << i;
   }
   EXPECT_GT(together, 3);
-}
-
-TEST(Tracker, RecalibratesWhenAsked) {
-  Tracker tracker = make_tracker(quick_config());
-  tracker.learn_background(clip().background);
-  tracker.step(clip().person[0]);
-  ASSERT_TRUE(tracker.calibration());
-  tracker.recalibrate();
-  EXPECT_FALSE(tracker.calibration());
-  for (int i = 1; i < kPersonFrames; ++i) {  // it waits for a frame in which the face is looked for
-    tracker.step(clip().person[static_cast<std::size_t>(i)]);
-  }
-  EXPECT_TRUE(tracker.calibration());
 }
 
 TEST(Tracker, StartsWithAPersonWhoIsKnown) {

@@ -107,6 +107,7 @@ void Tracker::set_effort(double share) {
 void Tracker::recalibrate() {
   known_.reset();
   calibration_.reset();
+  colours_asked_ = true;
   if (filter_) {
     filter_->stop();
   }
@@ -122,7 +123,7 @@ void Tracker::person_colours(SeenFrame& seen) {
   // A masked face is never found: after a while the outline of the head must do, and colours that were
   // learned from somebody still walking are learned again.
   const bool again = phase_ == Phase::waiting && waited_ > 0 && waited_ % kFaceless == 0;
-  if (features_.calibration().colours.known() && !again) {
+  if (features_.calibration().colours.known() && !again && !colours_asked_) {
     seen.coloured = true;
     return;
   }
@@ -130,6 +131,7 @@ void Tracker::person_colours(SeenFrame& seen) {
   seen.note = report.reason;
   seen.face_just_seen = report.accepted;
   since_ = report.accepted ? seen.frame.index : since_;
+  colours_asked_ = colours_asked_ && !report.accepted;
   seen.coloured = report.accepted || again;
 }
 

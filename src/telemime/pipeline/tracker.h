@@ -93,7 +93,8 @@ class Tracker {
   /// configuration asks for. Not beside decide().
   void set_effort(double share);
 
-  /// Starts over with the person (not the scene) at the next frame. Not beside look().
+  /// Starts over with the person (not the scene) at the next frame: with their colours, too, since it may be
+  /// somebody else, or the same person in other clothes. Not beside look().
   void recalibrate();
 
   /// How sure a particle filter that follows this person is of what it found.
@@ -145,6 +146,7 @@ class Tracker {
   double bad_for_ = 0.0;              ///< 1/25 s
   double frames_until_search_ = 0.0;  ///< 1/25 s
   std::int64_t since_ = 0;            ///< of the image side
+  bool colours_asked_ = false;        ///< of the image side: those that are known are not the person's
   int waited_ = 0;                    ///< frames since a head came into the picture
 };
 
