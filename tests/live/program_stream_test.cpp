@@ -51,8 +51,9 @@ class ProgramStream : public ::testing::Test {
   Json hear_phase(const std::string& phase) {
     return hear(*page_, "status", [&](const Json& j) { return j.at("phase") == phase; });
   }
-  void hear_words(const std::string& level, const std::string& words) {
-    hear(*page_, "message", [&](const Json& j) {
+  void hear_words(const std::string& level, const std::string& words) { hear_words(*page_, level, words); }
+  void hear_words(SocketClient& page, const std::string& level, const std::string& words) {
+    hear(page, "message", [&](const Json& j) {
       return j.at("level") == level && j.at("words").get<std::string>().find(words) != std::string::npos;
     });
   }
@@ -102,8 +103,12 @@ TEST_F(ProgramStream, FivePicturesASecond) {
   for (int i = 0; i < 3; ++i) {
     hear_state("tracking");
   }
+  SocketClient late(program_->port());
+  hear_words(late, "warning", "only 5 pictures a second");  // it is still so
+  EXPECT_FALSE(program_->report().state.warnings.empty());
   camera_.show(somebody(), kRate);
   hear_words("info", "again");
+  EXPECT_TRUE(program_->report().state.warnings.empty());
 }
 
 TEST_F(ProgramStream, Garbage) {

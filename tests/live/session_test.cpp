@@ -90,6 +90,10 @@ TEST(LiveSession, GuidesFromTheEmptyRoomToTracking) {
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::lost; }));
   session.guide(GuideStep::again);
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::empty_room; }));
+  EXPECT_TRUE(session.state().room_empty) << "as it was promised the last time";
+  session.guide(GuideStep::skip);
+  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
+  EXPECT_FALSE(session.state().room_empty);
 }
 
 TEST(LiveSession, WithoutAGuideLearnsFromTheFirstPictures) {

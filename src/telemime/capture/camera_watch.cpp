@@ -21,6 +21,7 @@ constexpr double kDamageSpan = 2.0;  // s
 constexpr double kWhole = 3.0;       // s
 
 using Kind = SourceNews::Kind;
+using Matter = SourceNews::Matter;
 
 std::string seconds(double s) {
   std::ostringstream text;
@@ -53,16 +54,19 @@ std::optional<SourceNews> CameraWatch::size(cv::Size size) {
   }
   last_ = size;
   if (size == first_) {
-    return SourceNews{Kind::better, "the camera's pictures have " + in_words(first_) + " pixels again"};
+    return SourceNews{Kind::better, "the camera's pictures have " + in_words(first_) + " pixels again",
+                      Matter::size};
   }
   const std::string change = "the camera's pictures now have " + in_words(size) + " pixels, not " +
                              in_words(first_) + " as at first";
   if (same_shape(size, first_)) {
-    return SourceNews{Kind::worse, change + "; they are resized, and tracking goes on"};
+    return SourceNews{Kind::worse, change + "; they are resized, and tracking goes on", Matter::size};
   }
-  return SourceNews{Kind::worse, change +
-                                     ", which is another shape: they are fitted in with black bars, and "
-                                     "poses may be wrong. Set the camera back, or start again"};
+  return SourceNews{Kind::worse,
+                    change +
+                        ", which is another shape: they are fitted in with black bars, and "
+                        "poses may be wrong. Set the camera back, or start again",
+                    Matter::size};
 }
 
 std::optional<SourceNews> CameraWatch::rate(double taken) {
@@ -86,12 +90,14 @@ std::optional<SourceNews> CameraWatch::rate(double taken) {
   const std::string pictures = std::to_string(std::lround(words)) + " pictures a second";
   if (!few_ && now < kFew) {
     few_ = true;
-    return SourceNews{Kind::worse, "the camera gives only " + pictures +
-                                       ": fast motion is lost. Many cameras are slow in dim light"};
+    return SourceNews{
+        Kind::worse,
+        "the camera gives only " + pictures + ": fast motion is lost. Many cameras are slow in dim light",
+        Matter::rate};
   }
   if (few_ && now > kEnough) {
     few_ = false;
-    return SourceNews{Kind::better, "the camera gives " + pictures + " again"};
+    return SourceNews{Kind::better, "the camera gives " + pictures + " again", Matter::rate};
   }
   return std::nullopt;
 }
@@ -107,7 +113,8 @@ std::optional<SourceNews> CameraWatch::damaged(double now) {
   }
   damage_told_ = true;
   return SourceNews{Kind::worse,
-                    "pictures of the camera are damaged and are left out: a bad cable or network?"};
+                    "pictures of the camera are damaged and are left out: a bad cable or network?",
+                    Matter::damage};
 }
 
 std::optional<SourceNews> CameraWatch::whole(double now) {
@@ -116,7 +123,7 @@ std::optional<SourceNews> CameraWatch::whole(double now) {
   }
   damage_told_ = false;
   damages_.clear();
-  return SourceNews{Kind::better, "the camera's pictures are whole again"};
+  return SourceNews{Kind::better, "the camera's pictures are whole again", Matter::damage};
 }
 
 std::optional<SourceNews> CameraWatch::stopped(double now) {

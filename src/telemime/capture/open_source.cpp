@@ -11,6 +11,7 @@
 #include "telemime/capture/image_sequence.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
+#include "telemime/capture/shown_url.h"
 #include "telemime/capture/source.h"
 #include "telemime/capture/stream.h"
 #include "telemime/capture/video_file.h"
@@ -73,22 +74,23 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
 
 std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& options) {
   const std::string remedy = "Check the address and that the sender runs; 'ffplay URL' should show it.";
+  const std::string shown = shown_url(url);
   cv::VideoCapture video = connect_to_stream(url, options.patience);
   if (!video.isOpened()) {
-    throw cannot_read(url, InputKind::stream, "no connection, or no video in it", remedy);
+    throw cannot_read(shown, InputKind::stream, "no connection, or no video in it", remedy);
   }
   const bool finite = url.starts_with("http") && video.get(cv::CAP_PROP_FRAME_COUNT) > 0.0;
   if (finite) {  // a file on a server: read all of it, and do not start again at its end
-    return video_source(video, url, InputKind::stream);
+    return video_source(video, shown, InputKind::stream);
   }
   auto open = [url, patience = options.patience, opened = video]() mutable {
     const cv::VideoCapture first_time = std::exchange(opened, {});
     return stream_device(first_time.isOpened() ? first_time : connect_to_stream(url, patience));
   };
   video = {};  // the source alone holds it now, and can close it
-  std::unique_ptr<Source> source = live_source(url, std::move(open), options);
+  std::unique_ptr<Source> source = live_source(shown, std::move(open), options);
   if (!source) {
-    throw cannot_read(url, InputKind::stream, "connected, but no picture came", remedy);
+    throw cannot_read(shown, InputKind::stream, "connected, but no picture came", remedy);
   }
   return source;
 }

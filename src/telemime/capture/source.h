@@ -13,7 +13,7 @@ namespace telemime {
 
 /// What is known of an input before its frames are read.
 struct SourceInfo {
-  std::string name;  ///< as the user gave it
+  std::string name;  ///< as the user gave it; of a stream fit to be shown (shown_url())
   int width = 0;     ///< of the first frame
   int height = 0;
   double fps = 25.0;        ///< stated by the input, or measured, or 25 when it says nothing usable
@@ -28,8 +28,11 @@ struct SourceNews {
     gone,    ///< no picture has come for some time
     better,  ///< what was worse or gone is over
   };
+  /// What it is about: "better" ends what was worse or gone there.
+  enum class Matter { presence, size, rate, damage };
   Kind kind = Kind::worse;
   std::string words;  ///< for the user
+  Matter matter = Matter::presence;
 };
 
 /// A sequence of frames. File inputs never drop a frame; live inputs keep the newest.

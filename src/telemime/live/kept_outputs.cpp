@@ -75,7 +75,11 @@ void KeptOutputs::forget(const std::string& url) {
 }
 
 void KeptOutputs::note(Change change) {
+  if (file_.empty()) {
+    return;
+  }
   const std::lock_guard lock(mutex_);
+  std::erase_if(changes_, [&](const Change& before) { return before.url == change.url; });
   changes_.push_back(std::move(change));
   due_ = true;
 }
@@ -84,10 +88,10 @@ void KeptOutputs::save() {
   std::vector<Change> changes;
   {
     const std::lock_guard lock(mutex_);
-    if (file_.empty() || !std::exchange(due_, false)) {
+    if (!std::exchange(due_, false)) {
       return;
     }
-    changes = changes_;
+    changes = std::exchange(changes_, {});
   }
   try {
     update_settings(file_, [&](LiveSettings& settings) {
@@ -104,10 +108,17 @@ void KeptOutputs::save() {
     });
   } catch (const Error& e) {
     tell_(MessageLevel::warning, e.what());
-    return;
+    take_back(std::move(changes));
   }
+}
+
+// They are saved with the next change.
+void KeptOutputs::take_back(std::vector<Change> changes) {
   const std::lock_guard lock(mutex_);
-  changes_.erase(changes_.begin(), changes_.begin() + static_cast<std::ptrdiff_t>(changes.size()));
+  for (const Change& newer : changes_) {
+    std::erase_if(changes, [&](const Change& before) { return before.url == newer.url; });
+  }
+  changes_.insert(changes_.begin(), changes.begin(), changes.end());
 }
 
 }  // namespace telemime

@@ -40,12 +40,13 @@ class KeptOutputs {
   };
   void offer(const std::string& url, bool resume);
   void note(Change change);
+  void take_back(std::vector<Change> changes);
 
   std::filesystem::path file_;
   SenderList& senders_;
   Tell tell_;
   std::mutex mutex_;             ///< of what follows
-  std::vector<Change> changes_;  ///< not written yet
+  std::vector<Change> changes_;  ///< not written yet; one for each URL
   bool due_ = false;             ///< there is one that was not tried yet
 };
 

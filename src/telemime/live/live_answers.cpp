@@ -44,7 +44,16 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Recal
 }
 
 LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const AddOutput& command) {
-  senders_.add(command.url);
+  try {
+    senders_.add(command.url);
+  } catch (const Error& e) {
+    const std::string shown = without_password(command.url);
+    const std::string words = e.what();
+    // The page puts it beside the address that it is about.
+    return words_message(MessageLevel::error, words.find(shown) == std::string::npos
+                                                  ? "the output \"" + shown + "\": " + words
+                                                  : words);
+  }
   if (hooks_.from_here(client)) {
     hooks_.keep(command.url);
   }
@@ -73,6 +82,7 @@ LiveAnswers::Answer LiveAnswers::outputs_changed(bool known, const std::string& 
 
 LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Record& command) {
   command.on ? recorder_.start() : recorder_.stop();
+  hooks_.changed();
   return std::nullopt;
 }
 

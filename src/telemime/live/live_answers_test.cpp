@@ -55,6 +55,25 @@ TEST_F(Answers, WhatIsAddedHereIsKeptForLaterRuns) {
   EXPECT_EQ(forgotten_.size(), 1U);
 }
 
+TEST_F(Answers, ARefusalSaysWhichAddressItIsAbout) {
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_EQ(ask(kHere, "add", "vmc://h" + std::to_string(i)), "");
+  }
+  EXPECT_NE(ask(kHere, "add", "vmc://one-more").find("vmc://one-more"), std::string::npos);
+  const std::string words = ask(kHere, "add", "pigeon://ana:secret@coop");
+  EXPECT_NE(words.find("pigeon://ana@coop"), std::string::npos) << words;
+  EXPECT_EQ(words.find("secret"), std::string::npos) << words;
+}
+
+TEST_F(Answers, ARecordingIsKnownAtOnce) {
+  EXPECT_FALSE(recorder_.current());
+  EXPECT_EQ(answers_(kHere, R"({"type":"record","on":true})"), std::nullopt);
+  ASSERT_TRUE(recorder_.current()) << "it waits for a person";
+  EXPECT_EQ(recorder_.current()->frames, 0);
+  answers_(kHere, R"({"type":"record","on":false})");
+  EXPECT_FALSE(recorder_.current());
+}
+
 TEST_F(Answers, AVisitorFromElsewhereChangesThisRunAlone) {
   EXPECT_EQ(ask(kElsewhere, "add", "vmc://localhost"), "");
   EXPECT_EQ(listed(), Urls{"vmc://localhost"});

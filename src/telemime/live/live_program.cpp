@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "telemime/live/live_answers.h"
 #include "telemime/live/live_files.h"
 #include "telemime/live/live_messages.h"
+#include "telemime/live/output_news.h"
 #include "telemime/live/page_wait.h"
 #include "telemime/live/processor_time.h"
 #include "telemime/network/pose_message.h"
@@ -145,6 +147,11 @@ struct LiveProgram::State {
       }
     }
     messages.push_back(status());
+    if (const LiveSession* const running = ready) {
+      for (const std::string& words : running->state().warnings) {  // told before this page was open
+        messages.push_back(words_message(MessageLevel::warning, words));
+      }
+    }
     return messages;
   }
 
@@ -171,8 +178,22 @@ struct LiveProgram::State {
         }
         frame = *std::exchange(picture, std::nullopt);
       }
-      server->send_binary(kPicture, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
-      ++pictures;
+      attempt([&] {
+        server->send_binary(kPicture, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
+        ++pictures;
+      });
+    }
+  }
+
+  // What fails beside the tracking (memory is short, say) must not end it; told once.
+  template <typename Work>
+  void attempt(const Work& work) {
+    try {
+      work();
+    } catch (const std::exception& e) {
+      if (!complained.exchange(true) && console) {
+        console(MessageLevel::error, std::string("the page is not told all: ") + e.what());
+      }
     }
   }
 
@@ -234,13 +255,25 @@ struct LiveProgram::State {
         }
         cores.read(clock.now(), processor_seconds());
       }
-      const LiveState now = session->state();
-      wait_for_page(now.phase);
-      if (now.phase == LivePhase::ended && !std::exchange(told_end, true)) {
-        tell_end(now.words);
+      attempt([&] {
+        const LiveState now = session->state();
+        wait_for_page(now.phase);
+        if (now.phase == LivePhase::ended && !std::exchange(told_end, true)) {
+          tell_end(now.words);
+        }
+        kept.save();
+        tell_outputs();
+        tell_status();
+      });
+    }
+  }
+
+  // Pages have their list of outputs; whoever looks at the console alone has not.
+  void tell_outputs() {
+    for (const OutputNews::Words& news : output_news.look(senders.status())) {
+      if (console) {
+        console(news.level, news.words);
       }
-      kept.save();
-      tell_status();
     }
   }
 
@@ -301,6 +334,8 @@ struct LiveProgram::State {
   std::atomic<std::int64_t> pictures = 0;
   std::unique_ptr<PoseMessages> spoken;   // of the search side
   PageWait page_wait{options.page_wait};  // of the ticker
+  OutputNews output_news;                 // of the ticker
+  std::atomic<bool> complained = false;
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable changed;

@@ -2,6 +2,7 @@
 #include "telemime/live/live_session.h"
 
 #include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -97,6 +98,14 @@ struct LiveSession::State {
   void hear(const SourceNews& news) {
     using Change = SourceNews::Kind;
     say(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
+    {
+      const std::lock_guard lock(mutex);
+      if (news.kind == Change::better) {
+        camera_warnings.erase(news.matter);
+      } else {
+        camera_warnings[news.matter] = news.words;
+      }
+    }
     if (news.kind == Change::gone) {
       {
         const std::lock_guard lock(mutex);
@@ -129,9 +138,8 @@ struct LiveSession::State {
     });
     hand_over.wait_for_search();
     if (!hand_over.stopping()) {
-      leave_person();
-      const std::string complaint = source->complaint();
-      enter(LivePhase::ended, failure.empty() ? complaint : failure);
+      guarded([this] { leave_person(); });  // what failed before may fail again
+      enter(LivePhase::ended, failure.empty() ? source->complaint() : failure);
     }
     hand_over.finish();
   }
@@ -143,7 +151,10 @@ struct LiveSession::State {
       asked = std::exchange(wishes, {});
     }
     if (asked.guide == GuideStep::empty || asked.guide == GuideStep::skip) {
-      empty_promised = asked.guide == GuideStep::empty;
+      {
+        const std::lock_guard lock(mutex);
+        empty_promised = asked.guide == GuideStep::empty;
+      }
       if (current() == LivePhase::empty_room) {
         enter(LivePhase::background, "");
       }
@@ -250,6 +261,7 @@ struct LiveSession::State {
     slot.times.decided = clock.now();
     const std::lock_guard lock(mutex);
     statistics.add(slot.times);
+    person_warnings = result.warnings;
     reason = result.note;
     phase = result.motion.state == TrackState::tracking ? LivePhase::tracking
             : settled                                   ? LivePhase::lost
@@ -274,7 +286,7 @@ struct LiveSession::State {
     } catch (const std::exception& e) {
       say(e.what(), MessageLevel::error);
       const std::lock_guard lock(mutex);
-      failure = e.what();
+      failure = failure.empty() ? e.what() : failure;
       return false;
     }
   }
@@ -285,7 +297,6 @@ struct LiveSession::State {
   Clock clock;
   std::unique_ptr<Tracker> tracker;  // look() of one thread beside decide() of the other
   HandOver hand_over;
-  bool empty_promised = false;             // of the image side: the user says that the room is empty
   double last_stamp;                       // of the image side: Frame::taken of the last frame
   std::optional<MotionFrame> last_motion;  // of the search side, handed out
   Pace pace;                               // of the search side
@@ -296,12 +307,15 @@ struct LiveSession::State {
 
   mutable std::mutex mutex;  // of what follows
   Wishes wishes;
-  bool opened = false;  // a picture has come
+  bool empty_promised = false;  // changed by the image side alone: the user says that the room is empty
+  bool opened = false;          // a picture has come
   LivePhase phase = LivePhase::person;
   std::string reason;  // in words, why nobody is tracked
   std::string failure;
   std::optional<double> waiting_since;  // for a picture, s of the clock
   std::string camera_words;             // why there is none
+  std::map<SourceNews::Matter, std::string> camera_warnings;
+  std::vector<std::string> person_warnings;
   LiveStatistics statistics;
 
   std::thread image_side;
@@ -341,10 +355,14 @@ void LiveSession::recalibrate() {
 LiveState LiveSession::state() const {
   const double now = state_->clock.now();
   const std::lock_guard lock(state_->mutex);
-  LiveState state{state_->phase, state_->reason, state_->statistics.rates(now)};
+  LiveState state{state_->phase, state_->reason, state_->statistics.rates(now), state_->empty_promised, {}};
   if (state.phase == LivePhase::ended) {
     return state;
   }
+  for (const auto& [matter, words] : state_->camera_warnings) {
+    state.warnings.push_back(words);
+  }
+  state.warnings.insert(state.warnings.end(), state_->person_warnings.begin(), state_->person_warnings.end());
   if (!state_->opened) {
     state.phase = LivePhase::opening;
     state.words = "waiting for the first picture";

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "telemime/capture/clock.h"
 #include "telemime/capture/source.h"
@@ -32,6 +33,11 @@ struct LiveState {
   LivePhase phase = LivePhase::opening;
   std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
   LiveRates rates;
+  /// In the phase `background`: the user said that the room is empty. Else it is learned around whoever is
+  /// there.
+  bool room_empty = false;
+  /// What was told by LiveHooks::message and is still so, of the camera and of the person.
+  std::vector<std::string> warnings;
 };
 
 /// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of

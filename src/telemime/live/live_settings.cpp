@@ -26,8 +26,10 @@ constexpr std::size_t kMostOutputs = 64;
 constexpr int kVersion = 1;
 
 [[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw Error(ErrorKind::config, "the settings in " + file.string() + " cannot be used: " + what,
-              "Mend or delete the file; it is written anew when an output is added or removed on the page.");
+  throw Error(
+      ErrorKind::config, "the settings in " + file.string() + " cannot be used: " + what,
+      "Mend or delete the file. When an output is added or removed on the page, it is written anew, and "
+      "this one is kept beside it, with \".old\" at its name's end.");
 }
 
 [[noreturn]] void unwritable(const fs::path& file, int error_number) {
@@ -157,10 +159,12 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
     fs::permissions(folder, fs::perms::owner_all, failed);
   }
   const FolderLock alone(folder);
+  bool unusable = false;
   Json json;
   try {
     json = read(target);
-  } catch (const Error&) {  // whoever loaded it was told
+  } catch (const Error&) {  // whoever loaded it was told; another version may want it again
+    unusable = fs::is_regular_file(target, failed);
     json = Json::object();
   }
   LiveSettings settings = settings_of(json);
@@ -175,7 +179,15 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
   next += ".new-" + std::to_string(::getpid());
   errno = 0;
   NewFile made(next);
-  if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n") || !made.move_to(target)) {
+  if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")) {
+    unwritable(target, errno);
+  }
+  if (unusable) {
+    fs::path aside = target;
+    aside += ".old";
+    fs::rename(target, aside, failed);
+  }
+  if (!made.move_to(target)) {
     unwritable(target, errno);
   }
 }

@@ -70,6 +70,16 @@ TEST_F(Settings, AFileThatIsDamagedIsRefusedInWordsAndStays) {
   EXPECT_NE(refusal(), "") << "a folder of that name";
 }
 
+TEST_F(Settings, AFileThatCannotBeUsedIsKeptBesideTheNewOne) {
+  save_settings(file_, {});
+  const std::string theirs = R"({"version":2,"outputs":["vmc://a"]})";
+  write(theirs);
+  save_settings(file_, {{"vmc://b"}});
+  EXPECT_EQ(load_settings(file_).outputs, std::vector<std::string>{"vmc://b"});
+  std::ifstream old(file_.string() + ".old");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old), {}), theirs);
+}
+
 TEST_F(Settings, ChangesAreMadeToWhatIsThereNow) {
   save_settings(file_, {{"vmc://a"}});
   write(R"({"version":1,"outputs":["vmc://a","vmc://b"],"more":{"of":"a later version"}})");

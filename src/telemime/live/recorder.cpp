@@ -67,9 +67,9 @@ struct Recorder::State {
         carry_out(task);
       } catch (const std::exception& e) {
         // A full disk: what was written so far is kept.
-        say(MessageLevel::error, std::string("the recording was ended: ") + e.what());
         asked = false;
         wanted = false;
+        say(MessageLevel::error, std::string("the recording was ended: ") + e.what());
         close();
       }
     }
@@ -142,10 +142,12 @@ struct Recorder::State {
     Recording recording;
     recording.number = next_number++;
     std::error_code failed;
-    do {  // recordings of earlier runs stay
+    std::error_code unknown;
+    std::filesystem::create_directories(folder, failed);
+    do {  // recordings of earlier runs stay, and of those that run at the same time
       recording.folder = folder / ("recording-" + std::to_string(next_folder++));
-    } while (std::filesystem::exists(recording.folder, failed));
-    std::filesystem::create_directories(recording.folder, failed);
+    } while (!std::filesystem::create_directory(recording.folder, failed) &&
+             std::filesystem::exists(recording.folder, unknown));
     if (failed) {
       throw Error(ErrorKind::output,
                   "the folder " + recording.folder.string() + " cannot be made: " + failed.message(),
@@ -170,6 +172,11 @@ struct Recorder::State {
     const Open last = std::move(*open);
     open.reset();  // whatever fails from here on, it is over
     Recording recording = last.recording;
+    std::int64_t missing = 0;
+    {
+      const std::lock_guard lock(mutex);
+      missing = std::exchange(lost, 0);  // what is lost while the files end is missing in the next one
+    }
     for (const auto& file : last.files) {
       try {
         file->close();
@@ -186,12 +193,10 @@ struct Recorder::State {
         recording.files.push_back({file->path().filename().string(), bytes});
       }
     }
-    std::int64_t missing = 0;
     {
       const std::lock_guard lock(mutex);
       current.reset();
       ended.push_back(recording);
-      missing = std::exchange(lost, 0);
     }
     say(MessageLevel::info,
         "recorded " + std::to_string(recording.frames) + " frames in " + recording.folder.string());
@@ -297,7 +302,7 @@ void Recorder::stop() {
 
 std::optional<Recording> Recorder::current() const {
   const std::lock_guard lock(state_->mutex);
-  return state_->current;
+  return !state_->current && state_->asked ? std::optional(Recording()) : state_->current;
 }
 
 std::vector<Recording> Recorder::ended() const {

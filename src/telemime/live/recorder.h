@@ -63,6 +63,7 @@ class Recorder {
   void start();
   void stop();
 
+  /// With number 0 while one was started and waits for a person's first frame.
   std::optional<Recording> current() const;
   std::vector<Recording> ended() const;
   /// Of an ended recording; nothing where there is no such file.

@@ -186,6 +186,19 @@ TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {
   EXPECT_NE(errors().find("motion.odd has no end"), std::string::npos) << errors();
 }
 
+TEST_F(Records, FoldersOfOthersAreLeftAlone) {
+  fs::create_directories(folder_.path() / "r" / "recording-1");
+  std::ofstream(folder_.path() / "r" / "recording-2") << "a file";
+  const auto r = recorder();
+  r->person(header_);
+  r->start();
+  write(*r, 2);
+  r->stop();
+  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 1; }));
+  EXPECT_EQ(r->ended().front().folder.filename(), "recording-3");
+  EXPECT_TRUE(fs::is_empty(folder_.path() / "r" / "recording-1"));
+}
+
 TEST_F(Records, AFolderThatCannotBeMadeIsAnErrorInWords) {
   std::ofstream(folder_.path() / "r") << "a file";
   const auto r = recorder();

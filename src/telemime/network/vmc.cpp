@@ -9,9 +9,11 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/udp.hpp>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "telemime/core/errors.h"
 #include "telemime/network/person_motion.h"
@@ -68,6 +70,7 @@ class VmcLink final : public Link {
   bool frame(const MotionFrame& raw, double /*taken*/) override {
     const MotionFrame frame = motion_->clean(raw);
     const auto motion = (*motion_)(frame);
+    followed_at_ = motion ? std::optional(frame.time) : std::nullopt;
     for (const std::string& datagram :
          vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.time, options_)) {
       send(datagram);
@@ -83,10 +86,26 @@ class VmcLink final : public Link {
 
   void close() noexcept override {
     boost::system::error_code ignored;
+    try {
+      say_farewell();
+    } catch (const std::exception&) {  // for want of memory: it was a courtesy
+    }
     socket_.close(ignored);
   }
 
  private:
+  /// The last that a receiver hears is not that somebody is followed.
+  void say_farewell() {
+    if (!followed_at_ || !socket_.is_open()) {
+      return;
+    }
+    boost::system::error_code ignored;
+    for (const std::string& datagram :
+         vmc_datagrams(motion_->skeleton(), nullptr, *std::exchange(followed_at_, std::nullopt), options_)) {
+      socket_.send(asio::buffer(datagram), 0, ignored);
+    }
+  }
+
   /// Else only a refusal comes back, and a computer that is off is sent to for ever.
   void tell_of_unreachable(bool v4) {
     const int on = 1;
@@ -134,6 +153,7 @@ class VmcLink final : public Link {
   const VmcOptions options_;
   std::optional<PersonMotion> motion_;
   std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
+  std::optional<double> followed_at_;           ///< time of the last frame, when it had somebody
   std::int64_t frames_ = 0;                     ///< of this attempt
   bool told_ = false;                           ///< that frames arrive
   bool unreachable_ = false;                    ///< the computer was, in the last attempt

@@ -215,6 +215,24 @@ TEST_F(Vmc, ALostPersonIsToldAndLeavesTheBonesAlone) {
   EXPECT_EQ(next_frame(receiver_, true).marionette.ok.at(3), 0) << "an impossible pose is a lost one";
 }
 
+TEST_F(Vmc, AtTheEndNobodyIsFollowedAnyMore) {
+  auto sender = make_sender(url_of(receiver_.port()));
+  sender->begin(header_);
+  MotionFrame frame = frame_of(random_pose(), 0);
+  sender->send(frame, kTaken);
+  EXPECT_EQ(next_frame(receiver_).marionette.ok.at(3), 1);
+  sender.reset();
+  EXPECT_EQ(next_frame(receiver_, true).marionette.ok.at(3), 0);
+
+  sender = make_sender(url_of(receiver_.port()));
+  sender->begin(header_);
+  frame.state = TrackState::lost;
+  sender->send(frame, kTaken);
+  EXPECT_EQ(next_frame(receiver_, true).marionette.ok.at(3), 0);
+  sender.reset();
+  EXPECT_FALSE(receiver_.receive(100)) << "that was said already";
+}
+
 TEST_F(Vmc, AnotherPersonHasOtherOffsets) {
   const auto sender = make_sender(url_of(receiver_.port()));
   sender->begin(header_);
