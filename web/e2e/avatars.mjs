@@ -35,6 +35,13 @@ function changed(change) {
   return glb(json, file.subarray(28 + length));
 }
 
+/** The box avatar as a file that nobody reads without that extension. */
+const compressed = (extension) =>
+  changed((j) => {
+    j.extensionsUsed.push(extension);
+    j.extensionsRequired = [extension];
+  });
+
 /** Files that cannot be avatars, each with what the page has to say of it. */
 export function badAvatars(folder) {
   const good = boxAvatar();
@@ -49,6 +56,8 @@ export function badAvatars(folder) {
     ["nowhere.vrm", changed((j) => (j.meshes[0].primitives[0].attributes.POSITION = 99)), /broken/],
     ["loop.vrm", changed((j) => (j.nodes[2].children = [0])), /broken/],
     ["model.vrm", changed((j) => delete j.extensions), /not a VRM avatar/],
+    ["draco.vrm", compressed("KHR_draco_mesh_compression"), /cannot read \(KHR_draco_mesh_compression\)/],
+    ["meshopt.vrm", compressed("EXT_meshopt_compression"), /cannot read \(EXT_meshopt_compression\)/],
     ["headless.vrm", boxAvatar({ without: "head" }), /lacks the bone head/],
   ].map(([name, data, words]) => {
     writeFileSync(join(folder, name), data);

@@ -2,9 +2,12 @@
 // What goes wrong around the page: tabs that close or stall; clients that never read; a program that dies.
 
 import assert from "node:assert/strict";
+import { once } from "node:events";
 import { readFileSync } from "node:fs";
 import { connect } from "node:net";
 import { after, before, test } from "node:test";
+import { setTimeout as pause } from "node:timers/promises";
+import { WebSocket } from "ws";
 import { Listener } from "./listener.mjs";
 import {
   FLAT,
@@ -104,6 +107,35 @@ test("clients that never read cost no memory and hold nobody up", LONG, async ()
   await close();
 });
 
+test("a page too many is told so, and comes in when another is closed", LONG, async () => {
+  const others = [];
+  const oneMore = async () => {
+    const socket = new WebSocket(`ws://localhost:${program.port}/ws`, { perMessageDeflate: false });
+    const admitted = await Promise.race([
+      once(socket, "message").then(() => true),
+      once(socket, "close").then(() => false),
+    ]);
+    if (!admitted) return false;
+    for (const type of ["pictures", "poses"]) socket.send(JSON.stringify({ type, on: false }));
+    others.push(socket);
+    return true;
+  };
+  // Again after a while: a page of an earlier test may still have been there.
+  for (let i = 0; i < 2; i++) {
+    while (await oneMore()) assert.ok(others.length <= 40);
+    await pause(500);
+  }
+  const { page, close } = await openPage(flat, program);
+  const banner = page.locator("#banner");
+  await banner.filter({ hasText: "Too many pages are open" }).waitFor();
+  assert.doesNotMatch(await banner.innerText(), /still running/);
+  assert.equal(await page.evaluate(() => window.telemime.phase), "disconnected");
+  for (const socket of others) socket.close();
+  await follows(page); // by itself
+  assert.equal(await banner.isVisible(), false);
+  await close();
+});
+
 test("the program dies and starts again at its port: the page comes back by itself", LONG, async () => {
   const { page, close } = await openPage(browser, program);
   await follows(page);
@@ -112,6 +144,9 @@ test("the program dies and starts again at its port: the page comes back by itse
   await program.kill();
   await page.locator("#banner").filter({ hasText: "No connection to Telemime" }).waitFor();
   assert.equal(await page.evaluate(() => window.telemime.phase), "disconnected");
+  for (const id of ["#gauge-tracked", "#gauge-median", "#gauge-cpu"]) {
+    assert.equal(await page.locator(id).textContent(), "–");
+  }
   await page.waitForFunction(() => window.telemime.counters.rest === 1); // the avatar goes to rest
   program = await startProgram(["demo", ...LIGHT], { port: program.port });
   listener = await Listener.open(program);

@@ -2,7 +2,8 @@
 // Files that are dropped on the page: avatars, and what is none.
 
 import assert from "node:assert/strict";
-import { basename } from "node:path";
+import { writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
 import { after, before, test } from "node:test";
 import { badAvatars, boxes, strangersVrm0 } from "./avatars.mjs";
 import { boneErrors } from "./bones.mjs";
@@ -76,6 +77,14 @@ test("a file dropped while the kept avatar still loads stays, now and the next t
   const asked = other.page.waitForRequest(casual);
   await other.page.reload();
   await asked;
+  const none = join(program.folder, "none.vrm");
+  writeFileSync(none, "this is no avatar at all");
+  const again = other.page.waitForRequest(casual);
+  await drop(other.page, none);
+  const told = other.page.locator(".toast.error").filter({ hasText: "not a VRM avatar" });
+  await told.waitFor();
+  assert.doesNotMatch(await told.innerText(), /is shown|stays/); // nobody knows yet whether casual comes
+  await again;
   await drop(other.page, boxes(program.folder));
   await hasAvatar(other.page, "boxes");
   const came = other.page.waitForResponse(casual);

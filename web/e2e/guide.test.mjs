@@ -79,7 +79,11 @@ test("again, and skipped with the person in the picture", { timeout: 2 * PATIENC
   await page.keyboard.press("g");
   await title("Step out of the picture");
   await tabTo(page, "#guide-skip");
+  await steps();
   await page.keyboard.press("Enter");
   await following();
+  const seen = await steps();
+  assert.ok(seen.includes("Looking at the room around you"), seen.join());
+  assert.ok(!seen.includes("Looking at the room"), "nobody was to stay out of the picture");
   assert.deepEqual(complaints, []);
 });

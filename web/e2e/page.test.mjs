@@ -151,6 +151,15 @@ test("records by keyboard; every file can be saved; a recording can be deleted",
   await links.first().waitFor({ state: "detached" });
 });
 
+test("a recording that is started and stopped before any status is over", LONG, async () => {
+  await page.keyboard.press("r");
+  await page.keyboard.press("r");
+  await page.locator("#record-label").filter({ hasText: "Record" }).waitFor();
+  let heard = 0; // 2 s: what was started would have pictures by now
+  const late = await listener.heard((m) => m.type === "status" && ++heard >= 4);
+  assert.equal(late.recording, null);
+});
+
 test("outputs come and go, wrong ones are refused in words", LONG, async () => {
   await page.keyboard.press("2");
   const box = page.locator("#output-url");

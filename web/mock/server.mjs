@@ -53,6 +53,7 @@ const start = performance.now();
 const stamp = () => performance.now() - start;
 const state = {
   phase: options.start,
+  roomEmpty: false,
   since: stamp(),
   gesture: null,
   lost: "auto",
@@ -107,7 +108,7 @@ const isLost = () => state.lost === "1" || (state.lost === "auto" && (stamp() / 
 const WORDS = {
   opening: "Camera 0 is being opened.",
   empty_room: "Somebody is in the picture.",
-  background: "Picture 12 of 25 of the empty room.",
+  background: "Picture 12 of 25 of the room.",
   person: "Arms are too close to the body.",
   tracking: "Tracking you.",
   lost: "You are outside the picture. Come back to go on.",
@@ -128,6 +129,7 @@ function status() {
   broadcast({
     type: "status",
     phase: state.phase,
+    roomEmpty: state.roomEmpty,
     words: WORDS[state.phase] ?? "",
     fps: { input: 25, tracked: state.phase === "tracking" ? wobble(24.6) : 0 },
     dropped: 3,
@@ -149,9 +151,10 @@ function command(socket, m) {
   if (m.type !== "drawn" && m.type !== "ping") state.received.push(m);
   switch (m.type) {
     case "guide":
-      if (m.step === "empty") enter("background");
-      else if (m.step === "skip") enter("person");
-      else if (m.step === "again") enter("empty_room");
+      if (m.step === "empty" || m.step === "skip") {
+        state.roomEmpty = m.step === "empty";
+        enter("background");
+      } else if (m.step === "again") enter("empty_room");
       else bad();
       break;
     case "recalibrate":

@@ -3,7 +3,10 @@
 
 import { parseMessage, parsePicture, type Command, type Incoming, type Picture } from "./protocol";
 
-export type ConnectionState = { kind: "connecting" } | { kind: "open" } | { kind: "lost"; retryAt: number }; // performance.now() of the next try
+export type ConnectionState =
+  | { kind: "connecting" }
+  | { kind: "open" } // and the program has spoken
+  | { kind: "lost"; retryAt: number; words: string }; // performance.now() of the next try; why, when it was told
 
 export interface Listener {
   message(m: Incoming): void;
@@ -13,6 +16,8 @@ export interface Listener {
 
 const PING_EVERY = 4000; // ms
 const SILENCE = 12000; // ms without a word: the connection is dead, even if the socket does not say so
+/** Codes by which the program itself turns a page away (RFC 6455 and its registry): policy, try again later. */
+const TURNED_AWAY: readonly number[] = [1008, 1013];
 const MAX_WAITING = 1 << 16; // bytes: a connection that does not drain gets no more "drawn"
 
 /** Pause before try number `n` (from 0), ms: 0.5 s, doubled up to 10 s; `chance` in [0, 1) spreads many pages. */
@@ -67,19 +72,18 @@ export class Connection {
     try {
       s = new WebSocket(this.url);
     } catch {
-      this.failed();
+      this.failed("");
       return;
     }
     s.binaryType = "arraybuffer";
     this.socket = s;
     this.heard = performance.now();
-    s.onopen = () => {
-      this.heard = performance.now();
-      this.set({ kind: "open" });
-    };
+    s.onopen = () => (this.heard = performance.now());
     s.onmessage = (e: MessageEvent<unknown>) => {
       this.heard = performance.now();
-      this.tries = 0; // the program speaks: not only an open port
+      // The program speaks: it is not only an open port, or a word that no more pages are let in.
+      this.tries = 0;
+      if (this.current.kind !== "open") this.set({ kind: "open" });
       if (typeof e.data === "string") {
         const m = parseMessage(e.data);
         if (m) this.listener.message(m);
@@ -90,16 +94,16 @@ export class Connection {
         else this.refused++;
       }
     };
-    s.onclose = () => {
-      if (this.socket === s) this.failed();
+    s.onclose = (e: CloseEvent) => {
+      if (this.socket === s) this.failed(TURNED_AWAY.includes(e.code) ? e.reason : "");
     };
   }
 
-  private failed(): void {
+  private failed(words: string): void {
     this.socket = null;
     const wait = pause(this.tries++, Math.random());
     this.retry = window.setTimeout(() => this.open(), wait);
-    this.set({ kind: "lost", retryAt: performance.now() + wait });
+    this.set({ kind: "lost", retryAt: performance.now() + wait, words });
   }
 
   private heartbeat(): void {
@@ -109,7 +113,7 @@ export class Connection {
       this.socket = null;
       s.onmessage = null;
       s.close();
-      this.failed();
+      this.failed("");
       return;
     }
     this.send({ type: "ping", id: ++this.pingId });

@@ -89,6 +89,8 @@ describe("text messages", () => {
     expect(m.latency).toBeNull();
     expect(m.recording).toBeNull();
     expect(m.recordings).toEqual([]);
+    expect(m.roomEmpty).toBe(false);
+    expect(read({ type: "status", phase: "background", roomEmpty: true })).toMatchObject({ roomEmpty: true });
     expect(read({ type: "status", phase: "dancing" })).toBeNull();
   });
 });

@@ -101,6 +101,8 @@ export interface Recording {
 export interface Status {
   type: "status";
   phase: Phase;
+  /** The user has said that the room is empty: it is not learned around a person. */
+  roomEmpty: boolean;
   words: string;
   fps: { input: number | null; tracked: number | null };
   dropped: number | null;
@@ -271,6 +273,7 @@ function readStatus(m: Json): Status {
   return {
     type: "status",
     phase,
+    roomEmpty: m.roomEmpty === true,
     words: text(m.words),
     fps: { input: maybeNumber(fps.input), tracked: maybeNumber(fps.tracked) },
     dropped: maybeNumber(m.dropped),

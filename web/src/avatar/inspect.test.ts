@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { describe, expect, it, vi } from "vitest";
 import { REQUIRED_BONES, boneWords, checkSize, inspect } from "./inspect";
 
 function file(json: unknown): ArrayBuffer {
@@ -59,6 +60,39 @@ describe("a look at avatar files", () => {
     expect(() => inspect(file({ nodes: [] }))).toThrow("not a VRM avatar");
     expect(() => inspect(file(vrm1()).slice(0, 200))).toThrow("cut off");
     expect(() => inspect(file({ ...vrm1(), images: [{ uri: "http://x/y.png" }] }))).toThrow("other files");
+  });
+  it("names the compression that the page cannot read", () => {
+    const needs = (...names: string[]) =>
+      file({ ...vrm1(), extensionsUsed: names, extensionsRequired: names });
+    for (const name of [
+      "KHR_draco_mesh_compression",
+      "EXT_meshopt_compression",
+      "KHR_meshopt_compression",
+      "KHR_texture_basisu",
+    ]) {
+      expect(() => inspect(needs("VRMC_vrm", name))).toThrow(`cannot read (${name}). Export it without.`);
+    }
+    expect(() => inspect(needs("KHR_texture_basisu", "KHR_draco_mesh_compression"))).toThrow(
+      "(KHR_draco_mesh_compression, KHR_texture_basisu)",
+    );
+  });
+  it("lets in what can be left out, and what the 3-D library only warns of", async () => {
+    const required = ["VRMC_vrm", "VRMC_materials_mtoon", "KHR_texture_transform", "ACME_unheard_of"];
+    const unknown = { ...vrm1(), extensionsUsed: required, extensionsRequired: required };
+    expect(inspect(file(unknown)).title).toBe("Ada");
+    const optional = { ...vrm1(), extensionsUsed: ["EXT_meshopt_compression", "KHR_texture_basisu"] };
+    expect(inspect(file(optional)).title).toBe("Ada");
+
+    // So does the library, but for Draco, which it does not build even where it can be left out.
+    const warned = vi.spyOn(console, "warn").mockImplementation(() => undefined);
+    const build = (json: object) =>
+      new GLTFLoader().parseAsync(file({ asset: { version: "2.0" }, ...json }), "");
+    for (const json of [unknown, optional]) await expect(build(json)).resolves.toBeDefined();
+    expect(String(warned.mock.calls)).toContain("ACME_unheard_of");
+    warned.mockRestore();
+    const draco = { ...vrm1(), extensionsUsed: ["KHR_draco_mesh_compression"] };
+    await expect(build(draco)).rejects.toThrow("DRACOLoader");
+    expect(() => inspect(file(draco))).toThrow("KHR_draco_mesh_compression");
   });
   it("bounds the size", () => {
     expect(() => checkSize(201 * 1024 * 1024)).toThrow("201 MB");

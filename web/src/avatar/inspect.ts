@@ -82,6 +82,31 @@ function refuseOutsideFiles(json: Json): void {
   }
 }
 
+/**
+ * What the 3-D library cannot build without a decoder, which the page has none of: they are WebAssembly, and the content
+ * security policy lets none in. Of other extensions it only warns. Draco fails also where it is not required.
+ */
+const COMPRESSIONS: readonly { name: string; where: "extensionsUsed" | "extensionsRequired" }[] = [
+  { name: "KHR_draco_mesh_compression", where: "extensionsUsed" },
+  { name: "EXT_meshopt_compression", where: "extensionsRequired" },
+  { name: "KHR_meshopt_compression", where: "extensionsRequired" },
+  { name: "KHR_texture_basisu", where: "extensionsRequired" },
+];
+
+function refuseCompression(json: Json): void {
+  const lists = (name: string, where: string): boolean => {
+    const names = json[where];
+    return Array.isArray(names) && names.includes(name);
+  };
+  const found = COMPRESSIONS.filter((c) => lists(c.name, c.where) || lists(c.name, "extensionsRequired")).map(
+    (c) => c.name,
+  );
+  if (found.length === 0) return;
+  throw new AvatarError(
+    `This file uses compression that the page cannot read (${found.join(", ")}). Export it without.`,
+  );
+}
+
 function bonesOf(json: Json, version: "0" | "1"): Set<string> {
   const extensions = json.extensions as Json;
   const part = extensions[version === "1" ? "VRMC_vrm" : "VRM"];
@@ -115,6 +140,7 @@ export function inspect(data: ArrayBuffer): Facts {
   if (!version)
     throw new AvatarError("This is a 3-D model, but not a VRM avatar: it does not say which bone is which.");
   refuseOutsideFiles(json);
+  refuseCompression(json);
   const bones = bonesOf(json, version);
   const missing = REQUIRED_BONES.filter((b) => !bones.has(b)).map(boneWords);
   if (missing.length > 0) {

@@ -151,7 +151,9 @@ const connection: Connection = new Connection(address, {
     top.setPose(null);
     secondMode(null);
     line.disconnected();
+    gauges.disconnected();
     guide.disconnected();
+    outputs.disconnected();
     recordings.disconnected();
     for (const id of ["recalibrate", "guide-again"]) byId(id, HTMLButtonElement).disabled = true;
   },

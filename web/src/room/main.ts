@@ -55,12 +55,7 @@ const roomTab = new RoomTab({
   command: () => (client ? trackerCommand(client.entered, client.me?.state ?? null) : null),
   announce: (words) => status.announce(words),
 });
-let why = "";
-const banner = new Banner(
-  () => client?.tryNow(),
-  () => why,
-  "",
-);
+const banner = new Banner(() => client?.tryNow());
 const panel = new Panel(settings, keepSettings);
 const scene = new SceneUi(
   rig,
@@ -115,7 +110,6 @@ function showStatus(): void {
 }
 
 function linked(s: LinkState): void {
-  if (s.kind === "lost") why = s.words;
   banner.setState(s.kind === "lost" ? s : s.kind === "connecting" ? s : { kind: "open" });
   showStatus();
   if (s.kind === "refused") void comeBack(s.words);

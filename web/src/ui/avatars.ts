@@ -22,6 +22,13 @@ interface Uses {
 }
 
 const NONE = "No avatar is shown.";
+const STAYS = "The avatar stays as it was.";
+
+/** An avatar that was asked for, and neither came nor failed. */
+interface Wish {
+  id: string;
+  remember: boolean;
+}
 
 const lookName = (look: string): string => {
   const words = look.replace(/[-_]+/g, " ");
@@ -33,6 +40,8 @@ export class Avatars {
   private looks: string[] = [];
   private own: StoredEntry[] = [];
   private wanted = "";
+  /** The last one, also while a file has come before it. */
+  private wish: Wish | null = null;
   private turn = 0;
   /** The program has said what it has. */
   private ready = false;
@@ -58,25 +67,32 @@ export class Avatars {
     this.own = await listAvatars();
     this.ready = true;
     this.list();
-    if (this.info || this.wanted) return;
+    if (!this.info && !this.wanted) await this.start({ id: this.preferred, remember: false });
+  }
+
+  /** Shows that one, or else the program's first look when nothing is shown. */
+  private async start(wish: Wish): Promise<void> {
     const first = this.looks[0] ? `look:${this.looks[0]}` : "";
-    if (this.ids().includes(this.preferred) && this.preferred !== first) {
+    if (this.ids().includes(wish.id)) {
       const turn = this.turn + 1;
-      // A stand-in is not what the user chose: the next time the choice is tried again.
-      if (await this.bring(this.preferred, false, first ? "Another is shown." : NONE)) return;
-      if (turn !== this.turn) return; // the user chose another meanwhile
+      const another = !this.info && first !== "" && first !== wish.id;
+      if (await this.bring(wish, !another)) return;
+      if (turn !== this.turn || !another) return; // or the user chose another meanwhile
     }
-    if (first) await this.bring(first, false, NONE);
+    // A stand-in is not what the user chose: the next time the choice is tried again.
+    if (first && !this.info) await this.bring({ id: first, remember: false }, true);
   }
 
   /** Shows it, and again the next time. True when it is shown; the old one stays when it cannot be. */
   choose(id: string): Promise<boolean> {
-    return this.bring(id, true, NONE);
+    return this.bring({ id, remember: true }, true);
   }
 
-  /** `instead`: what is shown when it cannot be and nothing was before, in words. */
-  private async bring(id: string, remember: boolean, instead: string): Promise<boolean> {
+  /** `last`: when it cannot be shown, no other is tried. */
+  private async bring(wish: Wish, last: boolean): Promise<boolean> {
+    const { id, remember } = wish;
     const turn = ++this.turn;
+    this.wish = wish;
     this.wanted = id;
     this.list();
     try {
@@ -88,7 +104,9 @@ export class Avatars {
       if (shown && remember) this.uses.remember(id);
       return shown;
     } catch (e) {
-      if (turn === this.turn) this.failed(e, "The avatar could not be loaded", instead);
+      if (turn !== this.turn) return false;
+      this.wish = null;
+      this.failed(e, "The avatar could not be loaded", last);
       return false;
     } finally {
       if (turn === this.turn) this.wanted = "";
@@ -122,7 +140,14 @@ export class Avatars {
       this.own = await listAvatars();
       return true;
     } catch (e) {
-      if (turn === this.turn) this.failed(e, `${file.name} could not be read`, NONE);
+      if (turn !== this.turn) return false;
+      // On with what this file came before: an avatar, or all when the program has yet to say what it has.
+      const { wish } = this;
+      const goesOn = wish !== null || (!this.info && (!this.ready || this.looks.length > 0));
+      this.failed(e, `${file.name} could not be read`, !goesOn);
+      this.wanted = "";
+      this.wish = null;
+      if (goesOn && this.ready) await this.start(wish ?? { id: this.preferred, remember: false });
       return false;
     } finally {
       if (turn === this.turn) this.wanted = "";
@@ -153,14 +178,16 @@ export class Avatars {
       avatar.dispose();
       return false;
     }
+    this.wish = null;
     this.info = { id, name, version: avatar.facts.version, author: avatar.facts.author };
     this.uses.show(avatar);
     return true;
   }
 
-  private failed(e: unknown, otherwise: string, instead: string): void {
+  /** `last`: nothing else is tried, so that it is known what is shown. */
+  private failed(e: unknown, otherwise: string, last: boolean): void {
     const words = e instanceof AvatarError ? e.message : `${otherwise}. Try again.`;
-    this.uses.say("error", `${words} ${this.info ? "The avatar stays as it was." : instead}`);
+    this.uses.say("error", last ? `${words} ${this.info ? STAYS : NONE}` : words);
   }
 
   private list(): void {

@@ -1,28 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// No connection: says so, and when the next try is.
+// No connection: says so, or why when that was told, and when the next try is.
 
 import type { ConnectionState } from "../connection";
-import { button, byId } from "./dom";
+import { button, byId, h } from "./dom";
+
+/** What stays as it was is not read out again. */
+function put(e: Element, words: string): void {
+  if (e.textContent !== words) e.textContent = words;
+}
 
 export class Banner {
   private readonly box = byId("banner", HTMLElement);
   private timer = 0;
   private state: ConnectionState = { kind: "connecting" };
   private failed = false;
+  private told = ""; // why, when it was lost last
 
-  /** `what` went wrong, and perhaps why. */
-  constructor(
-    tryNow: () => void,
-    private readonly what = () => "No connection to Telemime.",
-    private readonly why = "Is the program still running?",
-  ) {
+  constructor(tryNow: () => void) {
     button("banner-try", tryNow);
   }
 
   setState(s: ConnectionState): void {
     this.state = s;
     if (s.kind === "open") this.failed = false;
-    if (s.kind === "lost") this.failed = true;
+    if (s.kind === "lost") {
+      this.failed = true;
+      this.told = s.words;
+    }
     this.box.hidden = !this.failed;
     window.clearInterval(this.timer);
     if (!this.failed) return;
@@ -37,13 +41,11 @@ export class Banner {
     // The alert is read once; the seconds that run down are not.
     const words = byId("banner-words", HTMLElement);
     if (!words.firstChild) {
-      const what = document.createElement("b");
-      const rest = document.createElement("span");
-      rest.setAttribute("aria-hidden", "true");
-      words.append(what, `${this.why} `, rest);
+      words.append(h("b"), h("span"), h("span", { "aria-hidden": "true" }));
     }
-    const what = `${this.what()} `;
-    if (words.firstElementChild!.textContent !== what) words.firstElementChild!.textContent = what;
-    words.lastElementChild!.textContent = when;
+    const [what, why, rest] = words.children;
+    put(what!, `${this.told || "No connection to Telemime."} `);
+    put(why!, this.told ? "" : "Is the program still running? ");
+    rest!.textContent = when;
   }
 }

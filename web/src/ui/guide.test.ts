@@ -2,40 +2,20 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Command, Phase, Status } from "../protocol";
 import { Guide } from "./guide";
+import { fakeDocument, type FakeElement } from "./testing_dom";
 
-/** As much of an element as the guide touches. */
-class FakeElement {
-  readonly dataset: Record<string, string> = {};
-  readonly classList = { toggle: () => false };
-  hidden = true;
-  textContent = "";
-  press = (): void => {};
-  addEventListener(_type: string, pressed: () => void): void {
-    this.press = pressed;
-  }
-}
-
-let elements: Map<string, FakeElement>;
+let element: (id: string) => FakeElement;
 let sent: Command[];
 let said: string[];
 let connected: boolean;
 let guide: Guide;
 
-function element(id: string): FakeElement {
-  const known = elements.get(id) ?? new FakeElement();
-  elements.set(id, known);
-  return known;
-}
-
-const enter = (phase: Phase): void => guide.setStatus({ phase, words: "" } as unknown as Status);
+const enter = (phase: Phase, roomEmpty = false): void =>
+  guide.setStatus({ phase, roomEmpty, words: "" } as unknown as Status);
 
 beforeEach(() => {
   vi.useFakeTimers();
-  vi.stubGlobal("window", globalThis);
-  vi.stubGlobal("HTMLElement", FakeElement);
-  vi.stubGlobal("HTMLButtonElement", FakeElement);
-  vi.stubGlobal("document", { getElementById: element, querySelectorAll: () => [] });
-  elements = new Map();
+  element = fakeDocument();
   sent = [];
   said = [];
   connected = true;
@@ -81,6 +61,21 @@ describe("the guide", () => {
     expect(element("guide").hidden).toBe(false);
     element("guide-now").press();
     expect(sent).toEqual([{ type: "guide", step: "empty" }]);
+  });
+
+  it("keeps out of the picture only who said that the room is empty", () => {
+    enter("background", true);
+    expect(element("guide-text").textContent).toMatch(/Stay out of the picture/);
+    expect(element("guide").dataset.figure).toBe("room");
+    enter("background"); // the same title
+    expect(element("guide-title").textContent).toBe("Looking at the room");
+    expect(element("guide-text").textContent).toMatch(/Stay where you are.*around you/);
+    expect(element("guide").dataset.figure).toBe("in");
+    expect(said.at(-1)).toMatch(/Stay where you are/);
+    enter("background", true);
+    expect(element("guide-text").textContent).toMatch(/Stay out of the picture/);
+    enter("person");
+    expect(element("guide-title").textContent).toMatch(/Step in/);
   });
 
   it("is not done with a person who was found while nobody was connected", () => {

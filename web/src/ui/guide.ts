@@ -9,6 +9,8 @@ const COUNT = 5; // s
 const DONE_SHOWN = 2200; // ms
 
 interface Step {
+  /** The title when left out; differs between steps that share one. */
+  key?: string;
   number: 1 | 2 | 3;
   title: string;
   text: string;
@@ -16,7 +18,7 @@ interface Step {
   busy: boolean;
 }
 
-const STEPS: Partial<Record<Phase | "done", Step>> = {
+const STEPS: Partial<Record<Phase | "around" | "done", Step>> = {
   opening: { number: 1, title: "Opening the camera", text: "One moment.", figure: "camera", busy: true },
   empty_room: {
     number: 1,
@@ -30,6 +32,15 @@ const STEPS: Partial<Record<Phase | "done", Step>> = {
     title: "Looking at the room",
     text: "Stay out of the picture for a moment.",
     figure: "room",
+    busy: true,
+  },
+  // The background when nobody has said that the room is empty.
+  around: {
+    key: "Looking at the room around you",
+    number: 1,
+    title: "Looking at the room",
+    text: "Stay where you are for a moment: the room is learned around you.",
+    figure: "in",
     busy: true,
   },
   person: {
@@ -47,6 +58,7 @@ export class Guide {
   private readonly count = byId("countdown", HTMLElement);
   private readonly countButton: HTMLButtonElement;
   private phase: Phase | null = null;
+  private roomEmpty = false;
   private guided = false;
   private doneUntil = 0;
   private left = 0;
@@ -66,6 +78,7 @@ export class Guide {
   setStatus(s: Status): void {
     const before = this.phase;
     this.phase = s.phase;
+    this.roomEmpty = s.roomEmpty;
     if (s.phase !== "empty_room") this.stopCount();
     if (s.phase === "person" || s.phase === "background" || s.phase === "empty_room") this.guided = true;
     if (s.phase === "tracking" && this.guided && before !== null) {
@@ -136,8 +149,9 @@ export class Guide {
 
   private show(words: string): void {
     const done = performance.now() < this.doneUntil && this.phase === "tracking";
-    const step = STEPS[done ? "done" : (this.phase ?? "stopped")];
-    const key = step ? step.title : "";
+    const around = this.phase === "background" && !this.roomEmpty;
+    const step = STEPS[done ? "done" : around ? "around" : (this.phase ?? "stopped")];
+    const key = step ? (step.key ?? step.title) : "";
     byId("guide-words", HTMLElement).textContent = words && words !== step?.title ? words : "";
     if (this.box.dataset.step === key) return;
     this.box.dataset.step = key;

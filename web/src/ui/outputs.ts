@@ -2,14 +2,16 @@
 // Where the motion is sent: the list with its state in words, and adding by address.
 
 import type { Command, Output, Sender } from "../protocol";
+import { LONGEST_ADDRESS, withoutPassword } from "./address";
 import { byId, h, icon, renderOnce } from "./dom";
 
 const ANSWER = 3000; // ms in which the program says what is wrong with an address
+const NOBODY = "There is no connection to Telemime at the moment.";
 const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
 
-/** Colour of the dot; a state that this page does not know yet waits. */
-function mood(o: Output): "good" | "bad" | "wait" {
-  return o.state === "sending" ? "good" : o.state === "failed" ? "bad" : "wait";
+/** Colour of the dot; a state that this page does not know yet waits, and none at all has none. */
+function mood(o: Output): "good" | "bad" | "wait" | "" {
+  return o.state === "sending" ? "good" : o.state === "failed" ? "bad" : o.state ? "wait" : "";
 }
 
 function facts(o: Output): string {
@@ -24,7 +26,10 @@ export class OutputList {
   private readonly input = byId("output-url", HTMLInputElement);
   private readonly error = byId("output-error", HTMLElement);
 
-  private asked: { url: string; at: number } | null = null;
+  private outputs: readonly Output[] = [];
+  private connected = false;
+  /** What was added last, until the list or an error answers it. */
+  private asked: { url: string; shown: string; at: number } | null = null;
 
   constructor(private readonly send: (c: Command) => boolean) {
     byId("output-form", HTMLFormElement).addEventListener("submit", (e) => {
@@ -54,7 +59,27 @@ export class OutputList {
   }
 
   setOutputs(outputs: readonly Output[]): void {
-    if (outputs.some((o) => o.url === this.asked?.url)) this.asked = null;
+    const { asked } = this;
+    const sent = (all: readonly Output[]) => all.some((o) => o.url === asked?.shown && o.state !== "off");
+    // One that was there before is no answer: the error that says so is still to come.
+    if (sent(outputs) && !sent(this.outputs)) this.asked = null;
+    if (this.error.textContent === NOBODY) this.complain("");
+    this.connected = true;
+    this.outputs = outputs;
+    this.show();
+  }
+
+  /** How the outputs do is known with the next status. */
+  disconnected(): void {
+    this.connected = false;
+    this.asked = null;
+    this.show();
+  }
+
+  private show(): void {
+    const outputs = this.connected
+      ? this.outputs
+      : this.outputs.map((o) => ({ ...o, state: "", words: "not connected" }));
     byId("outputs-empty", HTMLElement).hidden = outputs.length > 0;
     byId("count-send", HTMLElement).textContent = outputs.length ? String(outputs.length) : "";
     renderOnce(this.list, outputs.map((o) => `${o.url} ${o.state} ${o.words}`).join("\n"), () =>
@@ -69,7 +94,7 @@ export class OutputList {
           },
           icon("trash"),
         );
-        remove.addEventListener("click", () => this.send({ type: "output", remove: o.url }));
+        remove.addEventListener("click", () => this.ask({ type: "output", remove: o.url }));
         const off = o.state === "off";
         const flip = h(
           "button",
@@ -81,12 +106,12 @@ export class OutputList {
           off ? "Switch on" : "Switch off",
         );
         flip.addEventListener("click", () =>
-          this.send(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
+          this.ask(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
         );
         return h(
           "li",
           { class: "row" },
-          h("span", { class: `dot ${mood(o)}` }),
+          h("span", { class: `dot ${mood(o)}`.trim() }),
           h(
             "div",
             { class: "row-text" },
@@ -102,8 +127,12 @@ export class OutputList {
     // Counters change all the time: only their text.
     this.list.querySelectorAll("[data-facts]").forEach((e, i) => {
       const o = outputs[i];
-      if (o) e.textContent = facts(o);
+      if (o) e.textContent = this.connected ? facts(o) : "";
     });
+  }
+
+  private ask(c: Command): void {
+    if (!this.send(c)) this.error.textContent = NOBODY;
   }
 
   private add(): void {
@@ -112,20 +141,25 @@ export class OutputList {
       this.complain("An address looks like vmc://localhost:39539. Choose an example and change it.");
       return;
     }
+    if (url.length > LONGEST_ADDRESS) {
+      this.complain(`An address has up to ${LONGEST_ADDRESS} characters.`);
+      return;
+    }
     if (this.send({ type: "output", add: url })) {
-      this.asked = { url, at: performance.now() };
+      this.asked = { url, shown: withoutPassword(url), at: performance.now() };
       this.input.value = "";
       this.complain("");
     } else {
-      this.complain("There is no connection to Telemime at the moment.");
+      this.complain(NOBODY);
     }
   }
 
   /** An error of the program: true when it is the answer to an address, and stands beside it now. */
   refused(words: string): boolean {
     const asked = this.asked;
-    this.asked = null;
     if (!asked || performance.now() - asked.at > ANSWER) return false;
+    if (!words.includes(asked.shown)) return false; // of something else: a full disk
+    this.asked = null;
     this.input.value ||= asked.url;
     this.complain(words);
     return true;

@@ -5,6 +5,15 @@ import type { Command, Recording, Status } from "../protocol";
 import { button, byId, clock, h, icon, megabytes, renderOnce } from "./dom";
 
 const SURE = 4000; // ms in which a second press deletes
+const ANSWER = 3000; // ms in which a status shows what was asked for, or it did not come about
+
+/** What this page asked for last, until a status shows it. */
+interface Wish {
+  on: boolean;
+  at: number; // performance.now()
+  /** A status with the opposite came last: one that fits is news, and was not on its way before the wish. */
+  awaited: boolean;
+}
 
 export function fileAddress(recording: number, name: string): string {
   return `/recordings/${recording}/${encodeURIComponent(name)}`;
@@ -13,7 +22,9 @@ export function fileAddress(recording: number, name: string): string {
 export class Recordings {
   private readonly list = byId("recordings", HTMLElement);
   private readonly record: HTMLButtonElement;
+  private status: Status | null = null;
   private recording = false;
+  private wish: Wish | null = null;
 
   constructor(
     private readonly send: (c: Command) => boolean,
@@ -23,19 +34,24 @@ export class Recordings {
   }
 
   toggle(): void {
-    if (!this.record.disabled) this.send({ type: "record", on: !this.recording });
+    if (this.record.disabled) return;
+    const on = !this.wanted();
+    if (!this.send({ type: "record", on })) {
+      this.announce("There is no connection to Telemime at the moment.");
+      return;
+    }
+    this.wish = { on, at: performance.now(), awaited: on !== this.recording };
+    this.show();
   }
 
   setStatus(s: Status): void {
     const on = s.recording !== null;
     if (on !== this.recording) this.announce(on ? "Recording." : "Recording ended.");
+    this.status = s;
     this.recording = on;
-    this.record.disabled = !on && !["tracking", "lost"].includes(s.phase);
-    this.record.classList.toggle("on", on);
-    byId("record-label", HTMLElement).textContent = s.recording
-      ? `Stop ${clock(s.recording.seconds)}`
-      : "Record";
-    this.record.setAttribute("aria-label", on ? "Stop recording" : "Record");
+    if (this.wish && on !== this.wish.on) this.wish.awaited = true;
+    else if (this.wish?.awaited) this.wish = null; // it has come about
+    this.show();
 
     byId("recordings-empty", HTMLElement).hidden = s.recordings.length > 0;
     byId("count-recordings", HTMLElement).textContent = s.recordings.length
@@ -46,7 +62,26 @@ export class Recordings {
   }
 
   disconnected(): void {
-    this.record.disabled = true;
+    this.status = null;
+    this.wish = null;
+    this.show();
+  }
+
+  /** Whether to record, as far as this page knows. */
+  private wanted(): boolean {
+    if (this.wish && performance.now() - this.wish.at > ANSWER) this.wish = null;
+    return this.wish?.on ?? this.recording;
+  }
+
+  private show(): void {
+    const s = this.status;
+    const on = this.wanted();
+    const label = this.wish ? (on ? "Starting…" : "Stopping…") : on ? "Stop" : "Record";
+    const time = s?.recording && !this.wish ? ` ${clock(s.recording.seconds)}` : "";
+    this.record.disabled = !s || (!on && !["tracking", "lost"].includes(s.phase));
+    this.record.classList.toggle("on", on);
+    byId("record-label", HTMLElement).textContent = label + time;
+    this.record.setAttribute("aria-label", this.wish ? label : on ? "Stop recording" : "Record");
   }
 
   private row(r: Recording): HTMLElement {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { pause } from "../connection";
 import { clock, megabytes } from "./dom";
 import { fileAddress } from "./recordings";
-import { DEFAULTS, changed, readSettings } from "./settings";
+import { DEFAULTS, loadSettings, readSettings, saveSettings } from "./settings";
 import { superfluous } from "./toasts";
 
 describe("settings", () => {
+  afterEach(() => vi.unstubAllGlobals());
   it("come back as they were", () => {
     const s = { ...DEFAULTS, mirrorAvatar: true, tab: "send" as const, avatar: "look:plain" };
     expect(readSettings(JSON.stringify(s))).toEqual(s);
@@ -17,10 +18,26 @@ describe("settings", () => {
     }
   });
   it("of two windows are those that were changed last, one by one", () => {
-    const here = { ...DEFAULTS, overlay: false };
-    const there = { ...DEFAULTS, avatar: "look:casual" };
-    const both = { ...DEFAULTS, ...changed(there, DEFAULTS), ...changed(here, DEFAULTS) };
-    expect(both).toEqual({ ...DEFAULTS, overlay: false, avatar: "look:casual" });
+    const kept = new Map<string, string>();
+    vi.stubGlobal("localStorage", {
+      getItem: (key: string) => kept.get(key) ?? null,
+      setItem: (key: string, value: string) => kept.set(key, value),
+    });
+    const here = loadSettings();
+    const there = loadSettings();
+    saveSettings({ ...there, avatar: "look:casual", keys: false }, there);
+    saveSettings({ ...here, overlay: false }, here);
+    expect(loadSettings()).toEqual({ ...DEFAULTS, overlay: false, avatar: "look:casual", keys: false });
+    saveSettings(
+      { ...here, overlay: false, keys: true, tab: "send" },
+      { ...here, overlay: false, keys: false },
+    );
+    expect(loadSettings()).toEqual({ ...DEFAULTS, overlay: false, avatar: "look:casual", tab: "send" });
+  });
+  it("hold for the page where the browser keeps nothing", () => {
+    vi.stubGlobal("localStorage", undefined);
+    saveSettings({ ...DEFAULTS, overlay: false }, DEFAULTS);
+    expect(loadSettings()).toEqual(DEFAULTS);
   });
 });
 

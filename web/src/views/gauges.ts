@@ -11,6 +11,9 @@ const EVERY = 250; // ms between drawings of the history
 /** Before a person is looked for, nothing is measured. */
 const TRACKS: readonly Phase[] = ["person", "tracking", "lost", "ended"];
 
+/** Those that are numbers alone. */
+const VALUES = ["tracked", "input", "dropped", "median", "p95", "f", "dc"].map((name) => `gauge-${name}`);
+
 export const show = (v: number | null | undefined, digits = 0): string =>
   v === null || v === undefined ? "–" : v.toFixed(digits);
 
@@ -35,8 +38,10 @@ export class Gauges {
   }
 
   setStatus(s: Status): void {
+    // What pages reported last stays in the status when there is nothing more to be reported.
+    const latency = s.phase === "tracking" ? s.latency : null;
     this.rate.push(s.fps.tracked);
-    this.latency.push(s.latency?.median ?? null);
+    this.latency.push(latency?.median ?? null);
     this.rate.draw();
     this.latency.draw();
     const tracks = TRACKS.includes(s.phase);
@@ -44,12 +49,27 @@ export class Gauges {
     this.put("gauge-input", tracks ? show(s.fps.input) : "–");
     if (s.phase !== "tracking") for (const id of ["gauge-f", "gauge-dc"]) this.put(id, "–");
     this.put("gauge-dropped", show(s.dropped));
-    this.put("gauge-median", show(s.latency?.median));
-    this.put("gauge-p95", show(s.latency?.p95));
-    this.put("gauge-cpu", show(s.cpu, 2));
-    const bar = byId("cpu-bar", HTMLElement);
-    bar.style.setProperty("--part", String(Math.min(1, (s.cpu ?? 0) / 2)));
+    this.put("gauge-median", show(latency?.median));
+    this.put("gauge-p95", show(latency?.p95));
+    this.processor(s.cpu);
     this.stages(tracks ? s.ms : new Map());
+  }
+
+  /** What was measured says nothing of now. */
+  disconnected(): void {
+    for (const line of [this.F, this.Dc, this.rate, this.latency]) {
+      line.clear();
+      line.draw();
+    }
+    for (const id of VALUES) this.put(id, "–");
+    this.processor(null);
+    this.stages(new Map());
+  }
+
+  private processor(cores: number | null): void {
+    this.put("gauge-cpu", show(cores, 2));
+    const bar = byId("cpu-bar", HTMLElement);
+    bar.style.setProperty("--part", String(Math.min(1, (cores ?? 0) / 2)));
   }
 
   private stages(ms: Map<string, number>): void {

@@ -21,6 +21,10 @@ export class Sparkline {
     if (this.values.length > this.size) this.values.shift();
   }
 
+  clear(): void {
+    this.values.length = 0;
+  }
+
   draw(): void {
     const { width, height, ratio } = fitCanvas(this.canvas);
     const g = this.g;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { AvatarError } from "../avatar/inspect";
+import type { Avatar } from "../avatar/load";
+import { Avatars } from "./avatars";
+import { fakeDocument } from "./testing_dom";
+
+vi.mock("../avatar/store", () => ({
+  listAvatars: async () => [],
+  putAvatar: async () => ({ id: "1" }),
+}));
+vi.mock("../graphics", () => ({ drawsInSoftware: () => false }));
+
+let asked: string[]; // looks of the program
+let answers: Map<string, (there: boolean) => void>;
+let said: string[];
+let remembered: string[];
+let avatars: Avatars;
+
+/** The program answers what was asked for. */
+async function answer(look: string, there = true): Promise<void> {
+  answers.get(look)!(there);
+  await vi.waitFor(() => expect(there ? avatars.info?.name : said.at(-1)).toMatch(new RegExp(look, "i")));
+}
+const settle = () => new Promise((resolve) => setTimeout(resolve, 5));
+const file = (text: string) => new File([text], "mine.vrm");
+
+beforeEach(() => {
+  fakeDocument();
+  asked = [];
+  said = [];
+  remembered = [];
+  answers = new Map();
+  vi.stubGlobal("fetch", async (address: string) => {
+    const look = /avatars\/(.*)\.vrm/.exec(address)![1]!;
+    asked.push(look);
+    const ok = await new Promise<boolean>((resolve) => answers.set(look, resolve));
+    return { ok, arrayBuffer: async () => new ArrayBuffer(1) };
+  });
+  avatars = new Avatars(
+    {
+      load: async (data) => {
+        if (new TextDecoder().decode(data) === "bad") throw new AvatarError("This is not a VRM avatar.");
+        return { facts: { version: "1", author: "" }, dispose: () => {} } as unknown as Avatar;
+      },
+      show: () => {},
+      say: (_level, words) => said.push(words),
+      remember: (id) => remembered.push(id),
+    },
+    "look:casual",
+  );
+});
+afterEach(() => vi.unstubAllGlobals());
+
+describe("a bad file before anything is shown", () => {
+  it("makes way for the avatar that was chosen, and promises nothing", async () => {
+    void avatars.setLooks(["plain", "casual", "robot"]);
+    await settle();
+    void avatars.choose("look:robot");
+    void avatars.take(file("bad"));
+    await settle();
+    expect(said).toEqual(["This is not a VRM avatar."]);
+    expect(asked).toEqual(["casual", "robot", "robot"]);
+    await answer("robot");
+    expect(remembered).toEqual(["look:robot"]);
+  });
+
+  it("makes way for the avatar of the settings, or the first when that does not come", async () => {
+    void avatars.setLooks(["plain", "casual"]);
+    await settle();
+    void avatars.take(file("bad"));
+    void avatars.take(file("bad")); // one more
+    await settle();
+    expect(said).toEqual(["This is not a VRM avatar."]);
+    expect(asked).toEqual(["casual", "casual"]);
+    await answer("casual", false);
+    await settle();
+    expect(said.at(-1)).not.toMatch(/shown/);
+    await answer("plain");
+    expect(remembered).toEqual([]);
+  });
+
+  it("leaves the start to the program's first words", async () => {
+    await avatars.take(file("bad"));
+    expect(said).toEqual(["This is not a VRM avatar."]);
+    void avatars.setLooks(["plain", "casual"]);
+    await settle();
+    await answer("casual");
+  });
+
+  it("says that there is none when there is none", async () => {
+    await avatars.setLooks([]);
+    await avatars.take(file("bad"));
+    expect(said).toEqual(["This is not a VRM avatar. No avatar is shown."]);
+  });
+});
+
+describe("a bad file", () => {
+  beforeEach(async () => {
+    void avatars.setLooks(["plain", "casual"]);
+    await settle();
+    await answer("casual");
+  });
+
+  it("leaves what is shown", async () => {
+    await avatars.take(file("bad"));
+    expect(said).toEqual(["This is not a VRM avatar. The avatar stays as it was."]);
+    expect(asked).toEqual(["casual"]);
+  });
+
+  it("makes way for one that was still on its way", async () => {
+    void avatars.choose("look:plain");
+    void avatars.take(file("bad"));
+    await settle();
+    expect(said).toEqual(["This is not a VRM avatar."]);
+    await answer("plain");
+    expect(remembered).toEqual(["look:plain"]);
+    await avatars.take(file("bad"));
+    expect(said.at(-1)).toMatch(/stays/);
+  });
+});
+
+describe("a good file", () => {
+  it("takes the place of the one that was on its way", async () => {
+    void avatars.setLooks(["plain", "casual"]);
+    await settle();
+    await avatars.take(file("good"));
+    expect(avatars.info?.name).toBe("mine");
+    answers.get("casual")!(true);
+    await settle();
+    expect(avatars.info?.name).toBe("mine");
+    await avatars.take(file("bad"));
+    expect(said).toEqual(["This is not a VRM avatar. The avatar stays as it was."]);
+    expect(remembered).toEqual(["own:1"]);
+  });
+});

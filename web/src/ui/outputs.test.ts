@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Command, Output } from "../protocol";
+import { OutputList } from "./outputs";
+import { fakeDocument, type FakeElement } from "./testing_dom";
+
+let element: (id: string) => FakeElement;
+let outputs: OutputList;
+let sent: Command[];
+let connected: boolean;
+
+const output = (url: string, state = "sending"): Output => ({
+  url,
+  state,
+  words: "",
+  sent: 7,
+  dropped: 0,
+  receivers: 1,
+});
+const listed = (): string => element("outputs").textContent;
+const complaint = (): string => element("output-error").textContent;
+const input = (): string => element("output-url").value;
+function add(url: string): void {
+  element("output-url").value = url;
+  element("output-form").hear("submit");
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  element = fakeDocument();
+  sent = [];
+  connected = true;
+  outputs = new OutputList((c) => {
+    if (connected) sent.push(c);
+    return connected;
+  });
+  outputs.setOutputs([]);
+});
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe("an address that is added", () => {
+  it("gets the error that names it, without its password, and nothing else", () => {
+    add("mqtt://ana:secret@host/Home");
+    expect(input()).toBe("");
+    expect(outputs.refused("the recording was ended: No space left on device")).toBe(false);
+    expect(complaint()).toBe("");
+    expect(outputs.refused('the output "mqtt://ana@host/Home" does not name a room')).toBe(true);
+    expect(complaint()).toMatch(/does not name a room/);
+    expect(input()).toBe("mqtt://ana:secret@host/Home");
+    expect(outputs.refused('the output "mqtt://ana@host/Home" does not name a room')).toBe(false);
+  });
+
+  it("is answered when the list has it, also without its password", () => {
+    for (const [given, shown] of [
+      ["vmc://localhost", "vmc://localhost"],
+      ["mqtt://ana:secret@host/home/studio", "mqtt://ana@host/home/studio"],
+      ["http://host:7080/room#k=secret", "http://host:7080/room"],
+    ] as const) {
+      add(given);
+      outputs.setOutputs([output(shown, "connecting")]);
+      expect(outputs.refused(`something later about ${shown}`)).toBe(false);
+      outputs.setOutputs([]);
+    }
+  });
+
+  it("and was in the list before waits for the error that says so", () => {
+    outputs.setOutputs([output("vmc://localhost")]);
+    add("vmc://localhost");
+    outputs.setOutputs([output("vmc://localhost")]);
+    expect(outputs.refused("vmc://localhost is sent to already")).toBe(true);
+    outputs.setOutputs([output("vmc://localhost", "off")]);
+    add("vmc://localhost");
+    outputs.setOutputs([output("vmc://localhost", "off")]); // on its way before
+    outputs.setOutputs([output("vmc://localhost", "connecting")]);
+    expect(outputs.refused("vmc://localhost is not among the outputs")).toBe(false);
+  });
+
+  it("does not wait for long", () => {
+    add("vmc://localhost");
+    vi.advanceTimersByTime(3100);
+    expect(outputs.refused('the output "vmc://localhost" is odd')).toBe(false);
+  });
+
+  it("that cannot be one is not sent", () => {
+    add("localhost");
+    expect(complaint()).toMatch(/looks like/);
+    add(`vmc://${"a".repeat(2000)}`);
+    expect(complaint()).toMatch(/2000/);
+    expect(sent).toEqual([]);
+  });
+});
+
+describe("outputs without a connection", () => {
+  it("have no state, and what is pressed says why nothing happens", () => {
+    outputs.setOutputs([output("vmc://localhost")]);
+    expect(listed()).toMatch(/sending.*7 sent/);
+    outputs.disconnected();
+    expect(listed()).toMatch(/vmc:\/\/localhostnot connected/);
+    expect(listed()).not.toMatch(/sending|7 sent/);
+    const row = element("outputs").children[0]!;
+    expect(row.children[0]!.getAttribute("class")).toBe("dot");
+    connected = false;
+    row.children.at(-1)!.press();
+    expect(complaint()).toMatch(/no connection/);
+    outputs.setOutputs([output("vmc://localhost")]);
+    expect(listed()).toMatch(/sending.*7 sent/);
+    expect(complaint()).toBe("");
+  });
+});

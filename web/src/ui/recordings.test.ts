@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { Status } from "../protocol";
+import { Recordings } from "./recordings";
+import { fakeDocument, type FakeElement } from "./testing_dom";
+
+let element: (id: string) => FakeElement;
+let recordings: Recordings;
+let sent: boolean[];
+let said: string[];
+let connected: boolean;
+
+const status = (seconds: number | null, phase = "tracking"): void =>
+  recordings.setStatus({
+    phase,
+    recording: seconds === null ? null : { seconds, frames: 1 },
+    recordings: [],
+  } as unknown as Status);
+const label = (): string => element("record-label").textContent;
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  element = fakeDocument();
+  sent = [];
+  said = [];
+  connected = true;
+  recordings = new Recordings(
+    (c) => {
+      if (connected && c.type === "record") sent.push(c.on);
+      return connected;
+    },
+    (words) => said.push(words),
+  );
+  status(null);
+});
+afterEach(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
+
+describe("recording", () => {
+  it("twice in a moment starts and stops", () => {
+    recordings.toggle();
+    expect(label()).toBe("Starting…");
+    expect(element("record").classes.has("on")).toBe(true);
+    recordings.toggle();
+    expect(label()).toBe("Stopping…");
+    recordings.toggle();
+    expect(sent).toEqual([true, false, true]);
+  });
+
+  it("is not refused by a status that was on its way, and is confirmed by one that shows it", () => {
+    recordings.toggle();
+    status(null);
+    expect(label()).toBe("Starting…");
+    status(0.4);
+    expect(label()).toBe("Stop 0:00");
+    expect(said).toEqual(["Recording."]);
+    recordings.toggle();
+    status(0.9);
+    expect(label()).toBe("Stopping…");
+    expect(element("record").disabled).toBe(false);
+    status(null);
+    expect(label()).toBe("Record");
+    recordings.toggle();
+    expect(sent).toEqual([true, false, true]);
+  });
+
+  it("that was stopped at once is not taken for ended by a status that was on its way", () => {
+    recordings.toggle();
+    recordings.toggle();
+    status(null);
+    status(0.1); // of the first wish
+    expect(label()).toBe("Stopping…");
+    status(null);
+    expect(label()).toBe("Record");
+  });
+
+  it("that does not come about is forgotten after a while", () => {
+    recordings.toggle();
+    vi.advanceTimersByTime(3100);
+    status(null);
+    expect(label()).toBe("Record");
+    recordings.toggle();
+    vi.advanceTimersByTime(3100); // without any status
+    recordings.toggle();
+    expect(sent).toEqual([true, true, true]);
+  });
+
+  it("can be stopped when the person is gone before it was seen to start", () => {
+    recordings.toggle();
+    status(null, "person");
+    expect(element("record").disabled).toBe(false);
+    recordings.toggle();
+    expect(sent).toEqual([true, false]);
+    expect(element("record").disabled).toBe(true);
+  });
+
+  it("knows nothing without a connection", () => {
+    recordings.toggle();
+    recordings.disconnected();
+    expect([label(), element("record").disabled]).toEqual(["Record", true]);
+    status(null);
+    expect(label()).toBe("Record");
+    connected = false;
+    recordings.toggle();
+    expect(label()).toBe("Record");
+    expect(said.join()).toMatch(/no connection/);
+  });
+});

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// For tests: as much of a document as the parts of the page touch. Elements are there as soon as they are asked for.
+
+import { vi } from "vitest";
+
+type Child = FakeElement | string;
+
+export class FakeElement {
+  readonly dataset: Record<string, string> = {};
+  readonly classes = new Set<string>();
+  readonly classList = {
+    toggle: (name: string, on: boolean) => void (on ? this.classes.add(name) : this.classes.delete(name)),
+  };
+  readonly style = { width: "", setProperty: () => {} };
+  hidden = true;
+  disabled = false;
+  checked = false;
+  value = "";
+  private nodes: Child[] = [];
+  private readonly attributes = new Map<string, string>();
+  private readonly heard = new Map<string, (e: unknown) => void>();
+
+  get children(): FakeElement[] {
+    return this.nodes.filter((n) => typeof n !== "string");
+  }
+  get firstChild(): Child | null {
+    return this.nodes[0] ?? null;
+  }
+  get textContent(): string {
+    return this.nodes.map((n) => (typeof n === "string" ? n : n.textContent)).join("");
+  }
+  set textContent(words: string) {
+    this.nodes = words ? [words] : [];
+  }
+  append(...nodes: Child[]): void {
+    this.nodes.push(...nodes);
+  }
+  replaceChildren(...nodes: Child[]): void {
+    this.nodes = nodes;
+  }
+  contains(e: unknown): boolean {
+    return e === this || this.children.some((c) => c.contains(e));
+  }
+  setAttribute(name: string, value: string): void {
+    this.attributes.set(name, value);
+  }
+  getAttribute(name: string): string | null {
+    return this.attributes.get(name) ?? null;
+  }
+  removeAttribute(name: string): void {
+    this.attributes.delete(name);
+  }
+  /** Knows "[name]" alone. */
+  querySelectorAll(selector: string): FakeElement[] {
+    const name = selector.slice(1, -1);
+    return this.children.flatMap((c) => [
+      ...(c.attributes.has(name) ? [c] : []),
+      ...c.querySelectorAll(selector),
+    ]);
+  }
+  focus(): void {}
+
+  addEventListener(type: string, then: (e: unknown) => void): void {
+    this.heard.set(type, then);
+  }
+  hear(type: string): void {
+    this.heard.get(type)?.({ preventDefault: () => {} });
+  }
+  press(): void {
+    this.hear("click");
+  }
+}
+
+const KINDS = ["Element", "Button", "Input", "Form", "Canvas"];
+
+/** A new document in place of the browser's; gives the element of an id. vi.unstubAllGlobals() takes it away. */
+export function fakeDocument(): (id: string) => FakeElement {
+  const elements = new Map<string, FakeElement>();
+  const element = (id: string): FakeElement => {
+    const known = elements.get(id) ?? new FakeElement();
+    elements.set(id, known);
+    return known;
+  };
+  vi.stubGlobal("window", globalThis);
+  vi.stubGlobal("addEventListener", () => {});
+  for (const kind of KINDS)
+    vi.stubGlobal(kind === "Element" ? "HTMLElement" : `HTML${kind}Element`, FakeElement);
+  vi.stubGlobal("document", {
+    activeElement: null,
+    getElementById: element,
+    createElement: () => new FakeElement(),
+    createElementNS: () => new FakeElement(),
+    querySelectorAll: () => [],
+  });
+  return element;
+}
