@@ -20,6 +20,7 @@
 #include "telemime/capture/live.h"
 #include "telemime/capture/loop.h"
 #include "telemime/capture/paced.h"
+#include "telemime/capture/shown_url.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
 #include "track_options.h"
@@ -152,7 +153,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
   command.live.request.keep_pace = !track.particles && !track.iterations && !track.budget_ms;
   const std::string& input = command.live.request.input;
   if ((command.loop || command.paced) && !is_file(input)) {
-    throw Error(ErrorKind::usage, input + " is no file: it cannot be paced or looped",
+    throw Error(ErrorKind::usage, shown_url(input) + " is no file: it cannot be paced or looped",
                 "Leave --paced and --loop out.");
   }
   command.live.version = TELEMIME_VERSION;

@@ -8,6 +8,7 @@
 
 #include "exit_codes.h"
 #include "progress_bar.h"
+#include "telemime/capture/shown_url.h"
 #include "telemime/core/errors.h"
 #include "track_options.h"
 
@@ -79,7 +80,7 @@ void run(const TrackOptions& options) {
   }
   if (summary.tracked == 0) {
     const auto& notes = summary.report["notes"];
-    throw Error(ErrorKind::tracking, "nobody was tracked in " + request.input,
+    throw Error(ErrorKind::tracking, "nobody was tracked in " + shown_url(request.input),
                 notes.empty() ? "Is there a person who faces the camera?"
                               : "The last reason: " + notes.back()["note"].get<std::string>());
   }

@@ -2,6 +2,7 @@
 // The whole live program with a camera in the network that has whims: what the page hears.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "live/mjpeg_server.h"
@@ -57,6 +58,11 @@ class ProgramStream : public ::testing::Test {
       return j.at("level") == level && j.at("words").get<std::string>().find(words) != std::string::npos;
     });
   }
+  bool warned_of(const std::string& words) const {
+    const std::vector<std::string> all = program_->report().state.warnings;
+    return std::any_of(all.begin(), all.end(),
+                       [&](const std::string& one) { return one.find(words) != std::string::npos; });
+  }
   void hear_state(const std::string& state) {
     hear(*page_, "pose", [&](const Json& j) { return j.at("state") == state; });
   }
@@ -105,10 +111,10 @@ TEST_F(ProgramStream, FivePicturesASecond) {
   }
   SocketClient late(program_->port());
   hear_words(late, "warning", "only 5 pictures a second");  // it is still so
-  EXPECT_FALSE(program_->report().state.warnings.empty());
+  EXPECT_TRUE(warned_of("pictures a second"));
   camera_.show(somebody(), kRate);
   hear_words("info", "again");
-  EXPECT_TRUE(program_->report().state.warnings.empty());
+  EXPECT_FALSE(warned_of("pictures a second"));
 }
 
 TEST_F(ProgramStream, Garbage) {

@@ -31,7 +31,7 @@ class FakeSocket {
 let states: ConnectionState[];
 const last = (): ConnectionState => states.at(-1)!;
 const socket = (): FakeSocket => FakeSocket.all.at(-1)!;
-const FULL = "Too many pages are open. Close one and load this one again.";
+const FULL = "Too many pages are open. Close one.";
 const pong = { type: "pong", id: 1, stamp: 2 };
 
 /** ms to the next try, without the part that is left to chance. */

@@ -107,8 +107,11 @@ void KeptOutputs::save() {
       }
     });
   } catch (const Error& e) {
-    tell_(MessageLevel::warning, e.what());
     take_back(std::move(changes));
+    tell_(MessageLevel::warning, e.what());
+  } catch (...) {
+    take_back(std::move(changes));
+    throw;
   }
 }
 

@@ -131,7 +131,9 @@ struct LiveProgram::State {
   void hear(MessageLevel level, const std::string& words) {
     if (level == MessageLevel::error) {
       const std::lock_guard lock(mutex);
-      session_error = words;
+      if (session_error.empty()) {  // what fails later may fail of it
+        session_error = words;
+      }
     }
     tell(level, words);
   }
@@ -258,13 +260,14 @@ struct LiveProgram::State {
       attempt([&] {
         const LiveState now = session->state();
         wait_for_page(now.phase);
-        if (now.phase == LivePhase::ended && !std::exchange(told_end, true)) {
+        if (now.phase == LivePhase::ended && !told_end) {
           tell_end(now.words);
+          told_end = true;
         }
-        kept.save();
-        tell_outputs();
-        tell_status();
       });
+      attempt([this] { kept.save(); });
+      attempt([this] { tell_outputs(); });
+      attempt([this] { tell_status(); });
     }
   }
 

@@ -97,7 +97,6 @@ struct LiveSession::State {
   // From within take().
   void hear(const SourceNews& news) {
     using Change = SourceNews::Kind;
-    say(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
     {
       const std::lock_guard lock(mutex);
       if (news.kind == Change::better) {
@@ -106,10 +105,12 @@ struct LiveSession::State {
         camera_warnings[news.matter] = news.words;
       }
     }
+    say(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
     if (news.kind == Change::gone) {
       {
         const std::lock_guard lock(mutex);
         camera_words = news.words;
+        person_warnings.clear();
       }
       if (hand_over.wait_for_search()) {
         leave_person();
@@ -164,6 +165,10 @@ struct LiveSession::State {
       leave_person();
       hand_over.set_settled(false);
       told.forget();
+      {
+        const std::lock_guard lock(mutex);
+        person_warnings.clear();
+      }
       if (asked.guide == GuideStep::again) {
         enter(LivePhase::empty_room, "");
       } else if (current() == LivePhase::tracking || current() == LivePhase::lost) {
@@ -248,6 +253,10 @@ struct LiveSession::State {
         hooks.person(header);
       }
     }
+    {
+      const std::lock_guard lock(mutex);
+      person_warnings = result.warnings;
+    }
     for (const std::string& words : result.warnings) {
       if (told.is_new(words)) {
         say(words, MessageLevel::warning);
@@ -261,7 +270,6 @@ struct LiveSession::State {
     slot.times.decided = clock.now();
     const std::lock_guard lock(mutex);
     statistics.add(slot.times);
-    person_warnings = result.warnings;
     reason = result.note;
     phase = result.motion.state == TrackState::tracking ? LivePhase::tracking
             : settled                                   ? LivePhase::lost

@@ -108,6 +108,21 @@ fs::path at_end_of_links(fs::path file) {
   return file;
 }
 
+// For a file that cannot be used, but may be wanted again.
+fs::path free_name_beside(const fs::path& file) {
+  constexpr int kMost = 9;  // then the last one is taken
+  fs::path name;
+  std::error_code unknown;
+  for (int number = 1; number <= kMost; ++number) {
+    name = file;
+    name += number == 1 ? ".old" : ".old-" + std::to_string(number);
+    if (!fs::exists(name, unknown)) {
+      break;
+    }
+  }
+  return name;
+}
+
 // All that is in the file; an empty object when there is none. Throws as load_settings().
 Json read(const fs::path& file) {
   std::error_code failed;
@@ -182,13 +197,17 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
   if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")) {
     unwritable(target, errno);
   }
+  const fs::path aside = unusable ? free_name_beside(target) : fs::path();
   if (unusable) {
-    fs::path aside = target;
-    aside += ".old";
     fs::rename(target, aside, failed);
   }
+  errno = 0;
   if (!made.move_to(target)) {
-    unwritable(target, errno);
+    const int reason = errno;
+    if (unusable) {
+      fs::rename(aside, target, failed);
+    }
+    unwritable(target, reason);
   }
 }
 

@@ -78,6 +78,11 @@ TEST_F(Settings, AFileThatCannotBeUsedIsKeptBesideTheNewOne) {
   EXPECT_EQ(load_settings(file_).outputs, std::vector<std::string>{"vmc://b"});
   std::ifstream old(file_.string() + ".old");
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old), {}), theirs);
+  write("{{{");
+  save_settings(file_, {{"vmc://c"}});
+  old.seekg(0);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old), {}), theirs) << "that one stays";
+  EXPECT_EQ(fs::file_size(file_.string() + ".old-2"), 3U);
 }
 
 TEST_F(Settings, ChangesAreMadeToWhatIsThereNow) {

@@ -17,7 +17,7 @@ std::vector<OutputNews::Words> OutputNews::look(std::span<const SenderStatus> ou
       news.push_back({MessageLevel::warning, output.url + ": " + output.words});
     } else if (output.state == SenderState::sending && failed) {
       fails = false;
-      news.push_back({MessageLevel::info, output.url + ": sending again"});
+      news.push_back({MessageLevel::info, output.url + ": sending now"});
     } else if (output.state == SenderState::off) {
       fails = false;
     }

@@ -29,7 +29,7 @@ TEST(OutputNews, TellsAFailureOnceAndItsEnd) {
             "! vmc://a: no such computer\n");
   EXPECT_EQ(look(news, {output("vmc://a", SenderState::connecting)}), "");
   EXPECT_EQ(look(news, {output("vmc://a", SenderState::failed, "no such computer")}), "");
-  EXPECT_EQ(look(news, {output("vmc://a", SenderState::sending)}), "vmc://a: sending again\n");
+  EXPECT_EQ(look(news, {output("vmc://a", SenderState::sending)}), "vmc://a: sending now\n");
   EXPECT_EQ(look(news, {output("vmc://a", SenderState::sending)}), "");
   EXPECT_EQ(look(news, {output("vmc://a", SenderState::failed, "gone")}), "! vmc://a: gone\n");
 }

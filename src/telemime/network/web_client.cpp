@@ -65,7 +65,7 @@ void WebClient::opened() {
   const std::optional<std::uint64_t> id =
       hub_->join(shared_from_this(), came_over_loopback(beast::get_lowest_layer(stream_).socket()));
   if (!id) {
-    close(Code::try_again_later, "Too many pages are open. Close one and load this one again.");
+    close(Code::try_again_later, "Too many pages are open. Close one.");
     return;
   }
   id_ = *id;

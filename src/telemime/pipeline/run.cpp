@@ -261,8 +261,7 @@ Prepared prepare_run(const TrackRequest& request, const RunHooks& hooks) {
   p.source = open_source(request.input);
   const SourceInfo& info = p.source->info();
   if (info.live && request.config.look_back) {
-    throw Error(ErrorKind::usage,
-                "--offline needs a file: " + request.input + " has no end to look back from",
+    throw Error(ErrorKind::usage, "--offline needs a file: " + info.name + " has no end to look back from",
                 "Leave --offline out, or record the camera first.");
   }
   std::vector<std::string> messages;
@@ -307,7 +306,8 @@ TrackerCalibration run_calibrate(const TrackRequest& request, const RunHooks& ho
     }
     reason = result.note.empty() ? reason : result.note;
   }
-  throw Error(ErrorKind::tracking, "no frame of " + request.input + " could be used to calibrate: " + reason,
+  throw Error(ErrorKind::tracking,
+              "no frame of " + p.source->info().name + " could be used to calibrate: " + reason,
               "Face the camera with the arms a little apart from the body.");
 }
 
@@ -338,7 +338,7 @@ TrackSummary run_track(const TrackRequest& request, const RunHooks& hooks) {
     }
   }
   if (frames == 0) {
-    throw Error(ErrorKind::input, request.input + " holds no frame that can be read",
+    throw Error(ErrorKind::input, prepared.source->info().name + " holds no frame that can be read",
                 prepared.source->complaint());
   }
   return run.finish(interrupted, prepared.source->complaint(), prepared.scene.messages);

@@ -143,7 +143,7 @@ export class Avatars {
       if (turn !== this.turn) return false;
       // On with what this file came before: an avatar, or all when the program has yet to say what it has.
       const { wish } = this;
-      const goesOn = wish !== null || (!this.info && (!this.ready || this.looks.length > 0));
+      const goesOn = wish !== null || (!this.info && (!this.ready || this.ids().length > 0));
       this.failed(e, `${file.name} could not be read`, !goesOn);
       this.wanted = "";
       this.wish = null;
