@@ -129,7 +129,7 @@ function status() {
   broadcast({
     type: "status",
     phase: state.phase,
-    roomEmpty: state.roomEmpty,
+    room_empty: state.roomEmpty,
     words: WORDS[state.phase] ?? "",
     fps: { input: 25, tracked: state.phase === "tracking" ? wobble(24.6) : 0 },
     dropped: 3,

@@ -273,7 +273,7 @@ function readStatus(m: Json): Status {
   return {
     type: "status",
     phase,
-    roomEmpty: m.roomEmpty === true,
+    roomEmpty: m.room_empty === true,
     words: text(m.words),
     fps: { input: maybeNumber(fps.input), tracked: maybeNumber(fps.tracked) },
     dropped: maybeNumber(m.dropped),

@@ -101,7 +101,7 @@ std::string status_message(const LiveStatus& status) {
   Json message = {{"type", "status"},
                   {"phase", telemime::to_string(status.state.phase)},
                   {"words", status.state.words},
-                  {"roomEmpty", status.state.room_empty},
+                  {"room_empty", status.state.room_empty},
                   {"fps", {{"input", tenths(rates.input)}, {"tracked", tenths(rates.tracked)}}},
                   {"dropped", rates.dropped},
                   {"ms",
