@@ -90,7 +90,9 @@ describe("text messages", () => {
     expect(m.recording).toBeNull();
     expect(m.recordings).toEqual([]);
     expect(m.roomEmpty).toBe(false);
-    expect(read({ type: "status", phase: "background", room_empty: true })).toMatchObject({ roomEmpty: true });
+    expect(read({ type: "status", phase: "background", room_empty: true })).toMatchObject({
+      roomEmpty: true,
+    });
     expect(read({ type: "status", phase: "dancing" })).toBeNull();
   });
 });
