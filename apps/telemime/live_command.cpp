@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -165,6 +166,9 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
       std::cerr << words << '\n';
     }
   };
+  // Its loops over pictures this small gain nothing from threads, and the threads that wait for them take the
+  // processor from the search and the page.
+  cv::setNumThreads(1);
   // Until the input is open nothing is lost, and Ctrl-C need not wait for a camera or a network.
   auto source = open_live(command, left_behind);
   note_interrupts();

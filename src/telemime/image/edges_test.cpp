@@ -72,5 +72,15 @@ TEST(DistanceMap, IsCappedAndWithoutEdgesTheCapEverywhere) {
   EXPECT_EQ(largest, 10);
 }
 
+TEST(DistanceMap, IsLookedForNearTheEdgesOnlyAndIsTheSame) {
+  cv::Mat edges = cv::Mat::zeros(70, 90, CV_8UC1);
+  cv::circle(edges, {40, 30}, 9, 255);
+  const double cap = 12.3;
+  cv::Mat everywhere;
+  cv::distanceTransform(edges == 0, everywhere, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+  cv::min(everywhere, cap, everywhere);
+  EXPECT_EQ(cv::norm(distance_map(edges, cap), everywhere, cv::NORM_INF), 0);
+}
+
 }  // namespace
 }  // namespace telemime

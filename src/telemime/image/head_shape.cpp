@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "telemime/image/connected_components.h"
+
 namespace telemime {
 namespace {
 
@@ -209,26 +211,20 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
 }
 
 std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
-  cv::Mat pieces;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(silhouette, pieces, stats, centroids, 8, CV_32S);
-  int largest = 0;
-  for (int i = 1; i < count; ++i) {
-    if (largest == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(largest, cv::CC_STAT_AREA)) {
-      largest = i;
-    }
-  }
+  const ConnectedComponents pieces(silhouette, Connectivity::eight);
+  const auto largest = std::max_element(pieces.all().begin(), pieces.all().end(),
+                                        [](const Component& a, const Component& b) { return a.area < b.area; });
   constexpr double kSmallestPerson = 0.01;
-  if (largest == 0 ||
-      stats.at<int>(largest, cv::CC_STAT_AREA) < kSmallestPerson * static_cast<double>(silhouette.total())) {
+  if (largest == pieces.all().end() ||
+      largest->area < kSmallestPerson * static_cast<double>(silhouette.total())) {
     return std::nullopt;
   }
   // Ragged outlines have spikes: a head is never thinner than this share of the person.
-  const double scale = std::sqrt(static_cast<double>(stats.at<int>(largest, cv::CC_STAT_AREA)));
+  const double scale = std::sqrt(static_cast<double>(largest->area));
   const double thinnest = 0.14 * scale;
   const int brush = std::max(3, static_cast<int>(0.5 * thinnest) | 1);
-  cv::Mat person = pieces == largest;
+  cv::Mat person = cv::Mat::zeros(silhouette.size(), CV_8UC1);
+  pieces.paint(*largest, 255, person);
   cv::morphologyEx(person, person, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(brush, brush)));
   return head_of_person(person, thinnest, 0.5 * scale);

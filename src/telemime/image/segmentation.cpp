@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "telemime/image/colour_votes.h"
+#include "telemime/image/connected_components.h"
 
 namespace telemime {
 namespace {
@@ -36,45 +37,42 @@ cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& vot
 /// edge).
 void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
                     bool colours_known, const SegmentationConfig& config) {
-  cv::Mat pieces;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(silhouette, pieces, stats, centroids, 8, CV_32S);
-  std::vector<int> own(static_cast<std::size_t>(count), 0);
-  std::vector<int> dressed(static_cast<std::size_t>(count), 0);
-  std::vector<int> in_head(static_cast<std::size_t>(count), 0);
-  std::vector<int> in_body(static_cast<std::size_t>(count), 0);
-  const std::optional<Ellipse> ellipse = head ? std::optional<Ellipse>(Ellipse(*head)) : std::nullopt;
-  for (int r = 0; r < silhouette.rows; ++r) {
-    const auto* p = pieces.ptr<int>(r);
-    const auto* colour = votes.colour.ptr<unsigned char>(r);
-    for (int c = 0; c < silhouette.cols; ++c) {
-      const auto i = static_cast<std::size_t>(p[c]);
-      own[i] += colour[c] == kSkin ? 1 : 0;
-      dressed[i] += colour[c] == kSkin || colour[c] == kClothes ? 1 : 0;
-      if (ellipse) {
-        const float aside = std::abs(static_cast<float>(c) - ellipse->x) / ellipse->rx;
-        const float down = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
-        in_body[i] += aside < 2.5F && down > 1 && down < 8 ? 1 : 0;
-      }
-      in_head[i] += ellipse && ellipse->at(r, c) < 1 ? 1 : 0;
-    }
-  }
   const double least = config.least_part * static_cast<double>(silhouette.total());
-  std::vector<unsigned char> keep(static_cast<std::size_t>(count), 0);
-  for (int i = 1; i < count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    const bool ours =
-        in_head[k] > 0 || (!head && area > 10 * least) ||
-        (colours_known && (own[k] * 2 > area || (dressed[k] * 2 > area && in_body[k] * 3 > area)));
-    keep[k] = area >= least && ours ? 255 : 0;
-  }
-  for (int r = 0; r < silhouette.rows; ++r) {
-    const auto* p = pieces.ptr<int>(r);
-    auto* s = silhouette.ptr<unsigned char>(r);
-    for (int c = 0; c < silhouette.cols; ++c) {
-      s[c] = keep[static_cast<std::size_t>(p[c])];
+  const ConnectedComponents pieces(silhouette, Connectivity::eight);
+  const auto ours = [&](const Component& piece) {
+    if (!head && piece.area > 10 * least) {
+      return true;
+    }
+    if (head) {
+      const Ellipse e(*head);
+      if (pieces.count(piece, [&](int r, int c) { return e.at(r, c) < 1; }) > 0) {
+        return true;
+      }
+    }
+    if (!colours_known) {
+      return false;
+    }
+    const int own =
+        pieces.count(piece, [&](int r, int c) { return votes.colour.at<unsigned char>(r, c) == kSkin; });
+    if (own * 2 > piece.area) {
+      return true;
+    }
+    const int clothes =
+        pieces.count(piece, [&](int r, int c) { return votes.colour.at<unsigned char>(r, c) == kClothes; });
+    if (!head || (own + clothes) * 2 <= piece.area) {
+      return false;
+    }
+    const Ellipse e(*head);
+    const int in_body = pieces.count(piece, [&](int r, int c) {
+      const float aside = std::abs(static_cast<float>(c) - e.x) / e.rx;
+      const float down = (static_cast<float>(r) - e.y) / e.ry;
+      return aside < 2.5F && down > 1 && down < 8;
+    });
+    return in_body * 3 > piece.area;
+  };
+  for (const Component& piece : pieces.all()) {
+    if (piece.area < least || !ours(piece)) {
+      pieces.paint(piece, 0, silhouette);
     }
   }
 }
@@ -85,23 +83,24 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
 void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const cv::Mat& colour, double most) {
   cv::Mat outside;
   cv::bitwise_not(silhouette, outside);
-  cv::Mat pieces;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(outside, pieces, stats, centroids, 4, CV_32S);
-  for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (area > 30 * most) {
-      continue;
+  const ConnectedComponents holes(outside, Connectivity::four);
+  const auto filled = [&](const Component& hole) {
+    if (hole.area <= most) {
+      return true;
     }
-    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    const cv::Mat hole = pieces(box) == i;
-    const int own = cv::countNonZero((colour(box) != kOther) & hole);
-    if (area <= most || (background.doubtful && own * 10 > area * 7) ||
-        ((background.doubtful || area <= 3 * most) &&
-         cv::countNonZero(hole & background.shaded(box)) * 10 > area * 6)) {
-      silhouette(box).setTo(255, hole);
+    if (hole.area > 30 * most) {
+      return false;
+    }
+    const auto own = [&](int r, int c) { return colour.at<unsigned char>(r, c) != kOther; };
+    if (background.doubtful && holes.count(hole, own) * 10 > hole.area * 7) {
+      return true;
+    }
+    const auto shaded = [&](int r, int c) { return background.shaded.at<unsigned char>(r, c) != 0; };
+    return (background.doubtful || hole.area <= 3 * most) && holes.count(hole, shaded) * 10 > hole.area * 6;
+  };
+  for (const Component& hole : holes.all()) {
+    if (filled(hole)) {
+      holes.paint(hole, 255, silhouette);
     }
   }
 }
@@ -113,15 +112,10 @@ void give_scraps_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette, do
   const cv::Mat other = (votes.colour == kOther) & silhouette;
   cv::Mat thick;
   cv::morphologyEx(other, thick, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
-  cv::Mat pieces;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(thick, pieces, stats, centroids, 4, CV_32S);
-  for (int i = 1; i < count; ++i) {
-    const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP),
-                       stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    if (stats.at<int>(i, cv::CC_STAT_AREA) <= most && box.br().y < other.rows) {
-      thick(box).setTo(0, pieces(box) == i);
+  const ConnectedComponents patches(thick, Connectivity::four);
+  for (const Component& patch : patches.all()) {
+    if (patch.area <= most && patch.box.br().y < other.rows) {
+      patches.paint(patch, 0, thick);
     }
   }
   votes.learned.copyTo(votes.colour, other & ~thick);
@@ -153,27 +147,24 @@ void name_the_neck(cv::Mat& labels, const Ellipse& ellipse) {
 /// Small islands of one of skin and clothes that lie in the other: a highlight on an arm, a pattern on a
 /// shirt.
 void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
-  const cv::Mat mask = labels == static_cast<unsigned char>(island);
-  cv::Mat pieces;
-  cv::Mat stats;
-  cv::Mat centroids;
-  const int count = cv::connectedComponentsWithStats(mask, pieces, stats, centroids, 8, CV_32S);
-  for (int i = 1; i < count; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) > most) {
+  const ConnectedComponents islands(labels == static_cast<unsigned char>(island), Connectivity::eight);
+  for (const Component& component : islands.all()) {
+    if (component.area > most) {
       continue;
     }
+    // With its shore.
     const cv::Rect box =
-        cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT) - 1, stats.at<int>(i, cv::CC_STAT_TOP) - 1,
-                 stats.at<int>(i, cv::CC_STAT_WIDTH) + 2, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2) &
-        cv::Rect(0, 0, labels.cols, labels.rows);
-    const cv::Mat self = pieces(box) == i;
+        cv::Rect(component.box.tl() - cv::Point(1, 1), component.box.br() + cv::Point(1, 1)) &
+        cv::Rect(cv::Point(0, 0), labels.size());
+    cv::Mat self = cv::Mat::zeros(box.size(), CV_8UC1);
+    islands.paint(component, 255, self, box.tl());
     cv::Mat ring;
     cv::dilate(self, ring, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
     ring &= ~self;
     const int around = cv::countNonZero(ring);
     const int wet = cv::countNonZero((labels(box) == static_cast<unsigned char>(sea)) & ring);
     if (wet * 10 > around * 7) {
-      labels(box).setTo(static_cast<unsigned char>(sea), self);
+      islands.paint(component, static_cast<unsigned char>(sea), labels);
     }
   }
 }
