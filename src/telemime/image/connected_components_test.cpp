@@ -54,7 +54,8 @@ std::vector<cv::Mat> masks() {
     mask.forEach<unsigned char>([](unsigned char& pixel, const int*) { pixel = 0; });
     for (int r = 0; r < mask.rows; ++r) {
       for (int c = 0; c < mask.cols; ++c) {
-        mask.at<unsigned char>(r, c) = random.uniform() < density ? 1 + static_cast<int>(random.uniform() * 254) : 0;
+        mask.at<unsigned char>(r, c) =
+            random.uniform() < density ? 1 + static_cast<int>(random.uniform() * 254) : 0;
       }
     }
     if (i % 2 == 0) {

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/random.h"
 #include "telemime/image/distance_map.h"
 
 namespace telemime {
@@ -72,14 +74,23 @@ TEST(DistanceMap, IsCappedAndWithoutEdgesTheCapEverywhere) {
   EXPECT_EQ(largest, 10);
 }
 
-TEST(DistanceMap, IsLookedForNearTheEdgesOnlyAndIsTheSame) {
-  cv::Mat edges = cv::Mat::zeros(70, 90, CV_8UC1);
-  cv::circle(edges, {40, 30}, 9, 255);
-  const double cap = 12.3;
-  cv::Mat everywhere;
-  cv::distanceTransform(edges == 0, everywhere, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
-  cv::min(everywhere, cap, everywhere);
-  EXPECT_EQ(cv::norm(distance_map(edges, cap), everywhere, cv::NORM_INF), 0);
+TEST(DistanceMap, IsThatOfOpenCvToTheLastBit) {
+  Random random(5, 0);
+  for (const cv::Size size :
+       {cv::Size(90, 70), cv::Size(1, 1), cv::Size(3, 40), cv::Size(41, 2), cv::Size(160, 120)}) {
+    for (const double cap : {0.5, 12.3, 40.0, 1000.0}) {
+      for (const double density : {0.001, 0.02, 0.3}) {
+        cv::Mat edges = cv::Mat::zeros(size, CV_8UC1);
+        std::for_each(edges.begin<unsigned char>(), edges.end<unsigned char>(),
+                      [&](unsigned char& pixel) { pixel = random.uniform() < density ? 255 : 0; });
+        edges.at<unsigned char>(size.height / 2, size.width / 2) = 255;
+        cv::Mat expected;
+        cv::distanceTransform(edges == 0, expected, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+        cv::min(expected, cap, expected);
+        ASSERT_EQ(cv::norm(distance_map(edges, cap), expected, cv::NORM_INF), 0) << size << ' ' << cap;
+      }
+    }
+  }
 }
 
 }  // namespace

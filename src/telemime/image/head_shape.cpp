@@ -212,8 +212,9 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
 
 std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
   const ConnectedComponents pieces(silhouette, Connectivity::eight);
-  const auto largest = std::max_element(pieces.all().begin(), pieces.all().end(),
-                                        [](const Component& a, const Component& b) { return a.area < b.area; });
+  const auto largest =
+      std::max_element(pieces.all().begin(), pieces.all().end(),
+                       [](const Component& a, const Component& b) { return a.area < b.area; });
   constexpr double kSmallestPerson = 0.01;
   if (largest == pieces.all().end() ||
       largest->area < kSmallestPerson * static_cast<double>(silhouette.total())) {
