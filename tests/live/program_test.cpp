@@ -179,6 +179,28 @@ TEST_F(Program, AHiddenPageGetsNoPictures) {
   }
 }
 
+TEST_F(Program, APageMayDoWithHalfOfThePictures) {
+  const LiveProgram program(options(), camera_of(somebody()), {});
+  SocketClient page(program.port());
+  hear(page, "pose");
+  page.say(R"({"type":"pictures","on":true,"half":true})");
+  page.say(R"({"type":"ping","id":1})");
+  hear(page, "pong");
+  int poses = 0;
+  int pictures = 0;
+  for (int i = 0; poses < 60; ++i) {
+    const auto message = page.message();
+    ASSERT_TRUE(message);
+    if (i > 10) {  // what was under way
+      poses +=
+          message->opcode == SocketClient::text && message->payload.find(R"("pose")") != std::string::npos;
+      pictures += message->opcode == SocketClient::binary;
+    }
+  }
+  EXPECT_GT(pictures, 5);
+  EXPECT_LT(pictures, 45);
+}
+
 TEST_F(Program, APortThatIsTakenIsAnError) {
   const LiveProgram program(options(), camera_of(somebody()), {});
   LiveRequest second = options();

@@ -200,6 +200,7 @@ function command(socket, m) {
       break;
     case "pictures":
       socket.pictures = m.on;
+      socket.half = m.half === true;
       break;
     case "drawn":
       state.latencies.push(stamp() - m.stamp);
@@ -226,7 +227,9 @@ function frame() {
   head.writeUInt32LE(frame, 4);
   head.writeDoubleLE(at, 8);
   const picture = Buffer.concat([head, scene(visible ? view.pixels : null, t)]);
-  for (const s of sockets) if (s.pictures && s.bufferedAmount < 1e6) s.send(picture);
+  for (const s of sockets) {
+    if (s.pictures && !(s.half && frame % 2) && s.bufferedAmount < 1e6) s.send(picture);
+  }
   const base = { type: "pose", frame, time: t, stamp: at };
   // The tracker takes its time.
   setTimeout(() => {

@@ -137,7 +137,7 @@ export type Command =
   | { type: "poses"; on: boolean }
   | { type: "record"; on: boolean }
   | { type: "forget"; recording: number }
-  | { type: "pictures"; on: boolean }
+  | { type: "pictures"; on: boolean; half: boolean } // half: every second one
   | { type: "drawn"; frame: number; stamp: number }
   | { type: "ping"; id: number };
 

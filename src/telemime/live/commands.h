@@ -32,6 +32,7 @@ struct Forget {
 };
 struct Pictures {
   bool on;
+  bool half;  ///< only every second one
 };
 struct Poses {
   bool on;

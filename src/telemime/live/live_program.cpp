@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -159,12 +160,13 @@ struct LiveProgram::State {
 
   // The image side: only leaves the picture for the painter.
   void show(const Frame& frame) {
-    if (!server->wanted(kPicture)) {
+    picture_topic = picture_topic == kPicture ? kPictureBetween : kPicture;
+    if (!server->wanted(picture_topic)) {
       return;
     }
     {
       const std::lock_guard lock(mutex);
-      picture = frame;
+      picture = {frame, picture_topic};
     }
     changed.notify_all();
   }
@@ -172,16 +174,17 @@ struct LiveProgram::State {
   void paint() {
     while (true) {
       Frame frame;
+      PageTopic topic = kPicture;
       {
         std::unique_lock lock(mutex);
         changed.wait(lock, [this] { return stop || picture; });
         if (stop) {
           return;
         }
-        frame = *std::exchange(picture, std::nullopt);
+        std::tie(frame, topic) = *std::exchange(picture, std::nullopt);
       }
       attempt([&] {
-        server->send_binary(kPicture, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
+        server->send_binary(topic, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
         ++pictures;
       });
     }
@@ -346,7 +349,8 @@ struct LiveProgram::State {
   std::string hello;
   std::string body;
   std::string session_error;
-  std::optional<Frame> picture;
+  std::optional<std::pair<Frame, PageTopic>> picture;
+  PageTopic picture_topic = kPicture;  // of the last one, for the image side alone
   CoresInUse cores{began, cpu_at_start};
 
   std::unique_ptr<WebServer> server;

@@ -3,6 +3,7 @@
 
 import { PoseDriver } from "../avatar/driver";
 import { Connection } from "../connection";
+import { drawsInSoftware } from "../graphics";
 import { PROTOCOL, type Command, type Incoming, type Phase, type Pose, type Status } from "../protocol";
 import { Avatars } from "../ui/avatars";
 import { Banner } from "../ui/banner";
@@ -15,7 +16,7 @@ import { loadSettings, saveSettings, type Settings } from "../ui/settings";
 import { Shortcuts } from "../ui/shortcuts";
 import { StateLine } from "../ui/state";
 import { Toasts } from "../ui/toasts";
-import { CameraView } from "../views/camera";
+import { CameraView, fewerPictures } from "../views/camera";
 import { Gauges } from "../views/gauges";
 import { TopView } from "../views/top";
 import { exposeDebug } from "./debug";
@@ -62,10 +63,14 @@ const guide = new Guide(
 
 let phase: Phase | "connecting" | "disconnected" = "connecting";
 let lastPose: Pose | null = null;
+let input: number | null = null; // pictures a second that the camera gives
+let half = false; // of them are asked for
 const counters = { poses: 0, lost: 0, pictures: 0 };
 
 function onStatus(s: Status): void {
   phase = s.phase;
+  input = s.fps.input;
+  if (fewerPictures(drawsInSoftware(), input) !== half) look(!document.hidden);
   line.setStatus(s);
   gauges.setStatus(s);
   guide.setStatus(s);
@@ -144,7 +149,7 @@ const connection: Connection = new Connection(address, {
   },
   state: (s) => {
     banner.setState(s);
-    if (s.kind === "open" && document.hidden) look(false);
+    if (s.kind === "open") look(!document.hidden);
     if (s.kind !== "lost") return;
     phase = "disconnected";
     driver.setLost();
@@ -161,7 +166,8 @@ const connection: Connection = new Connection(address, {
 
 /** Nothing is made for pages that nobody sees. */
 function look(on: boolean): void {
-  send({ type: "pictures", on });
+  half = fewerPictures(drawsInSoftware(), input);
+  send({ type: "pictures", on, half });
   send({ type: "poses", on });
 }
 document.addEventListener("visibilitychange", () => look(!document.hidden));

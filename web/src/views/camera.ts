@@ -12,6 +12,14 @@ interface Decoded {
   image: ImageBitmap;
 }
 
+/**
+ * Whether every second picture is enough: each costs processor time without a graphics card, which the tracker and
+ * the avatar need. `input`: pictures a second of the camera; slow ones are shown in full.
+ */
+export function fewerPictures(software: boolean, input: number | null): boolean {
+  return software && input !== null && input > 18;
+}
+
 export class CameraView {
   mirrored = true;
   overlay = true;

@@ -1,7 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import { fewerPictures } from "./camera";
 import { RADIUS_95, ellipse, ellipseFromAbove, ellipseInPicture } from "./geometry";
 import { Pairing } from "./pairing";
+
+describe("the camera's pictures", () => {
+  it("are fewer where each costs much, unless the camera is slow", () => {
+    expect(fewerPictures(true, 25)).toBe(true);
+    expect(fewerPictures(true, 15)).toBe(false);
+    expect(fewerPictures(true, null)).toBe(false);
+    expect(fewerPictures(false, 60)).toBe(false);
+  });
+});
 
 describe("ellipses", () => {
   it("have the half axes of a diagonal covariance", () => {
