@@ -114,7 +114,7 @@ void ConnectedComponents::paint(const Component& component, unsigned char value,
                                 const cv::Point& origin) const {
   for (const PixelRun& run : runs(component)) {
     auto* row = picture.ptr<unsigned char>(run.row - origin.y);
-    std::fill(row + run.first - origin.x, row + run.last - origin.x, value);
+    std::fill(row + (run.first - origin.x), row + (run.last - origin.x), value);
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <vector>
 
 #include "telemime/image/colour_votes.h"
 #include "telemime/image/connected_components.h"

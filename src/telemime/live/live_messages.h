@@ -15,7 +15,7 @@
 namespace telemime {
 
 /// Of what the server sends (web_server.h): of all but `words` only the newest waits for a slow page.
-/// The camera's pictures are two topics, by turns: a page may do with half of them.
+/// The camera's pictures are two topics, by turns, in one place: a page may do with half of them.
 enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3, kPictureBetween = 4 };
 
 /// The messages of docs/live-protocol.md that are not about a pose, as JSON without line breaks.

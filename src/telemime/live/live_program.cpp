@@ -184,7 +184,8 @@ struct LiveProgram::State {
         std::tie(frame, topic) = *std::exchange(picture, std::nullopt);
       }
       attempt([&] {
-        server->send_binary(topic, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
+        server->send_binary(topic, shared(picture_message(frame.image, frame.index, kMs * frame.taken)),
+                            kPicture);
         ++pictures;
       });
     }

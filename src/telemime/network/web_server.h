@@ -105,9 +105,11 @@ class WebServer {
 
   /// To all clients; from any thread, never blocks. `topic` is any small number: a message of a topic
   /// replaces one of the same topic that still waits. Topic 0 is never replaced (few, important ones; a
-  /// client that lets 1000 of them wait is closed) and overtakes the others, which take turns.
+  /// client that lets 1000 of them wait is closed) and overtakes the others, which take turns. `place`: a
+  /// topic whose messages are replaced, too, and in whose stead it waits, so that none of the two overtakes
+  /// the other; 0: only its own.
   void send_text(int topic, std::shared_ptr<const std::string> text);
-  void send_binary(int topic, std::shared_ptr<const std::string> bytes);
+  void send_binary(int topic, std::shared_ptr<const std::string> bytes, int place = 0);
 
   /// Whether that client gets messages of that topic (at first of every one); one that waits is dropped. From
   /// any thread, handlers included; a client that is gone is no error. Topic 0 cannot be turned off.

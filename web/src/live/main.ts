@@ -63,14 +63,14 @@ const guide = new Guide(
 
 let phase: Phase | "connecting" | "disconnected" = "connecting";
 let lastPose: Pose | null = null;
-let input: number | null = null; // pictures a second that the camera gives
-let half = false; // of them are asked for
+let fps: Status["fps"] = { input: null, tracked: null };
+let half = false; // of the pictures are asked for
 const counters = { poses: 0, lost: 0, pictures: 0 };
 
 function onStatus(s: Status): void {
   phase = s.phase;
-  input = s.fps.input;
-  if (fewerPictures(drawsInSoftware(), input) !== half) look(!document.hidden);
+  fps = s.fps;
+  if (fewerPictures(drawsInSoftware(), fps, half) !== half) look(!document.hidden);
   line.setStatus(s);
   gauges.setStatus(s);
   guide.setStatus(s);
@@ -166,7 +166,7 @@ const connection: Connection = new Connection(address, {
 
 /** Nothing is made for pages that nobody sees. */
 function look(on: boolean): void {
-  half = fewerPictures(drawsInSoftware(), input);
+  half = fewerPictures(drawsInSoftware(), fps, half);
   send({ type: "pictures", on, half });
   send({ type: "poses", on });
 }

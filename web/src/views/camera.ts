@@ -2,7 +2,7 @@
 // The camera's picture with what was found in it. The picture comes unmirrored and bare.
 
 import { flatContext } from "../graphics";
-import type { Camera, Picture, Pose } from "../protocol";
+import type { Camera, Picture, Pose, Status } from "../protocol";
 import { ellipseInPicture } from "./geometry";
 import { POSES_STOPPED, Pairing } from "./pairing";
 import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
@@ -14,10 +14,12 @@ interface Decoded {
 
 /**
  * Whether every second picture is enough: each costs processor time without a graphics card, which the tracker and
- * the avatar need. `input`: pictures a second of the camera; slow ones are shown in full.
+ * the avatar need. `fps`: what the camera gives, and what the tracker sees of it (pictures come as often); when these
+ * are few they are shown in full. `half`: whether it is so now.
  */
-export function fewerPictures(software: boolean, input: number | null): boolean {
-  return software && input !== null && input > 18;
+export function fewerPictures(software: boolean, fps: Status["fps"], half: boolean): boolean {
+  const rate = Math.min(fps.input ?? 0, fps.tracked ?? 0);
+  return software && rate > (half ? 14 : 18);
 }
 
 export class CameraView {

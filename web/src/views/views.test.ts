@@ -6,10 +6,16 @@ import { Pairing } from "./pairing";
 
 describe("the camera's pictures", () => {
   it("are fewer where each costs much, unless the camera is slow", () => {
-    expect(fewerPictures(true, 25)).toBe(true);
-    expect(fewerPictures(true, 15)).toBe(false);
-    expect(fewerPictures(true, null)).toBe(false);
-    expect(fewerPictures(false, 60)).toBe(false);
+    const fast = { input: 25, tracked: 24.5 };
+    expect(fewerPictures(true, fast, false)).toBe(true);
+    expect(fewerPictures(false, fast, false)).toBe(false);
+    expect(fewerPictures(true, { input: 15, tracked: 15 }, false)).toBe(false);
+    expect(fewerPictures(true, { input: 30, tracked: 12 }, true)).toBe(false); // of the others there are no pictures
+    expect(fewerPictures(true, { input: null, tracked: null }, false)).toBe(false);
+  });
+  it("are not asked for differently each half second", () => {
+    const between = { input: 16, tracked: 16 };
+    expect([true, false].map((half) => fewerPictures(true, between, half))).toEqual([true, false]);
   });
 });
 
