@@ -7,7 +7,7 @@ JOBS ?= $(shell nproc)
 TEST_JOBS ?= $(shell echo $$(($(JOBS) + 1)))
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
-ASAN_QUICK = core capture outputs rooms network hosting live_stream
+ASAN_QUICK = core capture outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
 TARGETS := help deps configure build demo test bench experiments lint asan asan-quick tsan fuzz install clean
@@ -41,7 +41,7 @@ bench: deps configure ## run the benchmarks
 	@scripts/each.sh build/release/bench
 
 experiments: deps build ## run every experiments/*/run: the tables and figures
-	@scripts/experiments.sh
+	@apps/lab/experiments.sh
 
 lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@scripts/deps.sh build check

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "telemime/registration/budget.h"
 #include "telemime/render/renderer.h"
+#include "telemime/search/budget.h"
 
 namespace telemime {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "synthetic_clip.h"
-#include "telemime/pipeline/tracker.h"
+#include "telemime/tracker/tracker.h"
 
 namespace telemime {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "synthetic_clip.h"
 
-#include "telemime/synth/sequence.h"
+#include "lab/synth/sequence.h"
 
 namespace telemime {
 

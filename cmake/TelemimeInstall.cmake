@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-# What `cmake --install` lays down: the program, every room as a static library, headers, data, and a package for
-# find_package(telemime). Users link telemime::telemime (all rooms) or one room, telemime::body.
+# What `cmake --install` lays down: the program, every module as a static library, headers, data, and a package for
+# find_package(telemime). Users link telemime::telemime (all modules) or one module, telemime::body.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-get_property(rooms GLOBAL PROPERTY TELEMIME_ROOMS)
+get_property(modules GLOBAL PROPERTY TELEMIME_MODULES)
 add_library(telemime_all INTERFACE)
 add_library(telemime::telemime ALIAS telemime_all)
 set_target_properties(telemime_all PROPERTIES EXPORT_NAME telemime)
-target_link_libraries(telemime_all INTERFACE ${rooms})
+target_link_libraries(telemime_all INTERFACE ${modules})
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/telemime")
-install(TARGETS ${rooms} telemime_all EXPORT telemime ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS ${modules} telemime_all EXPORT telemime ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT telemime NAMESPACE telemime:: FILE telemimeTargets.cmake DESTINATION "${package_dir}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/telemime" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.h" PATTERN "testing*.h" EXCLUDE)

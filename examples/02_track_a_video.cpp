@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
-#include "telemime/pipeline/run.h"
+#include "telemime/offline/run.h"
 
 int main(int argc, char** argv) {
   using namespace telemime;

@@ -3,7 +3,7 @@
 // Usage: 03_add_a_cue
 #include <cstdio>
 
-#include "telemime/cues/all.h"
+#include "telemime/likelihood/cues/all.h"
 
 namespace {
 

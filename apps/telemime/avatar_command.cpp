@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "telemime/avatar/avatar.h"
-#include "telemime/pipeline/run_outputs.h"
+#include "avatars/avatar.h"
+#include "telemime/offline/run_outputs.h"
 
 namespace telemime {
 namespace {

@@ -5,7 +5,7 @@
 #include <CLI/Formatter.hpp>
 #include <iostream>
 
-#include "telemime/pipeline/config.h"
+#include "telemime/tracker/config.h"
 
 namespace telemime {
 

@@ -14,8 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "cli/interrupt.h"
 #include "data_folder.h"
-#include "interrupt.h"
 #include "open_page.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
@@ -25,6 +25,10 @@
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
 #include "track_options.h"
+
+#ifdef TELEMIME_MEETING
+#include "meeting/transport/all.h"
+#endif
 
 namespace telemime {
 namespace {
@@ -204,6 +208,9 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
       "print only the page's address, the numbers at the end, warnings and errors");
   options->track.request.input = "0";
   LiveRequest& live = options->live;
+#ifdef TELEMIME_MEETING
+  live.sender_kinds = kAllSenderKinds;
+#endif
   command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
   command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");
   command->add_flag("--open", options->open, "open the page in the desktop's browser");

@@ -11,19 +11,17 @@
 #include <memory>
 
 #include "avatar_command.h"
-#include "bench_command.h"
 #include "calibrate_command.h"
+#include "cli/exit_codes.h"
 #include "config_command.h"
 #include "evaluate_command.h"
-#include "exit_codes.h"
-#include "experiments_command.h"
-#include "learn_command.h"
 #include "live_command.h"
-#include "room_command.h"
-#include "synth_command.h"
 #include "telemime/capture/prepare_opencv.h"
 #include "track_command.h"
-#include "tune_command.h"
+
+#ifdef TELEMIME_MEETING
+#include "meeting/commands/room_command.h"
+#endif
 
 namespace telemime {
 namespace {
@@ -33,15 +31,12 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   app.require_subcommand(1);
   app.set_version_flag("--version", TELEMIME_VERSION);
   add_live_command(app, left_behind);
+#ifdef TELEMIME_MEETING
   add_room_command(app);
+#endif
   add_track_command(app);
   add_calibrate_command(app);
   add_evaluate_command(app);
-  add_synth_command(app);
-  add_tune_command(app);
-  add_learn_command(app);
-  add_bench_command(app);
-  add_experiments_command(app);
   add_avatar_command(app);
   add_config_command(app);
   try {

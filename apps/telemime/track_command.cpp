@@ -6,8 +6,8 @@
 #include <memory>
 #include <opencv2/highgui.hpp>
 
-#include "exit_codes.h"
-#include "progress_bar.h"
+#include "cli/exit_codes.h"
+#include "cli/progress_bar.h"
 #include "telemime/capture/shown_url.h"
 #include "telemime/core/errors.h"
 #include "track_options.h"

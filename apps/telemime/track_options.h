@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "telemime/pipeline/run.h"
+#include "telemime/offline/run.h"
 
 namespace telemime {
 

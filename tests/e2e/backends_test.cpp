@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "exit_codes.h"
+#include "cli/exit_codes.h"
 #include "run_program.h"
 #include "telemime/likelihood/all.h"
 

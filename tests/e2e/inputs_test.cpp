@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "exit_codes.h"
+#include "cli/exit_codes.h"
 #include "run_program.h"
 
 namespace telemime::e2e {

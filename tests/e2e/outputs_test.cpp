@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "exit_codes.h"
+#include "cli/exit_codes.h"
 #include "run_program.h"
 #include "telemime/outputs/bap/reader.h"
 #include "telemime/outputs/bvh/bvh.h"

@@ -8,7 +8,7 @@
 
 #include "equivalence/every_backend.h"
 #include "telemime/core/errors.h"
-#include "telemime/registration/budget.h"
+#include "telemime/search/budget.h"
 
 namespace telemime::equivalence {
 namespace {

@@ -2,7 +2,7 @@
 // Poses and images as trackers meet them.
 
 #include "equivalence/every_backend.h"
-#include "telemime/experiments/engine_agreement.h"
+#include "lab/experiments/engine_agreement.h"
 
 namespace telemime::equivalence {
 namespace {

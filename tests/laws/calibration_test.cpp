@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calibration on frames that the model itself made, with a body of other proportions.
-#include "telemime/registration/calibration.h"
+#include "telemime/search/calibration.h"
 
 #include <gtest/gtest.h>
 

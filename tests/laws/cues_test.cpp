@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every cue of kCues must obey.
-#include "telemime/cues/all.h"
+#include "telemime/likelihood/cues/all.h"
 
 #include <gtest/gtest.h>
 

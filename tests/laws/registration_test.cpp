@@ -7,7 +7,7 @@
 
 #include "support/rendered_person.h"
 #include "telemime/likelihood/all.h"
-#include "telemime/registration/two_step.h"
+#include "telemime/search/two_step.h"
 
 namespace telemime {
 namespace {

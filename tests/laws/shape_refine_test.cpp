@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shape of a person from several frames that the model itself made.
-#include "telemime/registration/shape_refine.h"
+#include "telemime/search/shape_refine.h"
 
 #include <gtest/gtest.h>
 

@@ -21,13 +21,13 @@ std::string as_text(const Violations& violations) {
   return text;
 }
 
-TEST(ThisProject, RoomsIncludeOnlyWhatTheyList) {
+TEST(ThisProject, ModulesIncludeOnlyWhatTheyList) {
   Violations violations;
-  EXPECT_GE(read_rooms(this_project, violations).size(), 10U);
+  EXPECT_GE(read_modules(this_project, violations).size(), 10U);
   EXPECT_EQ(as_text(check_includes(this_project)), "");
 }
 
-TEST(ThisProject, EveryRoomIsInTheArchitectureTable) {
+TEST(ThisProject, EveryModuleIsInTheArchitectureTable) {
   EXPECT_EQ(as_text(check_architecture_table(this_project)), "");
 }
 
@@ -43,17 +43,17 @@ TEST(ThisProject, NothingIsLeftUndone) {
   EXPECT_EQ(as_text(check_no_leftovers(this_project)), "");
 }
 
-/// A project of two rooms, well built; each test below breaks one thing and expects to hear of it.
+/// A project of two modules, well built; each test below breaks one thing and expects to hear of it.
 class SmallProject : public ::testing::Test {
  protected:
   SmallProject() {
     write("ARCHITECTURE.md", "| `low` | one |\n| `high` | two |\n| `attic` | three |\n");
-    write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low LIBRARIES high)\n");
+    write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_module(low LIBRARIES high)\n");
     write("src/telemime/low/low.h", licence("//") + "#include <vector>\n");
     write("src/telemime/high/CMakeLists.txt",
-          licence("#") + "telemime_room(high\n  DEPENDS low LIBRARIES z)\n");
+          licence("#") + "telemime_module(high\n  DEPENDS low LIBRARIES z)\n");
     write("src/telemime/high/high.cpp", licence("//") + "#include \"telemime/low/low.h\"\n");
-    write("src/telemime/attic/CMakeLists.txt", licence("#") + "telemime_room(attic DEPENDS high)\n");
+    write("src/telemime/attic/CMakeLists.txt", licence("#") + "telemime_module(attic DEPENDS high)\n");
     write("src/telemime/attic/attic.cpp", licence("//") + "#include \"telemime/low/low.h\"\n");
     write("scripts/run.sh", "#!/bin/sh\n" + licence("#"));
   }
@@ -80,38 +80,38 @@ class SmallProject : public ::testing::Test {
 
 TEST_F(SmallProject, IsInOrder) {
   Violations none;
-  EXPECT_EQ(read_rooms(root_, none).at("attic"), (std::set<std::string>{"attic", "high", "low"}));
+  EXPECT_EQ(read_modules(root_, none).at("attic"), (std::set<std::string>{"attic", "high", "low"}));
   EXPECT_EQ(violations(), "");
 }
 
 TEST_F(SmallProject, AnIncludeAgainstTheArrowsIsFound) {
   write("src/telemime/low/deep/wrong.h", licence("//") + "\n  #  include <telemime/high/high.h>\n");
-  expect_violation("src/telemime/low/deep/wrong.h:3: room low includes room high");
+  expect_violation("src/telemime/low/deep/wrong.h:3: module low includes module high");
 }
 
 TEST_F(SmallProject, ATestIsBoundByTheSameArrows) {
   write("src/telemime/low/low_test.cpp", licence("//") + "#include \"telemime/high/high.h\"\n");
-  expect_violation("low_test.cpp:2: room low includes room high");
+  expect_violation("low_test.cpp:2: module low includes module high");
 }
 
 TEST_F(SmallProject, ARelativeIncludeIsFound) {
   write("src/telemime/low/wrong.h", licence("//") + "#include \"../high/high.h\"\n");
-  expect_violation("wrong.h:2: write \"telemime/<room>/");
+  expect_violation("wrong.h:2: write \"telemime/<module>/");
 }
 
-TEST_F(SmallProject, RoomsInACircleAreFound) {
-  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low DEPENDS attic)\n");
+TEST_F(SmallProject, ModulesInACircleAreFound) {
+  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_module(low DEPENDS attic)\n");
   expect_violation("depends on itself");
 }
 
-TEST_F(SmallProject, AnUnknownRoomIsFound) {
-  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_room(low DEPENDS cellar)\n");
-  expect_violation("'cellar', which is no room");
+TEST_F(SmallProject, AnUnknownModuleIsFound) {
+  write("src/telemime/low/CMakeLists.txt", licence("#") + "telemime_module(low DEPENDS cellar)\n");
+  expect_violation("'cellar', which is no module");
 }
 
-TEST_F(SmallProject, ARoomWithoutARowIsFound) {
-  write("src/telemime/cellar/CMakeLists.txt", licence("#") + "telemime_room(cellar)\n");
-  expect_violation("room cellar has no row");
+TEST_F(SmallProject, AModuleWithoutARowIsFound) {
+  write("src/telemime/cellar/CMakeLists.txt", licence("#") + "telemime_module(cellar)\n");
+  expect_violation("module cellar has no row");
 }
 
 TEST_F(SmallProject, ALongFileIsFound) {

@@ -76,82 +76,116 @@ std::string place(const fs::path& root, const fs::path& file, std::size_t line) 
 
 /// The words after DEPENDS, up to the next keyword.
 std::set<std::string> depends_of(const std::string& arguments) {
-  std::set<std::string> rooms;
+  std::set<std::string> modules;
   bool listed = false;
   std::istringstream words(arguments);
   for (std::string word; words >> word;) {
-    if (word == "DEPENDS" || word == "LIBRARIES") {
+    if (word == "DEPENDS" || word == "LIBRARIES" || word == "INCLUDE") {
       listed = word == "DEPENDS";
     } else if (listed) {
-      rooms.insert(word);
+      modules.insert(word);
     }
   }
-  return rooms;
+  return modules;
 }
 
-std::string unknown_room(const std::string& room, const std::string& next) {
-  return "room " + room + " depends on '" + next + "', which is no room";
+std::string unknown_module(const std::string& module, const std::string& next) {
+  return "module " + module + " depends on '" + next + "', which is no module";
 }
 
-std::string out_of_reach(const std::string& room, const std::string& included) {
-  return "room " + room + " includes room " + included +
+std::string out_of_reach(const std::string& module, const std::string& included) {
+  return "module " + module + " includes module " + included +
          ", which is not in the DEPENDS of its CMakeLists.txt";
 }
 
 Reach close_over(const Reach& direct, Violations& violations) {
   Reach reach;
   std::set<std::string> open;
-  const std::function<std::set<std::string>(const std::string&)> visit = [&](const std::string& room) {
-    if (const auto known = reach.find(room); known != reach.end()) {
+  const std::function<std::set<std::string>(const std::string&)> visit = [&](const std::string& module) {
+    if (const auto known = reach.find(module); known != reach.end()) {
       return known->second;
     }
-    std::set<std::string> all{room};
-    if (!open.insert(room).second) {
-      violations.push_back("room " + room + " depends on itself, through others");
+    std::set<std::string> all{module};
+    if (!open.insert(module).second) {
+      violations.push_back("module " + module + " depends on itself, through others");
       return all;
     }
-    for (const std::string& next : direct.at(room)) {
+    for (const std::string& next : direct.at(module)) {
       if (direct.contains(next)) {
         all.merge(visit(next));
       } else {
-        violations.push_back(unknown_room(room, next));
+        violations.push_back(unknown_module(module, next));
       }
     }
-    open.erase(room);
-    reach[room] = all;
+    open.erase(module);
+    reach[module] = all;
     return all;
   };
-  for (const auto& [room, ignored] : direct) {
-    visit(room);
+  for (const auto& [module, ignored] : direct) {
+    visit(module);
   }
   return reach;
 }
 
-}  // namespace
+/// Where modules lie, and the first word of the #include lines that reach them. In the names of targets the
+/// word stands before the folder's name, but for the library's own.
+struct ModuleHome {
+  std::string_view folder;
+  std::string_view include;
+  std::string_view prefix;
+};
+constexpr std::array<ModuleHome, 4> homes = {{{"src/telemime", "telemime", ""},
+                                              {"apps/lab", "lab", "lab_"},
+                                              {"apps/avatars", "avatars", ""},
+                                              {"meeting/src/meeting", "meeting", "meeting_"}}};
 
-Reach read_rooms(const fs::path& root, Violations& violations) {
-  static const std::regex call(R"(telemime_room\(\s*(\w+)([^)]*)\))");
-  Reach direct;
-  for (const fs::path& file : project_files(root / "src" / "telemime")) {
-    if (file.filename() != "CMakeLists.txt") {
-      continue;
-    }
-    const std::string text = std::regex_replace(content_of(file), std::regex("#[^\n]*"), "");
-    std::smatch found;
-    if (std::regex_search(text, found, call)) {
-      direct[found.str(1)] = depends_of(found.str(2));
+/// The module that an #include line names; empty for a file of others.
+std::string included_module(const fs::path& target) {
+  for (const ModuleHome& home : homes) {
+    if (*target.begin() == home.include) {
+      return home.include == "avatars" ? "avatars"
+                                       : std::string(home.prefix) + std::next(target.begin())->string();
     }
   }
+  return {};
+}
+
+/// Each module's folder.
+std::map<std::string, fs::path> module_folders(const fs::path& root, Reach& direct) {
+  static const std::regex call(R"(telemime_module\(\s*(\w+)([^)]*)\))");
+  std::map<std::string, fs::path> folders;
+  for (const ModuleHome& home : homes) {
+    for (const fs::path& file : project_files(root / home.folder)) {
+      if (file.filename() != "CMakeLists.txt") {
+        continue;
+      }
+      const std::string text = std::regex_replace(content_of(file), std::regex("#[^\n]*"), "");
+      std::smatch found;
+      if (std::regex_search(text, found, call)) {
+        direct[found.str(1)] = depends_of(found.str(2));
+        folders[found.str(1)] = file.parent_path();
+      }
+    }
+  }
+  return folders;
+}
+
+}  // namespace
+
+Reach read_modules(const fs::path& root, Violations& violations) {
+  Reach direct;
+  module_folders(root, direct);
   return close_over(direct, violations);
 }
 
 Violations check_includes(const fs::path& root) {
   static const std::regex include(R"re(^\s*#\s*include\s*(["<])([^">]+)[">])re");
   Violations violations;
-  const Reach reach = read_rooms(root, violations);
-  const fs::path house = root / "src" / "telemime";
-  for (const auto& [room, may_include] : reach) {
-    for (const fs::path& file : project_files(house / room)) {
+  const Reach reach = read_modules(root, violations);
+  Reach direct;
+  for (const auto& [module, folder] : module_folders(root, direct)) {
+    const std::set<std::string>& may_include = reach.at(module);
+    for (const fs::path& file : project_files(folder)) {
       const std::vector<std::string> lines = lines_of(is_source(file) ? content_of(file) : std::string());
       for (std::size_t i = 0; i < lines.size(); ++i) {
         std::smatch found;
@@ -159,14 +193,13 @@ Violations check_includes(const fs::path& root) {
           continue;
         }
         const fs::path target = found.str(2);
-        const bool ours = *target.begin() == "telemime";
-        const std::string included = ours ? std::next(target.begin())->string() : std::string();
-        if (ours && !may_include.contains(included)) {
-          violations.push_back(place(root, file, i + 1) + out_of_reach(room, included));
-        } else if (!ours && found.str(1) == "\"" &&
-                   target.extension() != ".inc") {  // .inc: a generated table
+        const std::string included = included_module(target);
+        if (!included.empty() && !may_include.contains(included)) {
+          violations.push_back(place(root, file, i + 1) + out_of_reach(module, included));
+        } else if (included.empty() && found.str(1) == "\"" && *target.begin() != "cli" &&
+                   target.extension() != ".inc") {  // .inc: a generated table; cli: what programs share
           violations.push_back(place(root, file, i + 1) +
-                               "write \"telemime/<room>/...\" for files of this project " +
+                               "write \"telemime/<module>/...\" for files of this project " +
                                "and <...> for those of others");
         }
       }
@@ -178,9 +211,9 @@ Violations check_includes(const fs::path& root) {
 Violations check_architecture_table(const fs::path& root) {
   Violations violations;
   const std::string table = content_of(root / "ARCHITECTURE.md");
-  for (const auto& [room, ignored] : read_rooms(root, violations)) {
-    if (table.find("| `" + room + "` |") == std::string::npos) {
-      violations.push_back("ARCHITECTURE.md: room " + room + " has no row in the table of rooms");
+  for (const auto& [module, ignored] : read_modules(root, violations)) {
+    if (table.find("| `" + module + "` |") == std::string::npos) {
+      violations.push_back("ARCHITECTURE.md: module " + module + " has no row in the table of modules");
     }
   }
   return violations;

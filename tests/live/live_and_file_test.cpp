@@ -10,9 +10,9 @@
 #include "live/heard.h"
 #include "telemime/capture/paced.h"
 #include "telemime/core/scratch_folder.h"
+#include "telemime/offline/run.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/readers/jsonl.h"
-#include "telemime/pipeline/run.h"
 
 namespace telemime {
 namespace {

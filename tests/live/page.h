@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "telemime/network/testing_web_socket.h"
+#include "telemime/streaming/testing_web_socket.h"
 
 namespace telemime::live_testing {
 

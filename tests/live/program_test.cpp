@@ -10,8 +10,8 @@
 #include "live/scripted_source.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
-#include "telemime/network/testing_web_socket.h"
 #include "telemime/outputs/all.h"
+#include "telemime/streaming/testing_web_socket.h"
 
 namespace telemime {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "telemime/capture/source.h"
 #include "telemime/core/scratch_folder.h"
-#include "telemime/pipeline/run.h"
+#include "telemime/offline/run.h"
 
 namespace telemime::live_testing {
 

@@ -5,8 +5,8 @@
 #include "live/scripted_source.h"
 #include "support/list_source.h"
 #include "telemime/live/live_session.h"
-#include "telemime/pipeline/set_up.h"
-#include "telemime/smoothing/smoother.h"
+#include "telemime/tracker/set_up.h"
+#include "telemime/tracker/smoother.h"
 
 namespace telemime {
 namespace {

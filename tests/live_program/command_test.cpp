@@ -14,8 +14,8 @@
 #include "e2e/run_program.h"
 #include "live/page.h"
 #include "telemime/live/live_settings.h"
-#include "telemime/network/testing_receivers.h"
-#include "telemime/network/testing_web_socket.h"
+#include "telemime/streaming/testing_receivers.h"
+#include "telemime/streaming/testing_web_socket.h"
 
 namespace telemime {
 namespace {

@@ -8,7 +8,7 @@
 #include "live/scripted_source.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
-#include "telemime/network/testing_receivers.h"
+#include "telemime/streaming/testing_receivers.h"
 
 namespace telemime {
 namespace {

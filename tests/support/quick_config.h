@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "telemime/pipeline/config.h"
+#include "telemime/tracker/config.h"
 
 /// Settings with which a tracker has little work to do on the frames of synthetic_clip.h, and takes the first
 /// for good.

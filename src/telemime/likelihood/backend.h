@@ -9,8 +9,8 @@
 #include "telemime/body/body.h"
 #include "telemime/body/mesh.h"
 #include "telemime/core/camera.h"
-#include "telemime/cues/reductions.h"
 #include "telemime/image/observation.h"
+#include "telemime/likelihood/cues/reductions.h"
 #include "telemime/likelihood/device_times.h"
 #include "telemime/likelihood/tiled_planes.h"
 

@@ -9,9 +9,9 @@
 
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
-#include "telemime/cues/contour/contour.h"
-#include "telemime/cues/region/region.h"
 #include "telemime/image/distance_map.h"
+#include "telemime/likelihood/cues/contour.h"
+#include "telemime/likelihood/cues/region.h"
 #include "telemime/render/renderer.h"
 
 namespace telemime {

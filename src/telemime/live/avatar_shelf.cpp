@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "telemime/avatar/avatar.h"
+#include "avatars/avatar.h"
 
 namespace telemime {
 namespace {

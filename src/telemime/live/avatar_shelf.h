@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "telemime/avatar/look.h"
+#include "avatars/look.h"
 
 namespace telemime {
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "telemime/live/live_statistics.h"
-#include "telemime/pipeline/tracker.h"
+#include "telemime/tracker/tracker.h"
 
 namespace telemime {
 

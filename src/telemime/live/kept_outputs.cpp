@@ -7,15 +7,15 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/live/live_settings.h"
-#include "telemime/network/url.h"
+#include "telemime/streaming/url.h"
 
 namespace telemime {
 namespace {
 
 // The file may hold what this version cannot send to.
-std::string meaning_or_text(const std::string& url) {
+std::string meaning_or_text(const std::string& url, SenderKinds kinds) {
   try {
-    return meaning_of(url);
+    return meaning_of(url, kinds);
   } catch (const Error&) {
     return url;
   }
@@ -96,9 +96,11 @@ void KeptOutputs::save() {
   try {
     update_settings(file_, [&](LiveSettings& settings) {
       for (const Change& change : changes) {
-        const std::string meaning = meaning_or_text(change.url);
+        const std::string meaning = meaning_or_text(change.url, senders_.kinds());
         std::vector<std::string>& urls = settings.outputs;
-        const auto same = [&](const std::string& url) { return meaning_or_text(url) == meaning; };
+        const auto same = [&](const std::string& url) {
+          return meaning_or_text(url, senders_.kinds()) == meaning;
+        };
         if (!change.keep) {
           std::erase_if(urls, same);
         } else if (std::none_of(urls.begin(), urls.end(), same)) {

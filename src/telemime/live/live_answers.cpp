@@ -3,7 +3,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/live/live_messages.h"
-#include "telemime/network/url.h"
+#include "telemime/streaming/url.h"
 
 namespace telemime {
 namespace {

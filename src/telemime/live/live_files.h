@@ -6,7 +6,7 @@
 
 #include "telemime/live/avatar_shelf.h"
 #include "telemime/live/recorder.h"
-#include "telemime/network/web_server.h"
+#include "telemime/streaming/web_server.h"
 
 namespace telemime {
 

@@ -8,9 +8,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "telemime/avatar/look.h"
-#include "telemime/network/all.h"
+#include "avatars/look.h"
 #include "telemime/outputs/all.h"
+#include "telemime/streaming/all.h"
 
 namespace telemime {
 namespace {
@@ -53,7 +53,8 @@ Json recorded(const Recording& r) {
 
 }  // namespace
 
-std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera) {
+std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
+                          SenderKinds kinds) {
   Json looks = Json::array();
   for (const AvatarLook& look : kAvatarLooks) {
     looks.push_back(look.name);
@@ -63,7 +64,7 @@ std::string hello_message(const std::string& version, const SourceInfo& info, co
     formats.push_back(format.name);
   }
   Json senders = Json::array();
-  for (const SenderKind& kind : sender_kinds()) {
+  for (const SenderKind& kind : kinds) {
     senders.push_back({{"scheme", kind.scheme}, {"example", kind.example}, {"summary", kind.summary}});
   }
   return dump({{"type", "hello"},

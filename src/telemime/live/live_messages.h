@@ -10,7 +10,7 @@
 #include "telemime/live/live_session.h"
 #include "telemime/live/message_level.h"
 #include "telemime/live/recorder.h"
-#include "telemime/network/sender.h"
+#include "telemime/streaming/sender.h"
 
 namespace telemime {
 
@@ -20,7 +20,8 @@ enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3, kPictur
 
 /// The messages of docs/live-protocol.md that are not about a pose, as JSON without line breaks.
 
-std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera);
+std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
+                          SenderKinds kinds = sender_kinds());
 
 struct LiveStatus {
   LiveState state;

@@ -20,8 +20,8 @@
 #include "telemime/live/output_news.h"
 #include "telemime/live/page_wait.h"
 #include "telemime/live/processor_time.h"
-#include "telemime/network/pose_message.h"
-#include "telemime/network/url.h"
+#include "telemime/streaming/pose_message.h"
+#include "telemime/streaming/url.h"
 
 namespace telemime {
 namespace {
@@ -72,7 +72,7 @@ struct LiveProgram::State {
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
       const std::lock_guard lock(mutex);
-      hello = hello_message(options.version, info, session->camera());
+      hello = hello_message(options.version, info, session->camera(), senders.kinds());
     }
     ready = session.get();
     answers.begin(*session);
@@ -330,7 +330,7 @@ struct LiveProgram::State {
   double began = clock.now();
   double cpu_at_start = processor_seconds();
   std::atomic<bool> serving = false;  // the server is there
-  SenderList senders;
+  SenderList senders{options.sender_kinds};
   KeptOutputs kept{options.settings, senders,
                    [this](MessageLevel level, const std::string& words) { tell(level, words); }};
   Recorder recorder;

@@ -11,19 +11,20 @@
 
 #include "telemime/capture/source.h"
 #include "telemime/live/live_session.h"
-#include "telemime/network/sender.h"
-#include "telemime/network/web_server.h"
+#include "telemime/streaming/sender.h"
+#include "telemime/streaming/web_server.h"
 
 namespace telemime {
 
 /// What `telemime live` is asked to do.
 struct LiveRequest {
   TrackRequest request;
-  bool ends = false;              ///< the input has an end, which is no failure: a file, also one on a server
-  bool guided = true;             ///< wait for the empty room
-  double page_wait = 60.0;        ///< s without a page to ask for it, until the start goes on without
-  WebServerOptions web;           ///< where the page is served
-  std::vector<std::string> send;  ///< URLs of senders
+  bool ends = false;        ///< the input has an end, which is no failure: a file, also one on a server
+  bool guided = true;       ///< wait for the empty room
+  double page_wait = 60.0;  ///< s without a page to ask for it, until the start goes on without
+  WebServerOptions web;     ///< where the page is served
+  SenderKinds sender_kinds = telemime::sender_kinds();
+  std::vector<std::string> send;   ///< URLs of senders
   std::filesystem::path settings;  ///< file of what is kept for later runs; empty: nothing is
   bool resume_outputs = false;     ///< send to the outputs kept by earlier runs at once
   std::filesystem::path recordings = "telemime-recordings";

@@ -11,10 +11,10 @@
 #include "telemime/live/hand_over.h"
 #include "telemime/live/pace.h"
 #include "telemime/live/room_pictures.h"
-#include "telemime/pipeline/scene.h"
-#include "telemime/pipeline/set_up.h"
-#include "telemime/pipeline/told.h"
-#include "telemime/smoothing/smoother.h"
+#include "telemime/tracker/scene.h"
+#include "telemime/tracker/set_up.h"
+#include "telemime/tracker/smoother.h"
+#include "telemime/tracker/told.h"
 
 namespace telemime {
 namespace {

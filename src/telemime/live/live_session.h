@@ -11,8 +11,8 @@
 #include "telemime/live/live_phase.h"
 #include "telemime/live/live_statistics.h"
 #include "telemime/live/message_level.h"
+#include "telemime/offline/run.h"
 #include "telemime/outputs/encoder.h"
-#include "telemime/pipeline/run.h"
 
 namespace telemime {
 

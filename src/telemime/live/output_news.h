@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "telemime/live/message_level.h"
-#include "telemime/network/sender.h"
+#include "telemime/streaming/sender.h"
 
 namespace telemime {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "telemime/live/page_table.h"
-#include "telemime/network/web_path.h"
+#include "telemime/streaming/web_path.h"
 
 namespace telemime {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "telemime/network/web_server.h"
+#include "telemime/streaming/web_server.h"
 
 namespace telemime {
 

@@ -15,9 +15,9 @@
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/scratch_folder.h"
-#include "telemime/network/testing_web.h"
 #include "telemime/outputs/readers/jsonl.h"
 #include "telemime/outputs/testing_motion.h"
+#include "telemime/streaming/testing_web.h"
 
 namespace telemime {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "telemime/core/errors.h"
-#include "telemime/smoothing/joint_rotations.h"
-#include "telemime/smoothing/smoother.h"
+#include "telemime/tracker/joint_rotations.h"
+#include "telemime/tracker/smoother.h"
 
 namespace telemime {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
-#include "telemime/network/url.h"
+#include "telemime/streaming/url.h"
 
 namespace telemime {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 constexpr std::size_t kMost = 16;
 
 // A page may name an output by what it got from us, also one that could never be sent to.
-std::optional<std::string> meaning_if_any(const std::string& url) {
+std::optional<std::string> meaning_if_any(const std::string& url, SenderKinds kinds) {
   try {
-    return meaning_of(url);
+    return meaning_of(url, kinds);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -51,14 +51,14 @@ std::string SenderList::url_of_new(const std::string& given, const std::string& 
 }
 
 void SenderList::add(const std::string& given) {
-  const std::string meaning = meaning_of(given);
+  const std::string meaning = meaning_of(given, kinds_);
   std::string url;
   {
     const std::lock_guard lock(mutex_);
     url = url_of_new(given, meaning);
   }
   // Outside the lock: it reads files (ca=, key=), and frames do not wait for a slow disk.
-  const std::shared_ptr<Sender> sender = make_sender(url);
+  const std::shared_ptr<Sender> sender = make_sender(url, kinds_);
   const std::lock_guard lock(mutex_);
   url_of_new(given, meaning);  // another page may have been faster
   if (header_) {
@@ -69,7 +69,7 @@ void SenderList::add(const std::string& given) {
 }
 
 void SenderList::offer(const std::string& url) {
-  const std::string meaning = meaning_of(url);
+  const std::string meaning = meaning_of(url, kinds_);
   const std::lock_guard lock(mutex_);
   if (find(meaning) == nullptr) {
     require_room();
@@ -78,7 +78,7 @@ void SenderList::offer(const std::string& url) {
 }
 
 bool SenderList::switch_off(const std::string& url) {
-  const auto meaning = meaning_if_any(url);
+  const auto meaning = meaning_if_any(url, kinds_);
   std::shared_ptr<Sender> gone;  // ends outside the lock: it joins a thread
   const std::lock_guard lock(mutex_);
   Entry* const entry = meaning ? find(*meaning) : nullptr;
@@ -90,7 +90,7 @@ bool SenderList::switch_off(const std::string& url) {
 }
 
 bool SenderList::remove(const std::string& url) {
-  const auto meaning = meaning_if_any(url);
+  const auto meaning = meaning_if_any(url, kinds_);
   std::shared_ptr<Sender> gone;  // as above
   const std::lock_guard lock(mutex_);
   Entry* const entry = meaning ? find(*meaning) : nullptr;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/network/sender.h"
+#include "telemime/streaming/sender.h"
 
 namespace telemime {
 
@@ -16,6 +16,9 @@ namespace telemime {
 /// status() leaves them out. From any thread.
 class SenderList {
  public:
+  explicit SenderList(SenderKinds kinds = sender_kinds()) : kinds_(kinds) {}
+  SenderKinds kinds() const { return kinds_; }
+
   /// Sends there from now on. Throws Error(usage) when the URL cannot be used, is sent to already, or would
   /// be one too many (16). One that is off is known with the password that it was added with.
   void add(const std::string& given);
@@ -43,6 +46,7 @@ class SenderList {
   /// cannot be added. The lock is held.
   std::string url_of_new(const std::string& given, const std::string& meaning);
 
+  const SenderKinds kinds_;
   mutable std::mutex mutex_;
   std::vector<Entry> entries_;
   std::optional<StreamHeader> header_;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "telemime/core/errors.h"
-#include "telemime/network/testing_receivers.h"
 #include "telemime/outputs/testing_motion.h"
+#include "telemime/streaming/testing_receivers.h"
 
 namespace telemime {
 namespace {

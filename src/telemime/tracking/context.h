@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "telemime/body/limits.h"
-#include "telemime/registration/objective.h"
+#include "telemime/search/objective.h"
 #include "telemime/tracking/filter_config.h"
 #include "telemime/tracking/filter_model.h"
 #include "telemime/tracking/particle.h"

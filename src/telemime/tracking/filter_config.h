@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "telemime/registration/two_step.h"
+#include "telemime/search/two_step.h"
 
 namespace telemime {
 

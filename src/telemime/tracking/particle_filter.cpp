@@ -6,6 +6,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/tracking/heuristics/all.h"
+#include "telemime/tracking/posterior.h"
 #include "telemime/tracking/purposes.h"
 #include "telemime/tracking/resampling.h"
 #include "telemime/tracking/search_space.h"
@@ -176,6 +177,16 @@ FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model
   result.moving = generation.moving;
   result.facing = context.facing;
   return result;
+}
+
+std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
+                             const Pose& estimate) {
+  std::vector<Pose> poses = {estimate};
+  for (const Mode& mode :
+       find_modes(body, filter.particles(), config.mode_radius, static_cast<std::size_t>(config.modes))) {
+    poses.push_back(filter.particles()[mode.likeliest].pose);
+  }
+  return poses;
 }
 
 }  // namespace telemime

@@ -72,4 +72,8 @@ class ParticleFilter {
   cv::Mat labels_before_;
 };
 
+/// The best poses of a filter's modes (FilterConfig::modes, mode_radius), the estimate first.
+std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
+                             const Pose& estimate);
+
 }  // namespace telemime

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "telemime/registration/blocks.h"
+#include "telemime/search/blocks.h"
 #include "telemime/tracking/context.h"
 #include "telemime/tracking/parts.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "telemime/body/arm_ik.h"
-#include "telemime/registration/budget.h"
+#include "telemime/search/budget.h"
 #include "telemime/tracking/context.h"
 
 /// A person whom the model itself draws, in small images, for the tests of the filter. Not installed.

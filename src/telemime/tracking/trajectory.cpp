@@ -8,8 +8,8 @@
 #include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
 #include "telemime/core/errors.h"
-#include "telemime/registration/blocks.h"
-#include "telemime/registration/two_step.h"
+#include "telemime/search/blocks.h"
+#include "telemime/search/two_step.h"
 
 namespace telemime {
 namespace {

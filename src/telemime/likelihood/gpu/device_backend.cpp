@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "telemime/core/errors.h"
-#include "telemime/cues/all.h"
+#include "telemime/likelihood/cues/all.h"
 #include "telemime/likelihood/packed_model.h"
 
 namespace telemime::gpu {

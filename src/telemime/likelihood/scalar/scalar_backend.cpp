@@ -3,8 +3,8 @@
 #include <array>
 
 #include "telemime/core/errors.h"
-#include "telemime/cues/all.h"
 #include "telemime/likelihood/backend.h"
+#include "telemime/likelihood/cues/all.h"
 #include "telemime/render/part_renderer.h"
 
 namespace telemime {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "telemime/body/pose.h"
-#include "telemime/cues/reductions.h"
+#include "telemime/likelihood/cues/reductions.h"
 #include "telemime/likelihood/packed_model.h"
 #include "telemime/likelihood/simd/simd_backend.h"
 #include "telemime/likelihood/tiled_planes.h"

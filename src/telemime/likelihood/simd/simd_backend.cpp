@@ -11,7 +11,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/loop_order.h"
-#include "telemime/cues/all.h"
+#include "telemime/likelihood/cues/all.h"
 #include "telemime/likelihood/simd/kernel.h"
 
 namespace telemime {

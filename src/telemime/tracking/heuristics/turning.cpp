@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "telemime/registration/shape_refine.h"
+#include "telemime/search/shape_refine.h"
 #include "telemime/tracking/purposes.h"
 
 namespace telemime {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "telemime/registration/shape_refine.h"
+#include "telemime/search/shape_refine.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/interrupt.h"
+
+#include <unistd.h>
+
+#include <csignal>
+
+namespace telemime {
+namespace {
+
+// A signal handler reaches nothing else.
+volatile std::sig_atomic_t interrupt_noted = 0;
+
+void on_interrupt(int signal) {
+  // A terminal that closes may say so twice.
+  if (interrupt_noted != 0 && signal != SIGHUP) {
+    ::_exit(128 + signal);
+  }
+  interrupt_noted = 1;
+}
+
+}  // namespace
+
+void note_interrupts() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) {
+    std::signal(SIGHUP, SIG_IGN);
+  }
+}
+
+bool interrupted() {
+  return interrupt_noted != 0;
+}
+
+}  // namespace telemime

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench_command.h"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <array>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "bench_soak.h"
+#include "engine_report.h"
+#include "lab/experiments/report.h"
+#include "lab/experiments/timing.h"
+#include "measurement_clips.h"
+#include "telemime/likelihood/all.h"
+#include "thread_clock.h"
+
+namespace telemime {
+namespace {
+
+struct BenchArguments {
+  std::string json;
+  std::string data;
+  std::string out = "out/experiments";
+  std::vector<std::string> backends;
+  bool engine_only = false;
+  double soak_minutes = 0.0;
+  LabOptions lab;
+};
+
+nlohmann::json to_json(const Table& table) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const auto& row : table.rows) {
+    nlohmann::json entry;
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      entry[table.columns[c]] = row[c];
+    }
+    rows.push_back(entry);
+  }
+  return {{"title", table.title}, {"rows", rows}};
+}
+
+// The tables of the thesis's times, which need clips.
+void report_clips(BenchArguments& arguments, const std::function<void(const Table&)>& show) {
+  arguments.lab.data = measurement_data(arguments.data, arguments.out);
+  arguments.lab.seconds = thread_seconds;
+  Lab lab(arguments.lab);
+  constexpr std::array<int, 6> kIterations = {40, 100, 200, 300, 400, 500};
+  const std::vector<FrameTime> frames = measure_frame_times(lab, kIterations);
+  const std::vector<SizeTime> sizes = measure_sizes(lab);
+  show(background_time_table(lab));
+  show(frame_time_table(frames));
+  show(size_time_table(sizes));
+  std::cout << "one thread, computing time, medians; 500 evaluations at 160x120: "
+            << number(1e3 / frames.back().total_ms()) << " frames a second\n";
+}
+
+void run_bench(BenchArguments arguments) {
+  cv::setNumThreads(1);
+  if (arguments.soak_minutes > 0.0) {
+    run_soak(arguments.soak_minutes);
+    return;
+  }
+  EngineOptions engine;
+  engine.backends = arguments.backends;
+  engine.quick = arguments.lab.quick;
+  engine.seed = arguments.lab.seed;
+  engine.seconds = steady_seconds;
+  engine_backends(engine);  // says what is wrong with a name before anything is measured
+  nlohmann::json json = nlohmann::json::array();
+  const auto show = [&](const Table& table) {
+    std::cout << to_text(table) << std::endl;
+    json.push_back(to_json(table));
+  };
+  if (!arguments.engine_only) {
+    report_clips(arguments, show);
+    std::cout << '\n';
+  }
+  report_engine(engine, show);
+  if (!arguments.json.empty()) {
+    write_text(arguments.json, json.dump(2) + "\n");
+  }
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app) {
+  const auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* const command = app.add_subcommand(
+      "bench", "Time features, evaluations and frames beside the thesis's tables, and the back ends");
+  command->add_option("--json", arguments->json, "also write the tables to this file");
+  command->add_option("--data", arguments->data, "folder with joy [the development clips, or made]");
+  command->add_option("--out", arguments->out, "folder for clips that have to be made")
+      ->capture_default_str();
+  command->add_flag("--quick", arguments->lab.quick, "fewer frames, poses and repeats");
+  command->add_option("--backend", arguments->backends, "measure only this back end; may be given again");
+  command->add_flag("--engine-only", arguments->engine_only, "only the back ends: no clips are needed");
+  command
+      ->add_option("--soak", arguments->soak_minutes,
+                   "evaluate for so many minutes instead, and watch the memory")
+      ->check(CLI::Range(0.01, 1e5));
+  command->callback([arguments] { run_bench(*arguments); });
+}
+
+}  // namespace telemime

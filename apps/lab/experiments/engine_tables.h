@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lab/experiments/engine_bench.h"
+
+namespace telemime {
+
+/// What each stage of `simd` takes of an evaluation, on one thread, at the three working images: the time up
+/// to a stage, less that up to the one before.
+Table stage_table(const EngineOptions& options);
+
+/// One evaluation with each set of vector instructions that this processor has, on one thread.
+Table instruction_set_table(const EngineOptions& options);
+
+/// One evaluation with plain calls of OpenCV (opencv_baseline.h) beside `simd`, one thread each.
+Table opencv_table(const EngineOptions& options);
+
+/// Thesis Table 4-1: 100 to 700 overlap histograms at 160x120, with the published times beside.
+Table overlap_time_table(const EngineOptions& options);
+
+}  // namespace telemime

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/lab.h"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <utility>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::array<const char*, 4> kGestures = {"raising_arms", "joy", "exclaiming", "asking"};
+
+Grid track_grid(const std::vector<PreparedSequence>& sequences, const LabOptions& options) {
+  Grid grid;
+  grid.steps =
+      options.quick ? std::vector<double>{0, 100, 300} : std::vector<double>{0, 50, 100, 200, 350, 500};
+  for (std::size_t s = 0; s < sequences.size(); ++s) {
+    for (const double edge : grid.steps) {
+      for (const double region : grid.steps) {
+        GridCell cell;
+        cell.sequence = s;
+        cell.region = static_cast<int>(region);
+        cell.edge = static_cast<int>(edge);
+        grid.cells.push_back(cell);
+      }
+    }
+  }
+  std::vector<double> lengths;
+  for (const GridCell& cell : grid.cells) {
+    lengths.push_back(cell.region + cell.edge);
+  }
+  longest_first(lengths, [&](std::size_t i) {
+    GridCell& cell = grid.cells[i];
+    const Trace trace =
+        track_sequence(sequences[cell.sequence], reference_with(cell.region, cell.edge), options.seed);
+    cell.mean_region = mean_of(trace.region);
+    cell.mean_contour = mean_of(trace.contour);
+    cell.region_peaks = static_cast<double>(count_above(trace.region, options.peaks.region));
+    cell.contour_peaks = static_cast<double>(count_above(trace.contour, options.peaks.contour));
+    cell.error_2d = mean_of(trace.error_2d);
+    cell.error_3d = mean_of(trace.error_3d);
+  });
+  return grid;
+}
+
+}  // namespace
+
+FilterSetup filter_setup(const std::string& heuristics) {
+  return heuristics == kOurFilter ? our_setup() : reference_setup(heuristics);
+}
+
+std::string filter_title(const std::string& heuristics) {
+  return heuristics == kCondensation  ? "CONDENSATION"
+         : heuristics == kAllTogether ? "all heuristics"
+         : heuristics == kOurFilter   ? "our filter"
+                                      : heuristics;
+}
+
+Config experiment_config(std::uint64_t seed) {
+  Config config;
+  config.seed = seed;
+  config.image.width = 160;
+  config.image.height = 120;
+  return config;
+}
+
+Lab::Lab(LabOptions options) : options_(std::move(options)) {
+  if (!options_.seconds) {
+    throw Error(ErrorKind::usage, "experiments need a clock");
+  }
+}
+
+void Lab::say(const std::string& words) const {
+  if (options_.progress) {
+    options_.progress(words);
+  }
+}
+
+const std::vector<PreparedSequence>& Lab::gestures() {
+  if (gestures_.empty()) {
+    say("preparing the four gestures at 160x120");
+    std::vector<PreparedSequence> prepared(kGestures.size());
+    tbb::parallel_for(std::size_t{0}, kGestures.size(), [&](std::size_t i) {
+      const Clip clip = read_clip(options_.data / kGestures[i], options_.quick ? 24 : 0);
+      prepared[i] = prepare_sequence(clip, experiment_config(options_.seed));
+    });
+    gestures_ = std::move(prepared);
+  }
+  return gestures_;
+}
+
+const PreparedSequence& Lab::gesture(const std::string& name) {
+  for (const PreparedSequence& sequence : gestures()) {
+    if (sequence.name == name) {
+      return sequence;
+    }
+  }
+  throw Error(ErrorKind::usage, "there is no sequence '" + name + "'");
+}
+
+const Clip& Lab::timing_clip() {
+  if (!clip_) {
+    clip_ = read_clip(options_.data / "joy", options_.quick ? 12 : 40);
+  }
+  return *clip_;
+}
+
+const Grid& Lab::grid() {
+  if (!grid_) {
+    const auto& sequences = gestures();
+    say("tracking the four gestures over the grid of iterations");
+    grid_ = track_grid(sequences, options_);
+  }
+  return *grid_;
+}
+
+std::size_t Lab::seeds() const {
+  return static_cast<std::size_t>(options_.seeds > 0 ? options_.seeds : options_.quick ? 2 : 5);
+}
+
+const FilterSweep& Lab::filter(const std::string& heuristics) {
+  const auto known = filters_.find(heuristics);
+  if (known != filters_.end()) {
+    return known->second;
+  }
+  const auto& sequences = gestures();
+  const std::vector<int> particles =
+      options_.quick ? std::vector<int>{100, 300}
+                     : std::vector<int>{100, 200, 300, 400, 500, 600, 700, 800, 900, 1000};
+  say("tracking the four gestures with " + filter_title(heuristics) + ", up to " +
+      std::to_string(particles.back()) + " particles");
+  const FilterSetup setup = filter_setup(heuristics);
+  const auto search = [&](const PreparedSequence& sequence, int count, std::uint64_t seed) {
+    FilterSetup with = setup;
+    with.filter.particles = count;
+    return track_filter(sequence, with, seed);
+  };
+  return filters_
+      .emplace(heuristics, sweep(sequences, particles, options_.seed, seeds(), options_.peaks, search))
+      .first->second;
+}
+
+QuadraticFit Lab::fit() {
+  const Grid& g = grid();
+  const std::size_t n = g.steps.size();
+  std::vector<ErrorSample> samples;
+  for (std::size_t e = 0; e < n; ++e) {
+    for (std::size_t r = 0; r < n; ++r) {
+      double sum = 0.0;
+      for (std::size_t s = 0; s < kGestures.size(); ++s) {
+        sum += g.at(s, e, r).error_2d;
+      }
+      samples.push_back({g.steps[r], g.steps[e], sum / static_cast<double>(kGestures.size())});
+    }
+  }
+  return fit_quadratic(samples);
+}
+
+std::vector<Trace> track_all(const PreparedSequence& sequence,
+                             const std::vector<RegistrationConfig>& searches, std::uint64_t seed) {
+  std::vector<Trace> traces(searches.size());
+  tbb::parallel_for(std::size_t{0}, searches.size(),
+                    [&](std::size_t i) { traces[i] = track_sequence(sequence, searches[i], seed); });
+  return traces;
+}
+
+}  // namespace telemime

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lab/experiments/filter_sweep.h"
+#include "lab/experiments/sequence.h"
+#include "telemime/search/budget.h"
+
+namespace telemime {
+
+struct LabOptions {
+  std::filesystem::path data;  ///< holds raising_arms/, joy/, exclaiming/, asking/
+  bool quick = false;          ///< few frames, coarse grids: shows that it runs, not what is true
+  std::uint64_t seed = 1;
+  int seeds = 0;  ///< runs of a particle filter, each with a seed of its own; 0: 5, 2 when quick
+  PeakThresholds peaks;
+  std::function<void(const std::string&)> progress;  ///< what is being done, in words; may be empty
+  std::function<double()> seconds;  ///< clock of the calling thread's computing time, for the timings
+};
+
+/// One cell of the grid: a sequence tracked with x region and y edge evaluations a frame.
+struct GridCell {
+  std::size_t sequence = 0;
+  int region = 0;
+  int edge = 0;
+  double mean_region = 0.0;
+  double mean_contour = 0.0;
+  double region_peaks = 0.0;   ///< frames
+  double contour_peaks = 0.0;  ///< frames
+  double error_2d = 0.0;       ///< mm
+  double error_3d = 0.0;       ///< mm
+};
+
+struct Grid {
+  std::vector<double> steps;    ///< numbers of evaluations, the same for both
+  std::vector<GridCell> cells;  ///< by sequence, then edge, then region
+  const GridCell& at(std::size_t sequence, std::size_t edge_index, std::size_t region_index) const {
+    return cells[(sequence * steps.size() + edge_index) * steps.size() + region_index];
+  }
+};
+
+/// Names for Lab::filter besides lists of heuristics of the thesis's filter.
+inline constexpr const char* kCondensation = "";
+inline constexpr const char* kAllTogether = "wd,hpm,lo,kf,ee";
+inline constexpr const char* kOurFilter = "ours";
+
+/// What experiments share: clips and sequences are read and prepared when they are first asked for; the
+/// grid over the iterations and each filter are tracked once.
+class Lab {
+ public:
+  /// Throws Error(usage) without a clock.
+  explicit Lab(LabOptions options);
+
+  const LabOptions& options() const { return options_; }
+  /// The four gestures at 160x120.
+  const std::vector<PreparedSequence>& gestures();
+  const PreparedSequence& gesture(const std::string& name);
+  /// The clip that timings are made on.
+  const Clip& timing_clip();
+  const Grid& grid();
+  /// The four gestures with a particle filter of 100 to 1000 particles: the thesis's with these heuristics,
+  /// or ours.
+  const FilterSweep& filter(const std::string& heuristics);
+  /// Runs of each particle filter.
+  std::size_t seeds() const;
+  /// Fit to the mean 2-D error over the gestures (thesis Figure 3-28).
+  QuadraticFit fit();
+  /// Evaluations after which a search counts as run to convergence.
+  int to_convergence() const { return options_.quick ? 800 : 3000; }
+  void say(const std::string& words) const;
+
+ private:
+  LabOptions options_;
+  std::vector<PreparedSequence> gestures_;
+  std::optional<Clip> clip_;
+  std::optional<Grid> grid_;
+  std::map<std::string, FilterSweep> filters_;
+};
+
+/// The filter that Lab::filter names.
+FilterSetup filter_setup(const std::string& heuristics);
+
+/// The filter's name in tables and plots.
+std::string filter_title(const std::string& heuristics);
+
+/// The configuration that experiments prepare sequences with: 160x120, all else by default.
+Config experiment_config(std::uint64_t seed);
+
+/// Tracks one sequence with several searches, side by side on all cores; results do not depend on how many
+/// there are.
+std::vector<Trace> track_all(const PreparedSequence& sequence,
+                             const std::vector<RegistrationConfig>& searches, std::uint64_t seed);
+
+}  // namespace telemime

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/experiments/timing.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+
+#include "lab/experiments/engine_tables.h"
+#include "lab/experiments/experiments.h"
+#include "lab/experiments/plot.h"
+#include "lab/experiments/report.h"
+#include "telemime/core/errors.h"
+#include "telemime/evaluation/error_means.h"
+#include "telemime/image/subtraction.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kMilliseconds = 1e3;
+
+// Median time of the features of the timing clip's frames, in the steady state.
+double measure_features(Lab& lab, const ImageConfig& config) {
+  const Clip& clip = lab.timing_clip();
+  FeatureExtractor features(config);
+  features.learn_background(clip.background);
+  const PersonReport person = features.begin_person(clip.frames.front());
+  if (!person.accepted) {
+    throw Error(ErrorKind::tracking, clip.name + ": " + person.reason,
+                "Timings need a clip that starts with a face.");
+  }
+  std::vector<double> times;
+  for (const Frame& frame : clip.frames) {
+    const double start = lab.options().seconds();
+    const Observation seen = features.extract(frame);
+    times.push_back(kMilliseconds * (lab.options().seconds() - start));
+  }
+  return median_of(times);
+}
+
+std::string size_words(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+}  // namespace
+
+double median_of(std::vector<double> values) {
+  return quantile(std::move(values), 0.5).value_or(0.0);
+}
+
+std::vector<FrameTime> measure_frame_times(Lab& lab, std::span<const int> iterations) {
+  const Config config = experiment_config(lab.options().seed);
+  const double features_ms = measure_features(lab, config.image);
+  const PreparedSequence sequence = prepare_sequence(lab.timing_clip(), config);
+  const auto backend = make_scalar_backend();
+  std::vector<FrameTime> result;
+  for (const int count : iterations) {
+    const RegistrationConfig search = reference_with(count / 2, count - count / 2);
+    Random random(lab.options().seed);
+    Pose pose = sequence.start;
+    std::vector<double> times;
+    for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
+      const double start = lab.options().seconds();
+      Objective objective(*backend, sequence.frames[t], sequence.model, sequence.limits);
+      pose = register_pose(objective, pose, search, random).pose;
+      times.push_back(kMilliseconds * (lab.options().seconds() - start));
+    }
+    result.push_back({count, features_ms, median_of(times)});
+  }
+  return result;
+}
+
+EvaluationCost evaluation_cost(Lab& lab, int width, int height) {
+  const auto backend = make_scalar_backend();
+  Random random(lab.options().seed);
+  return measure_cost(*backend, make_model(Shape{}), Camera{}.scaled_to(width, height),
+                      lab.options().quick ? 3 : 9, random, lab.options().seconds);
+}
+
+SizeTime measure_size(Lab& lab, int width, int height) {
+  Config config = experiment_config(lab.options().seed);
+  config.image.width = width;
+  config.image.height = height;
+  return {width, height, measure_features(lab, config.image), evaluation_cost(lab, width, height)};
+}
+
+std::vector<SizeTime> measure_sizes(Lab& lab) {
+  constexpr std::array<std::array<int, 2>, 6> kSizes = {
+      {{160, 120}, {256, 256}, {320, 240}, {480, 480}, {512, 512}, {640, 480}}};
+  std::vector<SizeTime> times;
+  times.reserve(kSizes.size());
+  for (const auto& size : kSizes) {
+    times.push_back(measure_size(lab, size[0], size[1]));
+  }
+  return times;
+}
+
+Table beside(const Table& measured, const Table& published) {
+  Table joined = measured;
+  for (std::size_t c = 1; c < published.columns.size(); ++c) {
+    joined.columns.push_back(published.columns[c]);
+  }
+  for (auto& row : joined.rows) {
+    const auto match = std::find_if(published.rows.begin(), published.rows.end(),
+                                    [&](const auto& other) { return other.front() == row.front(); });
+    for (std::size_t c = 1; c < published.columns.size(); ++c) {
+      row.push_back(match == published.rows.end() ? "-" : (*match)[c]);
+    }
+  }
+  return joined;
+}
+
+Table background_time_table(Lab& lab) {
+  const Clip& clip = lab.timing_clip();
+  const auto small = [](const Frame& frame) {
+    cv::Mat picture;
+    cv::resize(frame.image, picture, cv::Size(160, 120), 0, 0, cv::INTER_AREA);
+    return picture;
+  };
+  std::vector<cv::Mat> empty;
+  std::vector<cv::Mat> pictures;
+  std::transform(clip.background.begin(), clip.background.end(), std::back_inserter(empty), small);
+  std::transform(clip.frames.begin(), clip.frames.end(), std::back_inserter(pictures), small);
+  Table table{"Table 3-1: background subtraction at 160x120, ms", {"method", "ours ms"}, {}};
+  for (const Subtraction method :
+       {Subtraction::rgb_difference, Subtraction::mixture, Subtraction::reference, Subtraction::robust}) {
+    const auto subtractor = make_subtractor(method, empty);
+    std::vector<double> times;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      for (const cv::Mat& picture : pictures) {
+        const double start = lab.options().seconds();
+        const cv::Mat foreground = subtractor->foreground(picture);
+        times.push_back(kMilliseconds * (lab.options().seconds() - start));
+      }
+    }
+    table.rows.push_back(
+        {std::string(kSubtractionNames[static_cast<std::size_t>(method)]), number(median_of(times))});
+  }
+  return beside(table, published_values("T3-1"));
+}
+
+Table frame_time_table(const std::vector<FrameTime>& times) {
+  Table table{
+      "Table 3-2: one frame at 160x120, ms", {"iterations", "features ms", "search ms", "frame ms"}, {}};
+  for (const FrameTime& t : times) {
+    table.rows.push_back(
+        {std::to_string(t.iterations), number(t.features_ms), number(t.search_ms), number(t.total_ms())});
+  }
+  return beside(table, published_values("T3-2"));
+}
+
+Table size_time_table(const std::vector<SizeTime>& times) {
+  Table table{"Table 3-3: by working size", {"size", "features ms", "F us", "D_C us", "D_C : F"}, {}};
+  for (const SizeTime& t : times) {
+    table.rows.push_back({size_words(t.width, t.height), number(t.features_ms),
+                          number(kMilliseconds * t.cost.region_ms), number(kMilliseconds * t.cost.edge_ms),
+                          number(t.cost.edge_ms / t.cost.region_ms)});
+  }
+  return beside(table, published_values("T3-3"));
+}
+
+Finding background_times(Lab& lab) {
+  Finding finding;
+  finding.tables = {background_time_table(lab)};
+  const auto ms = [&](std::size_t row) { return std::stod(finding.tables[0].rows[row][1]); };
+  finding.notes = {
+      "All with the same opening and closing. 'reference' is the thesis's method, 'robust' the one that "
+      "telemime uses."};
+  finding.verdict = verdict({ms(0) < ms(1), ms(1) < ms(2)},
+                            "RGB difference " + number(ms(0)) + " ms, mixture " + number(ms(1)) +
+                                " ms, the thesis's " + number(ms(2)) + " ms, ours " + number(ms(3)) + " ms.");
+  return finding;
+}
+
+Finding frame_times(Lab& lab) {
+  constexpr std::array<int, 6> kIterations = {40, 100, 200, 300, 400, 500};
+  const std::vector<FrameTime> times = measure_frame_times(lab, kIterations);
+  Finding finding;
+  finding.tables = {frame_time_table(times)};
+  Series ours{"ours, one thread", {}, {}};
+  Series theirs{"thesis, platform 1", {40, 100, 200, 300, 400, 500}, {20, 31, 46, 62, 75, 93}};
+  for (const FrameTime& t : times) {
+    ours.x.push_back(t.iterations);
+    ours.y.push_back(t.total_ms());
+  }
+  finding.plots = {
+      {"plot", to_svg(LinePlot{"One frame at 160x120", "iterations (evaluations)", "ms", {ours, theirs}})}};
+  const double per_500 = times.back().total_ms();
+  finding.notes = {"With 500 evaluations a frame takes " + number(per_500) + " ms: " + number(1e3 / per_500) +
+                   " frames a second on one thread, features and search one after the other."};
+  finding.verdict = verdict({times.back().search_ms > 3.0 * times.front().search_ms},
+                            "the time grows in proportion to the evaluations, as published; the whole is " +
+                                number(93.0 / per_500) + " times as fast as platform 1.");
+  return finding;
+}
+
+Finding size_times(Lab& lab) {
+  const std::vector<SizeTime> times = measure_sizes(lab);
+  Finding finding;
+  finding.tables = {size_time_table(times)};
+  Series region{"one F", {}, {}};
+  Series edge{"one D_C", {}, {}};
+  for (const SizeTime& t : times) {
+    const double kilopixels = 1e-3 * t.width * t.height;
+    region.x.push_back(kilopixels);
+    region.y.push_back(kMilliseconds * t.cost.region_ms);
+    edge.x.push_back(kilopixels);
+    edge.y.push_back(kMilliseconds * t.cost.edge_ms);
+  }
+  finding.plots = {
+      {"plot", to_svg(LinePlot{"One evaluation by size", "thousand pixels", "us", {region, edge}})}};
+  finding.notes = {
+      "An evaluation's time grows slower than the pixels: part of it is projecting the mesh, which has the "
+      "same "
+      "number of triangles at every size."};
+  const double first = times.front().cost.edge_ms / times.front().cost.region_ms;
+  const double last = times.back().cost.edge_ms / times.back().cost.region_ms;
+  finding.verdict = verdict({first > last, times.back().features_ms > times.front().features_ms},
+                            "D_C costs " + number(first) + " of an F at 160x120 and " + number(last) +
+                                " at 640x480 (thesis: 1.06 and 0.77).");
+  return finding;
+}
+
+Finding overlap_times(Lab& lab) {
+  EngineOptions options;
+  options.backends = {"scalar", "simd"};
+  options.quick = lab.options().quick;
+  options.seed = lab.options().seed;
+  options.threads = 1;
+  options.seconds = lab.options().seconds;
+  Finding finding;
+  finding.tables = {overlap_time_table(options)};
+  const auto& rows = finding.tables.front().rows;
+  const auto column = [&](std::size_t i) {
+    std::vector<double> values;
+    std::transform(rows.begin(), rows.end(), std::back_inserter(values),
+                   [i](const auto& row) { return std::stod(row[i]); });
+    return values;
+  };
+  const std::vector<double> count = column(0);
+  const std::vector<double> scalar = column(1);
+  const std::vector<double> simd = column(2);
+  const std::vector<double> plain = column(3);
+  finding.plots = {{"plot", to_svg(LinePlot{"Overlap histograms at 160x120",
+                                            "histograms",
+                                            "ms",
+                                            {{"scalar, one thread", count, scalar},
+                                             {"simd, one thread", count, simd},
+                                             {"thesis, CPU in C++", count, plain},
+                                             {"thesis, GPU 1", count, column(5)}}})}};
+  finding.notes = {
+      "From the poses to the histograms: placing the model, drawing it and counting the overlap. Other back "
+      "ends, devices among them, and all threads: `telemime bench --engine-only`."};
+  finding.verdict = verdict(
+      {simd.back() < scalar.back(), scalar.back() > 2.0 * scalar.front()},
+      number(count.back()) + " histograms take " + number(scalar.back()) + " ms with plain code and " +
+          number(simd.back()) + " ms with vector instructions on one thread, " +
+          number(plain.back() / simd.back()) + " times as fast as the thesis's CPU and " +
+          number(column(5).back() / simd.back()) + " times as fast as its first GPU.");
+  return finding;
+}
+
+}  // namespace telemime

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "lab/synth/avatar.h"
+#include "lab/synth/room.h"
+#include "telemime/core/camera.h"
+
+namespace telemime {
+
+/// The lights: a soft window-like key light from the upper left behind the camera, light from all sides, and
+/// a warm lamp at the right that may come on.
+struct Lighting {
+  Eigen::Vector3f to_key{-0.46f, -0.42f, -0.78f};  ///< camera frame, toward the light; any length
+  float key = 0.84f;
+  float ambient = 0.46f;
+  float lamp = 0.0f;                           ///< 0 off ... 1 on
+  Eigen::Vector3f lamp_at{1.1f, -0.7f, 0.7f};  ///< camera frame, m
+};
+
+/// A picture without sensor noise.
+struct RenderedImage {
+  cv::Mat light;     ///< (height x width) CV_32FC3, linear light, BGR, 1 is white
+  cv::Mat surfaces;  ///< (height x width) CV_8UC1, Surface at the pixel's centre
+};
+
+/// Renders the person (nullptr: nobody) before the room by sphere tracing, with soft shadows on the body and
+/// on the wall, ambient occlusion, and four rays per pixel along edges. The room's albedo must have the
+/// camera's size, else Error(usage). Runs on the calling thread's oneTBB arena; the result does not depend on
+/// its size.
+RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar* avatar,
+                           const Lighting& lighting);
+
+}  // namespace telemime

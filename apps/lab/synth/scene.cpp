@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "lab/synth/sequence.h"
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+// Streams of the seed: what is drawn from one never shifts what is drawn from another.
+constexpr std::uint64_t kLookStream = 1;
+constexpr std::uint64_t kRoomStream = 2;
+// The background clip's noise must not repeat that of the frames.
+constexpr std::uint64_t kBackgroundFrames = 1'000'000;
+
+constexpr std::array<Joint, kJointCount> kTruthOrder = {
+    Joint::root,    Joint::neck,    Joint::head,    Joint::l_shoulder, Joint::r_shoulder, Joint::l_elbow,
+    Joint::r_elbow, Joint::l_wrist, Joint::r_wrist, Joint::head_top,   Joint::l_hand,     Joint::r_hand};
+constexpr std::array<std::pair<Joint, Joint>, 10> kTruthBones = {{{Joint::neck, Joint::head},
+                                                                  {Joint::head, Joint::head_top},
+                                                                  {Joint::l_shoulder, Joint::r_shoulder},
+                                                                  {Joint::l_shoulder, Joint::l_elbow},
+                                                                  {Joint::l_elbow, Joint::l_wrist},
+                                                                  {Joint::r_shoulder, Joint::r_elbow},
+                                                                  {Joint::r_elbow, Joint::r_wrist},
+                                                                  {Joint::l_wrist, Joint::l_hand},
+                                                                  {Joint::r_wrist, Joint::r_hand},
+                                                                  {Joint::root, Joint::neck}}};
+
+std::string name_of(Joint joint) {
+  return std::string(kJointNames[static_cast<std::size_t>(joint)]);
+}
+
+double hundredths(double value) {
+  return std::round(value * 100.0) / 100.0;
+}
+
+Lighting lighting_at(const SceneOptions& options, int frame) {
+  Lighting lights;
+  if (options.light_change) {
+    const int middle = options.frames / 2;
+    lights.lamp = std::clamp(static_cast<float>(frame - middle + 1) / 3.0f, 0.0f, 1.0f);
+  }
+  return lights;
+}
+
+}  // namespace
+
+Scene make_scene(const SceneOptions& options) {
+  if (options.width < 16 || options.height < 12 || options.width > 4096 || options.height > 4096) {
+    throw Error(ErrorKind::usage,
+                "the image size " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                    " cannot be rendered",
+                "choose a size from 16x12 to 4096x4096, for instance 640x480");
+  }
+  if (options.frames < 1) {
+    throw Error(ErrorKind::usage, "a clip needs at least 1 frame", "choose a larger number of frames");
+  }
+  if (!(options.sensor.noise >= 0.0) || !(options.sensor.flicker >= 0.0)) {
+    throw Error(ErrorKind::usage, "noise and flicker cannot be negative", "choose 0 for a clean picture");
+  }
+  Scene scene;
+  scene.options = options;
+  scene.camera = camera_from_field_of_view(options.width, options.height, options.field_of_view);
+  Random look_random(options.seed, kLookStream);
+  scene.look = random_look(look_random);
+  scene.look.striped = options.striped_shirt;
+  if (options.long_sleeves) {
+    scene.look.sleeve = 1.97;
+  }
+  Random room_random(options.seed, kRoomStream);
+  scene.room = make_room(scene.camera, scene.look.shirt_index, room_random);
+  return scene;
+}
+
+ActorKinematics scene_kinematics(const Scene& scene, int frame) {
+  return actor_kinematics(scene.look.build, gesture_pose(scene.options.gesture, frame, scene.options.seed));
+}
+
+SynthFrame render_frame(const Scene& scene, int frame) {
+  const ActorKinematics kinematics = scene_kinematics(scene, frame);
+  const Avatar avatar = make_avatar(scene.look, kinematics);
+  const RenderedImage picture =
+      render_scene(scene.camera, scene.room, &avatar, lighting_at(scene.options, frame));
+  return {develop(picture.light, scene.options.sensor, scene.options.seed, static_cast<std::uint64_t>(frame)),
+          picture.surfaces, kinematics.joints};
+}
+
+cv::Mat render_background(const Scene& scene, int index) {
+  const RenderedImage picture = render_scene(scene.camera, scene.room, nullptr, Lighting{});
+  return develop(picture.light, scene.options.sensor, scene.options.seed,
+                 kBackgroundFrames + static_cast<std::uint64_t>(index));
+}
+
+std::string truth_json(const Scene& scene) {
+  using Json = nlohmann::ordered_json;
+  const Camera& camera = scene.camera;
+  const Camera small = camera.scaled_to(160, 160 * camera.height / camera.width);
+  Json truth;
+  truth["name"] = kGestureNames[static_cast<std::size_t>(scene.options.gesture)];
+  truth["fps"] = static_cast<int>(kGestureFps);
+  truth["width"] = camera.width;
+  truth["height"] = camera.height;
+  truth["fx"] = camera.fx;
+  truth["fy"] = camera.fy;
+  truth["cx"] = camera.cx;
+  truth["cy"] = camera.cy;
+  truth["pixel_convention"] = "u=fx*x/z+cx is measured from the CENTRE of the top-left pixel (OpenCV)";
+  truth["small"] = Json{{"width", small.width}, {"height", small.height}, {"fx", small.fx},
+                        {"fy", small.fy},       {"cx", small.cx},         {"cy", small.cy}};
+  truth["units"] = "mm";
+  truth["frame"] = "camera: x right, y down, z forward";
+  truth["sides"] = "l_/r_ are the person's own left/right; the image is not mirrored";
+  for (const Joint joint : kTruthOrder) {
+    truth["joints"].push_back(name_of(joint));
+  }
+  const JointPositions first = scene_kinematics(scene, 0).joints;
+  for (const auto& [a, b] : kTruthBones) {
+    truth["bone_lengths"][name_of(a) + "-" + name_of(b)] = hundredths((first[a] - first[b]).norm() * 1000.0);
+  }
+  truth["frames"] = scene.options.frames;
+  truth["note"] = gesture_note(scene.options.gesture);
+  truth["positions"] = Json::array();
+  for (int frame = 0; frame < scene.options.frames; ++frame) {
+    const JointPositions joints = scene_kinematics(scene, frame).joints;
+    Json row = Json::array();
+    for (const Joint joint : kTruthOrder) {
+      const Eigen::Vector3d mm = joints[joint] * 1000.0;
+      row.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
+    }
+    truth["positions"].push_back(std::move(row));
+  }
+  return truth.dump();
+}
+
+}  // namespace telemime

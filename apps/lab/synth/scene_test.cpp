@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <opencv2/core.hpp>
+
+#include "lab/synth/sequence.h"
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+SceneOptions small_scene(Gesture gesture = Gesture::asking, std::uint64_t seed = 1) {
+  SceneOptions options;
+  options.gesture = gesture;
+  options.seed = seed;
+  options.width = 80;
+  options.height = 60;
+  return options;
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+Surface surface_at(const SynthFrame& frame, const Camera& camera, const Eigen::Vector3d& point) {
+  const Eigen::Vector2d pixel = camera.project(point);
+  return static_cast<Surface>(frame.surfaces.at<std::uint8_t>(static_cast<int>(std::lround(pixel.y())),
+                                                              static_cast<int>(std::lround(pixel.x()))));
+}
+
+TEST(Scene, SameSeedSamePixelsWhateverTheThreads) {
+  const Scene scene = make_scene(small_scene());
+  const Scene again = make_scene(small_scene());
+  SynthFrame one;
+  SynthFrame many;
+  tbb::task_arena(1).execute([&] { one = render_frame(scene, 43); });
+  tbb::task_arena(2).execute([&] { many = render_frame(again, 43); });
+  EXPECT_TRUE(same(one.image, many.image));
+  EXPECT_TRUE(same(one.surfaces, many.surfaces));
+  EXPECT_FALSE(same(one.image, render_frame(make_scene(small_scene(Gesture::asking, 2)), 43).image));
+}
+
+TEST(Scene, FramesDoNotDependOnTheOrderInWhichTheyAreRendered) {
+  const Scene scene = make_scene(small_scene());
+  const cv::Mat before = render_frame(scene, 10).image;
+  render_frame(scene, 90);
+  EXPECT_TRUE(same(before, render_frame(scene, 10).image));
+}
+
+TEST(Scene, TrueJointsLieOnThePersonAndFrameZeroShowsAllOfThem) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (std::size_t g = 0; g < kGestureCount; ++g) {
+      SceneOptions options = small_scene(static_cast<Gesture>(g), seed);
+      options.width = 160;
+      options.height = 120;
+      const Scene scene = make_scene(options);
+      const SynthFrame frame = render_frame(scene, 0);
+      const auto at = [&](Joint joint) { return surface_at(frame, scene.camera, frame.joints[joint]); };
+      for (const Joint joint :
+           {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist, Joint::l_hand, Joint::r_hand}) {
+        EXPECT_EQ(at(joint), Surface::arm)
+            << kJointNames[static_cast<std::size_t>(joint)] << " seed " << seed;
+      }
+      EXPECT_EQ(at(Joint::l_shoulder), Surface::shirt);
+      EXPECT_EQ(at(Joint::r_shoulder), Surface::shirt);
+      EXPECT_EQ(at(Joint::head), Surface::head);
+      // Nothing of the hands is cut off by the edge of the image.
+      const cv::Mat arms = frame.surfaces == static_cast<int>(Surface::arm);
+      EXPECT_EQ(cv::countNonZero(arms), cv::countNonZero(arms(cv::Rect(1, 1, 158, 118)))) << "seed " << seed;
+      EXPECT_EQ(frame.joints[Joint::l_wrist].x() > frame.joints[Joint::r_wrist].x(), true);
+    }
+  }
+}
+
+TEST(Scene, HandsAndArmsNeverEnterTheTrunk) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::size_t g = 0; g < kGestureCount; ++g) {
+      const Scene scene = make_scene(small_scene(static_cast<Gesture>(g), seed));
+      for (int frame = 0; frame < kGestureFrames; frame += 2) {
+        const ActorKinematics k = scene_kinematics(scene, frame);
+        Avatar avatar = make_avatar(scene.look, k);
+        std::erase_if(avatar.parts, [](const BodyPart& part) {
+          return part.kind != BodyPart::Kind::torso && part.kind != BodyPart::Kind::head;
+        });
+        PartSelection all;
+        for (const BodyPart& part : avatar.parts) {
+          all.parts[all.count++] = &part;
+        }
+        for (const Joint joint : {Joint::l_wrist, Joint::r_wrist, Joint::l_hand, Joint::r_hand}) {
+          EXPECT_GT(sample_body(avatar, all, k.joints[joint].cast<float>()).distance, 0.012f)
+              << kGestureNames[g] << " seed " << seed << " frame " << frame << " "
+              << kJointNames[static_cast<std::size_t>(joint)];
+        }
+      }
+    }
+  }
+}
+
+TEST(Scene, BoundingBallsHoldTheirParts) {
+  const Scene scene = make_scene(small_scene(Gesture::joy, 5));
+  for (const HairStyle style : {HairStyle::cap, HairStyle::short_hair, HairStyle::bob}) {
+    Look look = scene.look;
+    look.style = style;
+    const Avatar avatar = make_avatar(look, scene_kinematics(scene, 30));
+    Random random(11);
+    for (const BodyPart& part : avatar.parts) {
+      PartSelection one;
+      one.parts[one.count++] = &part;
+      for (int i = 0; i < 400; ++i) {
+        Eigen::Vector3d direction{random.normal(), random.normal(), random.normal()};
+        direction.normalize();
+        const Eigen::Vector3f p = part.centre + 1.001f * part.radius * direction.cast<float>();
+        EXPECT_GT(sample_body(avatar, one, p).distance, 0.0f);
+      }
+    }
+  }
+}
+
+TEST(Scene, WithoutNoiseTheRoomBesideThePersonAndHerShadowIsTheBackground) {
+  SceneOptions options = small_scene(Gesture::raising_arms);
+  options.sensor = {0.0, 0.0};
+  const Scene scene = make_scene(options);
+  const SynthFrame frame = render_frame(scene, 0);
+  const cv::Mat background = render_background(scene, 0);
+  EXPECT_TRUE(same(background, render_background(scene, 7)));
+  // Above her head to the left no shadow falls.
+  const cv::Rect corner(0, 0, 20, 12);
+  EXPECT_EQ(cv::countNonZero(frame.surfaces(corner)), 0);
+  EXPECT_TRUE(same(frame.image(corner).clone(), background(corner).clone()));
+  // The shadow only darkens: it lies below her to the right.
+  const cv::Rect shadow(56, 44, 20, 14);
+  const cv::Mat room = frame.surfaces(shadow) == 0;
+  EXPECT_LT(cv::mean(frame.image(shadow), room)[1], cv::mean(background(shadow), room)[1] - 2.0);
+}
+
+TEST(Scene, NoiseHasTheStatedDeviation) {
+  SceneOptions options = small_scene();
+  options.sensor = {3.0, 0.0};
+  const Scene noisy = make_scene(options);
+  options.sensor = {0.0, 0.0};
+  const Scene clean = make_scene(options);
+  cv::Mat difference;
+  cv::subtract(render_background(noisy, 3), render_background(clean, 3), difference, cv::noArray(), CV_32F);
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(difference, mean, deviation);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(mean[c], 0.0, 0.2);
+    EXPECT_NEAR(deviation[c], 3.0, 0.2);
+  }
+}
+
+TEST(Scene, TheLampBrightensMostInRedAndOnlyAfterTheMiddle) {
+  SceneOptions options = small_scene();
+  options.frames = 40;
+  options.sensor = {0.0, 0.0};
+  const Scene plain = make_scene(options);
+  options.light_change = true;
+  const Scene lamp = make_scene(options);
+  EXPECT_TRUE(same(render_frame(plain, 18).image, render_frame(lamp, 18).image));
+  const cv::Scalar off = cv::mean(render_frame(plain, 30).image);
+  const cv::Scalar on = cv::mean(render_frame(lamp, 30).image);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_GT(on[c] / off[c], 1.04);
+    EXPECT_LT(on[c] / off[c], 1.30);
+  }
+  EXPECT_GT(on[2] / off[2], on[0] / off[0] + 0.03);
+}
+
+TEST(Scene, LongSleevesCoverTheForearm) {
+  SceneOptions options = small_scene();
+  options.long_sleeves = true;
+  const Scene scene = make_scene(options);
+  const SynthFrame frame = render_frame(scene, 0);
+  const Eigen::Vector3d middle = 0.5 * (frame.joints[Joint::l_elbow] + frame.joints[Joint::l_wrist]);
+  EXPECT_EQ(surface_at(frame, scene.camera, middle), Surface::shirt);
+  EXPECT_EQ(surface_at(frame, scene.camera, frame.joints[Joint::l_hand]), Surface::arm);
+}
+
+TEST(Scene, ImpossibleOptionsAreRefused) {
+  SceneOptions options = small_scene();
+  options.width = 4;
+  EXPECT_THROW(make_scene(options), Error);
+  options = small_scene();
+  options.frames = 0;
+  EXPECT_THROW(make_scene(options), Error);
+  options = small_scene();
+  options.sensor.noise = -1.0;
+  EXPECT_THROW(make_scene(options), Error);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab/synth/gesture.h"
+#include "lab/synth/render.h"
+#include "lab/synth/sensor.h"
+#include "telemime/core/camera.h"
+
+namespace telemime {
+
+/// What to film. Same options, same pixels, whatever the number of threads.
+struct SceneOptions {
+  Gesture gesture = Gesture::asking;
+  int width = 640;
+  int height = 480;
+  double field_of_view = 60.0;  ///< horizontal, degrees
+  std::uint64_t seed = 1;       ///< draws the person, the room, the manner of the gesture and the noise
+  int frames = kGestureFrames;  ///< a longer clip repeats the gesture
+  Sensor sensor;
+  bool light_change = false;  ///< a warm lamp comes on within three frames at the middle of the clip
+  bool long_sleeves = false;
+  bool striped_shirt = false;
+};
+
+/// The person, the room and the camera, ready to be filmed; a constant value.
+struct Scene {
+  SceneOptions options;
+  Camera camera;
+  Look look;
+  Room room;
+};
+
+/// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame, or negative
+/// noise.
+Scene make_scene(const SceneOptions& options);
+
+/// The bones at a frame (0-based), camera frame, m.
+ActorKinematics scene_kinematics(const Scene& scene, int frame);
+
+/// One frame as the camera would give it, with what each pixel shows and the true joints.
+struct SynthFrame {
+  cv::Mat image;          ///< (height x width) CV_8UC3, BGR
+  cv::Mat surfaces;       ///< (height x width) CV_8UC1, Surface
+  JointPositions joints;  ///< camera frame, m
+};
+SynthFrame render_frame(const Scene& scene, int frame);
+
+/// A frame of the same room without the person; `index` only changes noise and flicker.
+cv::Mat render_background(const Scene& scene, int index);
+
+/// The true joints of all frames as JSON: intrinsics, joint names, positions in mm, bone lengths of frame 0.
+std::string truth_json(const Scene& scene);
+
+struct SequenceOptions {
+  SceneOptions scene;
+  std::filesystem::path folder;  ///< DIR; the files go to DIR/<gesture>/
+  int background_frames = 40;    ///< 0: no background clip
+  /// video.mp4 and background.mp4 (H.264 at rate factor 23, the only one that OpenCV 4.6 can write; it wipes
+  /// out most of the noise) instead of lossless video.mkv and background.mkv (FFV1).
+  bool compact = false;
+  bool small_videos = true;  ///< also video_160x120.mkv and background_160x120.mkv, always lossless;
+                             ///< not for images that are no larger
+  int threads = 0;           ///< 0: all cores, which is also the most
+  /// Called on the calling thread after each frame with (frames done, frames in all); may be empty.
+  std::function<void(int, int)> progress;
+};
+
+struct SequenceFiles {
+  std::filesystem::path video;
+  std::vector<std::filesystem::path> all;
+};
+
+/// Films the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// A compact clip of odd size, or where OpenCV can write neither H.264 nor MPEG-4, is lossless all the same.
+/// Throws Error(output) that names the file which could not be written.
+SequenceFiles make_sequence(const SequenceOptions& options);
+
+}  // namespace telemime

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/synth/sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "telemime/capture/source.h"
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+SceneOptions small_scene(Gesture gesture) {
+  SceneOptions options;
+  options.gesture = gesture;
+  options.width = 80;
+  options.height = 60;
+  return options;
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+class SequenceFolder : public testing::Test {
+ protected:
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() /
+      ("telemime_synth_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  void SetUp() override { std::filesystem::remove_all(folder); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+};
+
+TEST_F(SequenceFolder, WritesLosslessClipsThatReadBackAndTheTruth) {
+  SequenceOptions options;
+  options.scene = small_scene(Gesture::joy);
+  options.scene.width = 192;
+  options.scene.height = 144;
+  options.scene.frames = 3;
+  options.background_frames = 2;
+  options.folder = folder;
+  options.threads = 2;
+  int calls = 0;
+  options.progress = [&](int done, int all) {
+    EXPECT_EQ(done, ++calls);
+    EXPECT_EQ(all, 5);
+  };
+  const SequenceFiles files = make_sequence(options);
+  EXPECT_EQ(calls, 5);
+  for (const char* name : {"video.mkv", "video_160x120.mkv", "background.mkv", "background_160x120.mkv",
+                           "truth.json", "preview.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / "joy" / name)) << name;
+  }
+  EXPECT_EQ(files.all.size(), 6u);
+  EXPECT_EQ(files.video, folder / "joy" / "video.mkv");
+
+  const Scene scene = make_scene(options.scene);
+  const auto source = open_source(files.video.string());
+  for (int frame = 0; frame < 3; ++frame) {
+    const auto read = source->next();
+    ASSERT_TRUE(read.has_value());
+    EXPECT_TRUE(same(read->image, render_frame(scene, frame).image)) << "frame " << frame;
+  }
+  EXPECT_FALSE(source->next().has_value());
+
+  const auto truth = nlohmann::json::parse(std::ifstream(folder / "joy" / "truth.json"));
+  EXPECT_EQ(truth["frames"], 3);
+  EXPECT_EQ(truth["joints"].size(), kJointCount);
+  EXPECT_EQ(truth["joints"][7], "l_wrist");
+  EXPECT_EQ(truth["positions"].size(), 3u);
+  const double x = truth["positions"][1][7][0];
+  EXPECT_NEAR(x, 1000.0 * scene_kinematics(scene, 1).joints[Joint::l_wrist].x(), 0.006);
+  EXPECT_NEAR(truth["bone_lengths"]["l_elbow-l_wrist"].get<double>(), 1000.0 * scene.look.build.forearm,
+              0.006);
+}
+
+TEST_F(SequenceFolder, ACompactClipIsMp4) {
+  SequenceOptions options;
+  options.scene = small_scene(Gesture::asking);
+  options.scene.frames = 2;
+  options.background_frames = 0;
+  options.folder = folder;
+  options.compact = true;
+  const SequenceFiles files = make_sequence(options);
+  EXPECT_EQ(files.video, folder / "asking" / "video.mp4");
+  const auto source = open_source(files.video.string());
+  EXPECT_TRUE(source->next().has_value());
+  EXPECT_FALSE(std::filesystem::exists(folder / "asking" / "video_160x120.mkv"));
+}
+
+TEST_F(SequenceFolder, AFolderThatCannotBeMadeIsNamed) {
+  std::ofstream(folder.string()) << "in the way";
+  SequenceOptions options;
+  options.scene = small_scene(Gesture::asking);
+  options.folder = folder;
+  try {
+    make_sequence(options);
+    FAIL() << "wrote into a file";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::output);
+    EXPECT_NE(std::string(e.what()).find("asking"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meeting/hosting/accounts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "meeting/hosting/random_text.h"
+
+namespace telemime {
+namespace {
+
+const RoomAddress kRoom{"home", "blue"};
+
+TEST(RandomText, Base64IsThatOfRfc4648) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64url("\xfb\xff"), "-_8");
+  EXPECT_EQ(base64url(std::string(2, '\0')), "AAA");
+}
+
+// RFC 4231, test case 2.
+TEST(RandomText, ASignatureIsHmacSha256) {
+  EXPECT_EQ(signature("Jefe", "what do ya want for nothing?"), "W9zBRr9gdU5qBCQmCJV1x1oAPwidJzmDnexYuWTsOEM");
+}
+
+TEST(RandomText, SecretsDifferAndFitIntoAddresses) {
+  std::set<std::string> all;
+  for (int i = 0; i < 100; ++i) {
+    const std::string secret = random_secret();
+    EXPECT_EQ(secret.size(), 32U);
+    EXPECT_EQ(secret.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_"),
+              std::string::npos)
+        << secret;
+    all.insert(secret);
+  }
+  EXPECT_EQ(all.size(), 100U);
+}
+
+TEST(RandomText, SameSecretComparesAll) {
+  EXPECT_TRUE(same_secret("", ""));
+  EXPECT_TRUE(same_secret("abc", "abc"));
+  EXPECT_FALSE(same_secret("abc", "abd"));
+  EXPECT_FALSE(same_secret("abc", "abcd"));
+  EXPECT_FALSE(same_secret("abc", ""));
+}
+
+TEST(Accounts, IdsAreSegmentsInOrder) {
+  EXPECT_EQ(participant_id(1), "p01");
+  EXPECT_EQ(participant_id(10), "p10");
+  EXPECT_EQ(participant_id(1234), "p1234");
+  EXPECT_TRUE(is_room_segment(participant_id(1'000'000'000)));
+}
+
+TEST(Accounts, AWayBackIsReadAsItWasWritten) {
+  for (const unsigned number : {1U, 9U, 10U, 12345U, 999'999'999U}) {
+    for (const bool chair : {false, true}) {
+      const std::string text = way_back_text("key", {number, chair});
+      const auto way = read_way_back("key", text);
+      ASSERT_TRUE(way) << text;
+      EXPECT_EQ(way->number, number);
+      EXPECT_EQ(way->chair, chair);
+      EXPECT_LE(text.size(), 500U);
+    }
+  }
+}
+
+TEST(Accounts, AWayBackThatWasChangedIsNone) {
+  const std::string good = way_back_text("key", {12, false});
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = bad[i] == 'A' ? 'B' : 'A';
+    EXPECT_FALSE(read_way_back("key", bad)) << bad;
+    EXPECT_FALSE(read_way_back("key", good.substr(0, i))) << i;
+  }
+  EXPECT_FALSE(read_way_back("other", good));
+  EXPECT_FALSE(read_way_back("key", good + "A"));
+  EXPECT_FALSE(read_way_back("key", "13" + good.substr(2))) << "another participant";
+  EXPECT_FALSE(read_way_back("key", "12.c" + good.substr(4))) << "more rights";
+  EXPECT_FALSE(read_way_back("key", "012" + good.substr(2))) << "one text for one way";
+}
+
+TEST(Accounts, PasswordsBelongToOneParticipantOfOneRoom) {
+  std::set<std::string> all;
+  for (const char* const key : {"a", "b"}) {
+    for (unsigned number = 1; number < 100; ++number) {
+      all.insert(participant_password(key, participant_id(number)));
+    }
+    all.insert(watcher_account(kRoom, key).password);
+  }
+  EXPECT_EQ(all.size(), 200U);
+  EXPECT_EQ(participant_password("a", "p01"), participant_password("a", "p01"));
+}
+
+TEST(Accounts, AParticipantWritesOnlyBelowTheirOwnTopics) {
+  const BrokerAccount account = participant_account(kRoom, "key", "p07", false);
+  EXPECT_EQ(account.user, "blue.p07");
+  EXPECT_EQ(account.read, std::vector<std::string>{"r/home/blue/#"});
+  for (const std::string& topic : account.write) {
+    EXPECT_TRUE(topic.starts_with("r/home/blue/p/p07/")) << topic;
+    EXPECT_EQ(topic.find_first_of("#+"), std::string::npos) << topic;
+  }
+  const auto may = [](const BrokerAccount& a, const std::string& topic) {
+    return std::find(a.write.begin(), a.write.end(), topic) != a.write.end();
+  };
+  for (const char* const what : {"pose", "state", "presence", "chat", "board/0", "board/63"}) {
+    EXPECT_TRUE(may(account, std::string("r/home/blue/p/p07/") + what)) << what;
+  }
+  EXPECT_FALSE(may(account, "r/home/blue/room"));
+  EXPECT_TRUE(may(participant_account(kRoom, "key", "p07", true), "r/home/blue/room"));
+  EXPECT_TRUE(watcher_account(kRoom, "key").write.empty());
+  EXPECT_EQ(participant_of_user(kRoom, account.user), "p07");
+}
+
+}  // namespace
+}  // namespace telemime

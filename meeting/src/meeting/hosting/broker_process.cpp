@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meeting/hosting/broker_process.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "meeting/hosting/child_process.h"
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kFirstPause = 200;  // ms
+constexpr int kLongestPause = 5000;
+constexpr int kLongestEnd = 3000;
+constexpr int kTick = 20;
+constexpr std::size_t kMostSaid = 2000;  // bytes
+
+std::string words_of(int status) {
+  if (WIFSIGNALED(status)) {
+    return "signal " + std::to_string(WTERMSIG(status));
+  }
+  return "code " + std::to_string(WEXITSTATUS(status));
+}
+
+/// The last line of what a program said that is no warning, without the time that Mosquitto writes before it
+/// (s and ": ").
+std::string last_line(std::string_view said) {
+  while (!said.empty()) {
+    said = said.substr(0, said.find_last_not_of(" \r\n") + 1);
+    const std::size_t start = said.rfind('\n') + 1;  // 0 where there is none
+    std::string_view line = said.substr(start);
+    said = said.substr(0, start);
+    const std::size_t digits = line.find_first_not_of("0123456789");
+    if (digits != 0 && digits != std::string_view::npos && line.substr(digits).starts_with(": ")) {
+      line.remove_prefix(digits + 2);
+    }
+    if (!line.empty() && !line.starts_with("Warning: ")) {
+      return std::string(line);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+BrokerProcess::BrokerProcess(std::filesystem::path program, std::filesystem::path configuration, Tell tell)
+    : program_(std::move(program)), configuration_(std::move(configuration)), tell_(std::move(tell)) {
+  wake_ = ::eventfd(0, EFD_CLOEXEC);
+  if (wake_ < 0) {
+    throw Error(ErrorKind::output,
+                "the broker cannot be looked after: " + std::generic_category().message(errno));
+  }
+  thread_ = std::thread([this] { work(); });
+}
+
+BrokerProcess::~BrokerProcess() {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = ::write(wake_, &one, sizeof one);
+  thread_.join();
+  ::close(wake_);
+}
+
+// The child belongs to this thread: the system kills it when the thread ends.
+void BrokerProcess::work() {
+  int pause = kFirstPause;
+  std::string told;
+  for (;;) {
+    const auto begun = std::chrono::steady_clock::now();
+    std::string why;
+    try {
+      start();
+      listen();
+      why = end_of_run();
+    } catch (const Error& e) {
+      why = e.what();
+    }
+    bool again = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (const std::string words = last_line(said_); !words.empty()) {
+        why += ": " + words;
+      }
+      ending_ = why;
+      running_ = false;
+      again = again_;
+    }
+    if (wait(0)) {
+      return;
+    }
+    if (!again) {
+      if (wait(-1)) {
+        return;
+      }
+      continue;
+    }
+    if (std::chrono::steady_clock::now() - begun > std::chrono::milliseconds(kLongestPause)) {
+      pause = kFirstPause;
+      told.clear();
+    }
+    if (why != told) {  // one that cannot start would say the same for ever
+      tell_("the broker has ended (" + why + "); it is started anew");
+      told = why;
+    }
+    if (wait(pause)) {
+      return;
+    }
+    pause = std::min(2 * pause, kLongestPause);
+  }
+}
+
+void BrokerProcess::start() {
+  {
+    const std::lock_guard lock(mutex_);
+    said_.clear();
+  }
+  const ChildProcess child = start_child({program_.string(), "-c", configuration_.string()});
+  const std::lock_guard lock(mutex_);
+  process_ = child.id;
+  output_ = child.output;
+  end_ = static_cast<int>(::syscall(SYS_pidfd_open, child.id, 0));
+  ++runs_;
+  running_ = true;
+}
+
+// Until the program has ended or we are to. Closing its output is no end.
+void BrokerProcess::listen() {
+  std::array<char, 1024> text{};
+  int output = output_;  // -1: closed; poll() passes over it
+  while (output >= 0 || end_ >= 0) {
+    std::array<pollfd, 3> entries{{{output, POLLIN, 0}, {wake_, POLLIN, 0}, {end_, POLLIN, 0}}};
+    if (::poll(entries.data(), entries.size(), -1) < 0 && errno != EINTR) {
+      return;
+    }
+    if (entries[1].revents != 0) {
+      stop_child();
+      return;
+    }
+    if (entries[0].revents != 0) {
+      const ssize_t size = ::read(output_, text.data(), text.size());
+      if (size == 0 || (size < 0 && errno != EINTR)) {
+        output = -1;
+      }
+      hear(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+    } else if (entries[2].revents != 0) {
+      return;  // and all that it said was read
+    }
+  }
+}
+
+void BrokerProcess::hear(const char* text, std::size_t size) {
+  const std::lock_guard lock(mutex_);
+  said_.append(text, size);
+  said_.erase(0, said_.size() > kMostSaid ? said_.size() - kMostSaid : 0);
+}
+
+// Until it is waited for the number is its own: signal() must not find it afterwards.
+std::string BrokerProcess::end_of_run() {
+  siginfo_t about{};
+  while (::waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+  }
+  const std::lock_guard lock(mutex_);
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  for (int* const descriptor : {&output_, &end_}) {
+    if (*descriptor >= 0) {
+      ::close(std::exchange(*descriptor, -1));
+    }
+  }
+  return words_of(status);
+}
+
+// It has not been waited for: the number is still its own.
+void BrokerProcess::stop_child() const {
+  ::kill(process_, SIGTERM);
+  siginfo_t about{};
+  for (int waited = 0; waited < kLongestEnd; waited += kTick) {
+    about.si_pid = 0;
+    if (::waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+        about.si_pid != 0) {
+      return;
+    }
+    ::poll(nullptr, 0, kTick);
+  }
+  ::kill(process_, SIGKILL);
+}
+
+/// True: we are to end.
+bool BrokerProcess::wait(int milliseconds) const {
+  pollfd entry{wake_, POLLIN, 0};
+  return ::poll(&entry, 1, milliseconds) > 0;
+}
+
+void BrokerProcess::keep_running() {
+  const std::lock_guard lock(mutex_);
+  again_ = true;
+}
+
+std::uint64_t BrokerProcess::run() const {
+  const std::lock_guard lock(mutex_);
+  return running_ ? std::max<std::uint64_t>(runs_, 1) : 0;
+}
+
+bool BrokerProcess::signal(std::uint64_t run, int number) const {
+  const std::lock_guard lock(mutex_);
+  return process_ > 0 && runs_ == run && ::kill(process_, number) == 0;
+}
+
+pid_t BrokerProcess::process() const {
+  const std::lock_guard lock(mutex_);
+  return process_;
+}
+
+std::string BrokerProcess::last_words() const {
+  const std::lock_guard lock(mutex_);
+  return said_;
+}
+
+std::string BrokerProcess::ending() const {
+  const std::lock_guard lock(mutex_);
+  return running_ ? "" : ending_;
+}
+
+std::filesystem::path find_mosquitto(const std::string& given, const char* path) {
+  const auto runs = [](const std::filesystem::path& file) {
+    return std::filesystem::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+  };
+  if (!given.empty()) {
+    if (!runs(given)) {
+      throw Error(ErrorKind::usage, given + " is no program that can be started",
+                  "--mosquitto names the program of the broker Mosquitto.");
+    }
+    return std::filesystem::absolute(given);
+  }
+  std::string_view rest(path == nullptr ? "" : path);
+  const std::string all = std::string(rest) + ":/usr/sbin:/usr/local/sbin";
+  rest = all;
+  while (!rest.empty()) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    std::filesystem::path file = std::filesystem::path(folder) / "mosquitto";
+    if (file.is_absolute() && runs(file)) {
+      return file;
+    }
+  }
+  throw Error(ErrorKind::usage, "a room needs the broker Mosquitto, which is not installed here",
+              "On Debian: apt install mosquitto. --mosquitto FILE says where it is.");
+}
+
+}  // namespace telemime

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meeting/protocol/publish_pace.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "telemime/outputs/numbers.h"
+
+namespace telemime {
+namespace {
+
+PoseFrame turned(double degrees, std::int16_t hips_x = 0) {
+  PoseFrame frame;
+  frame.tracked = true;
+  frame.mask = 3;
+  frame.hips = {hips_x, 900, 0};
+  frame.rotation[1] = Eigen::AngleAxisd(degrees / kDegreesPerRadian, Eigen::Vector3d::UnitY());
+  return frame;
+}
+
+PoseFrame lost() {
+  return {};
+}
+
+/// Frames that go out in `seconds` when one comes every `interval`, each turned by `step` more degrees.
+int sent_in(PublishPace& pace, double seconds, double interval, double step) {
+  int sent = 0;
+  const auto count = static_cast<int>(std::lround(seconds / interval));
+  for (int i = 0; i < count; ++i) {
+    const double now = 1000.0 + i * interval;
+    const PoseFrame frame = turned(i * step);
+    if (pace.due(frame) <= now) {
+      pace.sent(frame, now);
+      ++sent;
+    }
+  }
+  return sent;
+}
+
+TEST(PublishPace, IsSharedByTheParticipants) {
+  EXPECT_EQ(publish_rate(0), 30.0);
+  EXPECT_EQ(publish_rate(1), 30.0);
+  EXPECT_EQ(publish_rate(10), 30.0);
+  EXPECT_EQ(publish_rate(15), 20.0);
+  EXPECT_EQ(publish_rate(60), 5.0);
+  EXPECT_EQ(publish_rate(1000), 5.0);
+}
+
+TEST(PublishPace, KeepsItsRateWhateverComesIn) {
+  for (const double input : {100.0, 60.0, 47.0}) {
+    for (const std::size_t participants : {1U, 12U, 20U, 60U}) {
+      PublishPace pace;
+      pace.set_participants(participants);
+      EXPECT_NEAR(sent_in(pace, 20.0, 1.0 / input, 1.0) / 20.0, publish_rate(participants), 0.2)
+          << input << " a second, " << participants;
+    }
+  }
+}
+
+TEST(PublishPace, SlowerFramesAllGoOut) {
+  PublishPace pace;
+  EXPECT_EQ(sent_in(pace, 10.0, 1.0 / 25.0, 1.0), 250);
+}
+
+TEST(PublishPace, TheFirstGoesAtOnce) {
+  PublishPace pace;
+  EXPECT_LT(pace.due(turned(0.0)), -1e9);
+  EXPECT_FALSE(pace.still(turned(0.0)));
+}
+
+TEST(PublishPace, IsTwoASecondWhileNobodyMoves) {
+  PublishPace pace;
+  EXPECT_NEAR(sent_in(pace, 20.0, 0.01, 0.0), 41, 1);
+  PublishPace crowded;
+  crowded.set_participants(1000);
+  EXPECT_NEAR(sent_in(crowded, 20.0, 0.01, 0.0), 41, 1);
+}
+
+TEST(PublishPace, AMoveAfterARestGoesAtOnce) {
+  PublishPace pace;
+  pace.sent(turned(0.0), 100.0);
+  EXPECT_DOUBLE_EQ(pace.due(turned(0.2)), 100.5);
+  EXPECT_LE(pace.due(turned(5.0)), 100.0 + 1e-9);
+  EXPECT_TRUE(pace.still(turned(0.2)));
+  EXPECT_FALSE(pace.still(turned(5.0)));
+  pace.sent(turned(5.0), 100.3);
+  pace.sent(turned(9.0), 100.301);
+  EXPECT_NEAR(pace.due(turned(15.0)), 100.3 + 1.0 / 30.0, 1e-9) << "a long wait is not made up for";
+}
+
+TEST(PublishPace, ALateFirstFrameMakesNoOtherWait) {
+  PublishPace pace;
+  double longest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const double came = 50.0 + i / 30.0;
+    const PoseFrame frame = turned(i);
+    const double went = i == 0 ? came + 0.03 : std::max({came, pace.due(frame), i == 1 ? 50.03 : 0.0});
+    longest = i < 3 ? longest : std::max(longest, went - came);
+    pace.sent(frame, went);
+  }
+  EXPECT_LT(longest, 1e-6);
+}
+
+TEST(PublishPace, StillnessHasBounds) {
+  EXPECT_TRUE(is_still(turned(0.0), turned(0.29)));
+  EXPECT_FALSE(is_still(turned(0.0), turned(0.31)));
+  EXPECT_FALSE(is_still(turned(0.0), turned(-0.31)));
+  EXPECT_TRUE(is_still(turned(0.0), turned(0.0, 2)));
+  EXPECT_FALSE(is_still(turned(0.0), turned(0.0, 3)));
+  EXPECT_FALSE(is_still(turned(0.0), turned(0.0, -3)));
+  PoseFrame other = turned(0.0);
+  other.hips = {2, 902, 2};  // 3.5 mm
+  EXPECT_FALSE(is_still(turned(0.0), other));
+  other = turned(0.0);
+  other.mask = 1;
+  EXPECT_FALSE(is_still(turned(0.0), other));
+  EXPECT_FALSE(is_still(turned(0.0), lost()));
+  EXPECT_FALSE(is_still(lost(), turned(0.0)));
+  EXPECT_TRUE(is_still(lost(), lost()));
+  other = turned(0.0);
+  other.rotation[1].coeffs() = -other.rotation[1].coeffs();
+  EXPECT_TRUE(is_still(turned(0.0), other)) << "the same rotation";
+  other.rotation[5] = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(is_still(turned(0.0), other)) << "not in the mask";
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// `telemime room` as a user starts it: what it says, what it leaves behind.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "e2e/run_program.h"
+#include "meeting/transport/room_entry.h"
+#include "visitor.h"
+
+namespace telemime::testing_rooms {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The children of a process, ended ones left out.
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename();
+    if (name.find_first_not_of("0123456789") == std::string::npos) {
+      const std::string status = content_of(entry.path() / "stat");
+      std::istringstream rest(status.substr(std::min(status.rfind(')') + 1, status.size())));
+      char state = 0;
+      pid_t of = 0;
+      if (rest >> state >> of && of == parent && state != 'Z') {
+        found.push_back(std::stoi(name));
+      }
+    }
+  }
+  return found;
+}
+
+class RoomCommand : public ::testing::Test {
+ protected:
+  RoomCommand() { ::setenv("XDG_STATE_HOME", folder_.path().c_str(), 1); }
+  ~RoomCommand() override { ::unsetenv("XDG_STATE_HOME"); }
+  std::vector<std::string> room(const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = {"room",      "--port", "0",           "--mqtt-port",     "0",
+                                    "--ws-port", "0",      "--mosquitto", TELEMIME_MOSQUITTO};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  /// Of what the program says: the rest of the line that begins so.
+  static std::string line(const std::string& text, const std::string& start) {
+    const std::size_t at = ("\n" + text).find("\n" + start);
+    return at == std::string::npos ? ""
+                                   : text.substr(at + start.size(), text.find('\n', at) - at - start.size());
+  }
+  static bool has(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+  }
+  e2e::Folder folder_;
+};
+
+TEST_F(RoomCommand, PrintsItsLinksAndEndsWell) {
+  const e2e::Ended ended = e2e::run(room({"--title", "Blue room", "--seconds", "0.2"}));
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_EQ(ended.words, "");
+  EXPECT_TRUE(has(ended.output, "the room \"Blue room\" is open: http://localhost:")) << ended.output;
+  for (const char* const what : {"to speak: ", "to watch: ", "to chair: "}) {
+    EXPECT_TRUE(is_room_link(line(ended.output, what))) << ended.output;
+  }
+  const e2e::Ended again = e2e::run(room({"--seconds", "0.2"}));
+  const auto invite = [](const e2e::Ended& run) {
+    return OpenRoom::invite_of(line(run.output, "to speak: "));
+  };
+  EXPECT_EQ(invite(again), invite(ended)) << "links that were shared keep working";
+  EXPECT_NE(invite(e2e::run(room({"--seconds", "0.2", "--new-links"}))), invite(ended));
+  EXPECT_NE(invite(e2e::run(room({"--seconds", "0.2", "--name", "other"}))), invite(ended));
+}
+
+TEST_F(RoomCommand, LeavesNoBrokerBehindHoweverItEnds) {
+  for (const int number : {SIGTERM, SIGINT, SIGHUP, SIGKILL}) {
+    e2e::Program program(room());
+    ASSERT_TRUE(comes_true([&] { return has(program.output(), "MQTT at port"); })) << program.words();
+    const std::vector<pid_t> brokers = children_of(program.process());
+    ASSERT_EQ(brokers.size(), 1U);
+    const std::string command = content_of("/proc/" + std::to_string(brokers[0]) + "/cmdline");
+    const fs::path own = fs::path(command.substr(command.find("-c") + 3).c_str()).parent_path();
+    EXPECT_TRUE(fs::exists(own));
+    program.signal(number);
+    if (number == SIGHUP) {
+      program.signal(number);  // terminals may say twice that they are closed
+    }
+    const e2e::Ended ended = program.wait();
+    EXPECT_EQ(ended.code, number == SIGKILL ? -1 : 0) << ended.words;
+    EXPECT_TRUE(comes_true([&] {
+      return children_of(::getpid()).empty() && !fs::exists("/proc/" + std::to_string(brokers[0]) + "/exe");
+    }));
+    EXPECT_TRUE(number == SIGKILL || !fs::exists(own)) << own;
+    if (number == SIGKILL) {
+      fs::remove_all(own);
+    }
+  }
+}
+
+TEST_F(RoomCommand, SaysNoSecretButItsLinks) {
+  e2e::Program program(room());
+  ASSERT_TRUE(comes_true([&] { return has(program.output(), "MQTT at port"); })) << program.words();
+  RoomEntry entry;
+  entry.link = line(program.output(), "to speak: ");
+  const RoomKey key = enter_room(entry);
+  const std::vector<pid_t> brokers = children_of(program.process());
+  ASSERT_EQ(brokers.size(), 1U);
+  std::vector<std::string> secrets = {key.password, key.way_back};
+  for (const char* const what : {"to speak: ", "to watch: ", "to chair: "}) {
+    secrets.push_back(OpenRoom::invite_of(line(program.output(), what)));
+  }
+  std::string seen;
+  for (const pid_t process : {program.process(), brokers[0]}) {
+    seen += content_of("/proc/" + std::to_string(process) + "/cmdline");
+    seen += content_of("/proc/" + std::to_string(process) + "/environ");
+  }
+  const std::string command = content_of("/proc/" + std::to_string(brokers[0]) + "/cmdline");
+  const fs::path own = fs::path(command.substr(command.find("-c") + 3).c_str()).parent_path();
+  for (const auto& entry_of : fs::directory_iterator(own)) {
+    seen += fs::is_regular_file(entry_of.path()) ? content_of(entry_of.path()) : "";
+  }
+  ASSERT_EQ(::kill(brokers[0], SIGKILL), 0);
+  ASSERT_TRUE(comes_true([&] { return has(program.words(), "started anew"); }));
+  ASSERT_TRUE(has(seen, "studio") || has(seen, key.user)) << "the broker's files were looked at";
+  for (const std::string& secret : secrets) {
+    EXPECT_FALSE(has(seen + program.words(), secret));
+  }
+  EXPECT_FALSE(has(program.output(), key.password));
+  EXPECT_FALSE(has(program.output(), key.way_back));
+}
+
+TEST_F(RoomCommand, WhatCannotBeDoneHasItsExitCode) {
+  EXPECT_EQ(e2e::run(room({"--name", "A B"})).code, 2);
+  EXPECT_EQ(e2e::run(room({"--address", "there"})).code, 2);
+  EXPECT_EQ(e2e::run(room({"--certificate", "/nothing/here", "--key", "/nothing/here"})).code, 2);
+  EXPECT_EQ(e2e::run(room({"--avatars", "/nothing/here"})).code, 2);
+  EXPECT_EQ(e2e::run({"room", "--mosquitto", "/nothing/here"}).code, 2);
+  const WebServer other(any_port(), {});
+  const e2e::Ended taken = e2e::run(
+      {"room", "--port", std::to_string(other.port()), "--mqtt-port", "0", "--ws-port", "0", "--quiet"});
+  EXPECT_EQ(taken.code, 5);
+  EXPECT_TRUE(has(taken.words, std::to_string(other.port()))) << taken.words;
+}
+
+}  // namespace
+}  // namespace telemime::testing_rooms

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// A room by TLS: page, browsers' broker and trackers' broker with one certificate.
+#include <gtest/gtest.h>
+#include <openssl/ssl.h>
+#include <signal.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/asio/write.hpp>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "meeting/transport/all.h"
+#include "meeting/transport/room_entry.h"
+#include "rooms/authority.h"
+#include "rooms/feeder.h"
+#include "telemime/core/errors.h"
+#include "visitor.h"
+
+namespace telemime::testing_rooms {
+namespace {
+
+namespace asio = boost::asio;
+
+/// A server with a certificate of its own, which writes down what one visitor tells it after the handshake.
+class Listener {
+ public:
+  Listener(const std::string& certificate, const std::string& key) {
+    tls_.use_certificate_chain_file(certificate);
+    tls_.use_private_key_file(key, asio::ssl::context::pem);
+    thread_ = std::thread([this] { listen(); });
+  }
+  ~Listener() {
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  std::string link(const std::string& host, const std::string& invite) const {
+    return "https://" + host + ":" + std::to_string(acceptor_.local_endpoint().port()) + "/room#k=" + invite;
+  }
+  /// When the visitor has gone.
+  const std::string& told() {
+    thread_.join();
+    return told_;
+  }
+
+ private:
+  void listen() {
+    asio::ssl::stream<asio::ip::tcp::socket> stream(io_, tls_);
+    boost::system::error_code error;
+    acceptor_.accept(stream.next_layer(), error);
+    stream.handshake(asio::ssl::stream_base::server, error);
+    std::array<char, 4096> part{};
+    // Until all of the question is there: then the connection is closed without an answer.
+    while (!error && told_.find('}') == std::string::npos) {
+      told_.append(part.data(), stream.read_some(asio::buffer(part), error));
+    }
+  }
+
+  asio::io_context io_;
+  asio::ip::tcp::acceptor acceptor_{io_, {asio::ip::address_v4::loopback(), 0}};
+  asio::ssl::context tls_{asio::ssl::context::tls_server};
+  std::string told_;
+  std::thread thread_;
+};
+
+class TlsRoom : public ::testing::Test {
+ protected:
+  TlsRoom() { authority_.certify("room", "DNS:localhost"); }
+  OpenRoom::Change with(const std::string& certificate, const std::string& key) const {
+    return [certificate, key](RoomPlan& plan) {
+      plan.certificate = certificate;
+      plan.key = key;
+    };
+  }
+  OpenRoom::Change secure() const { return with(authority_.file("room.pem"), authority_.file("room.key")); }
+  static std::string refusal(const OpenRoom::Change& change) {
+    try {
+      const OpenRoom room(change);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "nothing was refused";
+  }
+  /// What a server at that port answers to a request by TLS, until it closes.
+  std::string told(std::uint16_t port, const std::string& request) const {
+    asio::io_context io;
+    asio::ssl::context tls = trusting();
+    asio::ssl::stream<asio::ip::tcp::socket> stream(io, tls);
+    stream.next_layer().connect({asio::ip::address_v4::loopback(), port});
+    stream.handshake(asio::ssl::stream_base::client);
+    asio::write(stream, asio::buffer(request));
+    std::string answer;
+    std::array<char, 4096> part{};
+    boost::system::error_code error;
+    while (!error && answer.find("\r\n\r\n") == std::string::npos) {
+      answer.append(part.data(), stream.read_some(asio::buffer(part), error));
+    }
+    return answer;
+  }
+  /// Throws when the server at that port has no certificate of the authority.
+  void shake_hands(std::uint16_t port) const {
+    asio::io_context io;
+    asio::ssl::context tls = trusting();
+    asio::ssl::stream<asio::ip::tcp::socket> stream(io, tls);
+    stream.next_layer().connect({asio::ip::address_v4::loopback(), port});
+    stream.handshake(asio::ssl::stream_base::client);
+  }
+  asio::ssl::context trusting() const {
+    asio::ssl::context tls(asio::ssl::context::tls_client);
+    tls.load_verify_file(authority_.file("ca.pem"));
+    tls.set_verify_mode(asio::ssl::verify_peer);
+    return tls;
+  }
+  Authority authority_;
+};
+
+TEST_F(TlsRoom, AllIsEncryptedWithOneCertificate) {
+  OpenRoom room(secure());
+  const std::string port = std::to_string(room.host().port());
+  EXPECT_EQ(room.host().page(), "https://localhost:" + port + "/room");
+  const std::string page = told(
+      room.host().port(), "GET /room HTTP/1.1\r\nHost: localhost:" + port + "\r\nConnection: close\r\n\r\n");
+  EXPECT_TRUE(page.starts_with("HTTP/1.1 200")) << page;
+  EXPECT_NE(page.find(" wss://localhost:" + std::to_string(room.host().web_port()) + ";"), std::string::npos);
+  const std::string upgrade =
+      told(room.host().web_port(),
+           "GET /mqtt HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+           "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: "
+           "13\r\nSec-WebSocket-Protocol: mqtt\r\n\r\n");
+  EXPECT_TRUE(upgrade.starts_with("HTTP/1.1 101")) << upgrade;
+  RawClient plain(room.host().port());
+  plain.send(request_text(room.host().port(), "/room"));
+  EXPECT_EQ(plain.rest().find("HTTP"), std::string::npos) << "nothing by plain HTTP";
+}
+
+TEST_F(TlsRoom, ATrackerComesInByItsLink) {
+  OpenRoom room(secure());
+  RoomEntry entry;
+  entry.link = room.host().speak_link();
+  entry.ca = authority_.file("ca.pem");
+  const RoomKey key = enter_room(entry);
+  EXPECT_EQ(key.broker, "mqtts://localhost:" + std::to_string(room.host().mqtt_port()));
+  std::string link = room.host().speak_link();
+  link.insert(link.find('#'), "?ca=" + authority_.file("ca.pem"));
+  const auto sender = make_sender(link, kAllSenderKinds);
+  const Feeder feeder(*sender);
+  EXPECT_TRUE(comes_true([&] { return sender->status().sent > 5; })) << sender->status().words;
+}
+
+std::string words_of_entry(const RoomEntry& entry) {
+  try {
+    enter_room(entry);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "nothing was refused";
+}
+
+TEST_F(TlsRoom, WhoIsNotTrustedIsNotToldTheSecret) {
+  const std::string secret = "a-secret-of-this-room";
+  const std::string nobody = "signed by nobody who is trusted here";
+  const Authority other;
+  struct Case {
+    std::string host;
+    std::filesystem::path ca;  ///< whom the visitor trusts; empty: the system's authorities
+    std::string words;
+  };
+  for (const Case& one :
+       std::vector<Case>{{"localhost", "", nobody},
+                         {"localhost", other.file("ca.pem"), nobody},
+                         {"127.0.0.1", authority_.file("ca.pem"), R"(not one for "127.0.0.1")"}}) {
+    Listener listener(authority_.file("room.pem"), authority_.file("room.key"));
+    RoomEntry entry;
+    entry.link = listener.link(one.host, secret);
+    entry.ca = one.ca;
+    const std::string words = words_of_entry(entry);
+    EXPECT_NE(words.find(one.words), std::string::npos) << words;
+    EXPECT_EQ(words.find(secret), std::string::npos) << words;
+    EXPECT_EQ(listener.told(), "");
+  }
+  Listener trusted(authority_.file("room.pem"), authority_.file("room.key"));
+  RoomEntry entry;
+  entry.link = trusted.link("localhost", secret);
+  entry.ca = authority_.file("ca.pem");
+  const std::string words = words_of_entry(entry);
+  EXPECT_EQ(words.find(secret), std::string::npos) << words;
+  EXPECT_NE(trusted.told().find(secret), std::string::npos) << "it would have been written down";
+}
+
+// Who writes http sends the secret as it is; but it opens nothing there.
+TEST_F(TlsRoom, ALinkWithoutTlsOpensNothing) {
+  OpenRoom room(secure());
+  RoomEntry entry;
+  entry.link = room.host().speak_link();
+  entry.link.replace(0, 5, "http");
+  const std::string words = words_of_entry(entry);
+  EXPECT_NE(words.find("cannot be entered"), std::string::npos) << words;
+  EXPECT_EQ(words.find(room.speak()), std::string::npos) << words;
+}
+
+TEST_F(TlsRoom, TheCertificateIsThatOfTheOpeningUntilTheRoomIsClosed) {
+  OpenRoom room(secure());
+  namespace fs = std::filesystem;
+  fs::resize_file(authority_.file("room.pem"), 0);
+  fs::remove(authority_.file("room.key"));
+  const auto handshakes = [&] {
+    RoomEntry entry;
+    entry.link = room.host().speak_link();
+    entry.ca = authority_.file("ca.pem");
+    enter_room(entry);  // the broker has read its files anew
+    for (const std::uint16_t port : {room.host().port(), room.host().mqtt_port(), room.host().web_port()}) {
+      shake_hands(port);
+    }
+  };
+  EXPECT_NO_THROW(handshakes());
+  const pid_t before = room.host().broker();
+  ASSERT_EQ(::kill(before, SIGKILL), 0);
+  ASSERT_TRUE(comes_true([&] { return room.host().broker() > 0 && room.host().broker() != before; }));
+  EXPECT_NO_THROW(handshakes()) << room.heard();
+}
+
+TEST_F(TlsRoom, WrongFilesAreToldApart) {
+  authority_.certify("other", "DNS:localhost");
+  const std::string pem = authority_.file("room.pem");
+  const std::string key = authority_.file("room.key");
+  std::ofstream(authority_.file("rubbish")) << "rubbish";
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(has(refusal(with(authority_.file("none"), key)), "the certificate cannot be read"));
+  EXPECT_TRUE(has(refusal(with(pem, authority_.file("none"))), "the certificate's key cannot be read"));
+  EXPECT_TRUE(has(refusal(with(authority_.file("rubbish"), key)), "no certificate to be used"));
+  EXPECT_TRUE(has(refusal(with(pem, authority_.file("rubbish"))), "no key to be used"));
+  EXPECT_TRUE(has(refusal(with(pem, authority_.file("other.key"))), "is not the key of"));
+}
+
+}  // namespace
+}  // namespace telemime::testing_rooms

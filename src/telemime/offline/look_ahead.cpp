@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/look_ahead.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "telemime/likelihood/all.h"
+
+namespace telemime {
+namespace {
+
+// Neighbouring frames look alike: every third one is enough to pick from.
+constexpr std::int64_t kStride = 3;
+// Fewer keyframes than this tell no more than the first frame alone.
+constexpr std::size_t kFewest = 3;
+
+// A frame that the shape may be fitted to, with the head that it shows.
+struct Candidate {
+  Keyframe keyframe;
+  std::int64_t frame = 0;
+  HeadRegion head;
+};
+
+// The frames that fit best, apart from each other; where there are faces, among those with one. A mask hides
+// it in all of them.
+std::vector<std::size_t> best_portraits(const std::vector<Candidate>& candidates) {
+  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kApart = 5;
+  const bool faces =
+      std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.head.detected; });
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].head.detected || !faces) {
+      order.push_back(i);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return candidates[a].keyframe.region < candidates[b].keyframe.region;
+  });
+  std::vector<std::size_t> best;
+  for (const std::size_t i : order) {
+    if (best.size() < kMost && std::all_of(best.begin(), best.end(), [&](std::size_t b) {
+          return std::max(i, b) - std::min(i, b) >= kApart;
+        })) {
+      best.push_back(i);
+    }
+  }
+  return best;
+}
+
+// A person as one frame shows them, with the poses of all candidates for that shape. The first candidate is
+// the frame where tracking starts.
+struct Portrait {
+  KnownStart start;
+  std::vector<Candidate> candidates;
+};
+
+Portrait portrait_of(const Config& config, Backend& backend, const JointLimits& limits, const Portrait& from,
+                     const Calibration& fit, std::size_t where, Random& random) {
+  Portrait portrait = from;
+  KnownStart& start = portrait.start;
+  start.person.shape = fit.shape;
+  start.person.score = fit.score;
+  start.person.refusal = fit.refusal;
+  start.pose = fit.pose;
+  start.frame = from.candidates[where].frame;
+  const Model model = make_model(fit.shape);
+  for (Candidate& candidate : portrait.candidates) {
+    Objective objective(backend, candidate.keyframe.frame, model, limits);
+    candidate.keyframe.pose =
+        initialise_pose(objective, candidate.head, config.calibration, config.registration, random);
+    candidate.keyframe.region = objective.score(candidate.keyframe.pose, Reduction::overlap).region;
+  }
+  std::swap(portrait.candidates.front(), portrait.candidates[where]);
+  portrait.candidates.front().keyframe.pose = fit.pose;
+  return portrait;
+}
+
+// Somebody who walks in is first seen from the side: where later frames fit much better, the person is fitted
+// there, and all poses are looked for again. One such frame may still hide where a sleeve ends or how far
+// away the arms are: all of them are tried. Else what the first frame gave.
+std::vector<Portrait> portraits_of(const Config& config, const std::string& backend_name,
+                                   const JointLimits& limits, Portrait first) {
+  constexpr double kMuchBetter = 0.8;
+  const auto backend = make_backend(backend_name);
+  Random random(config.seed);
+  std::vector<std::pair<std::size_t, Calibration>> fits;
+  bool better = false;
+  for (const std::size_t i : best_portraits(first.candidates)) {
+    fits.emplace_back(i, calibrate(*backend, first.candidates[i].keyframe.frame, first.candidates[i].head,
+                                   limits, config.calibration, config.registration, random));
+    better = better || fits.back().second.score.region <= kMuchBetter * first.start.person.score.region;
+  }
+  std::vector<Portrait> portraits;
+  for (const auto& [where, fit] : fits) {
+    if (better && fit.score.region < first.start.person.score.region) {
+      portraits.push_back(portrait_of(config, *backend, limits, first, fit, where, random));
+    }
+  }
+  if (portraits.empty()) {
+    portraits.push_back(std::move(first));
+  }
+  return portraits;
+}
+
+// The shape fitted to the most different of the candidates; nothing when there are too few.
+std::optional<LookAhead> refined(const Config& config, const std::string& backend, const JointLimits& limits,
+                                 const Portrait& portrait) {
+  std::vector<Keyframe> all;
+  all.reserve(portrait.candidates.size());
+  for (const Candidate& candidate : portrait.candidates) {
+    all.push_back(candidate.keyframe);
+  }
+  const auto count = static_cast<std::size_t>(config.calibration.refine.keyframes);
+  const Body body = make_body(portrait.start.person.shape);
+  std::vector<Keyframe> keyframes;
+  for (const std::size_t i : pick_keyframes(body, all, count)) {
+    keyframes.push_back(all[i]);
+  }
+  if (keyframes.size() < kFewest) {
+    return std::nullopt;
+  }
+  LookAhead found;
+  found.start = portrait.start;
+  found.keyframes = keyframes.size();
+  found.start.person.refusal.clear();  // whatever the first frame hid, these show
+  // The pose in the first frame is needed for the new shape, too.
+  keyframes.insert(keyframes.begin(), all.front());
+  const ShapeRefinement refined =
+      refine_shape([&backend] { return make_backend(backend); }, keyframes, portrait.start.person.shape,
+                   limits, config.calibration.shape, config.calibration.refine);
+  found.start.person.shape = refined.shape;
+  found.start.pose = refined.poses.front();
+  found.cost_before = refined.cost_before;
+  found.cost = refined.cost;
+  return found;
+}
+
+}  // namespace
+
+std::optional<LookAhead> look_ahead(Source& source, const Config& config, const Camera& camera,
+                                    const ImageCalibration& scene, std::int64_t most_frames,
+                                    const std::function<bool(std::int64_t)>& go_on) {
+  Config forward = config;
+  forward.look_back = false;
+  Tracker scout(forward, camera);
+  scout.set_scene(scene);
+  Portrait first;
+  std::vector<Candidate>& candidates = first.candidates;
+  std::int64_t frames = 0;
+  for (std::int64_t i = 0; most_frames == 0 || i < most_frames; ++i) {
+    const std::optional<Frame> frame = source.next();
+    if (!frame || frames >= config.calibration.look_ahead) {
+      break;
+    }
+    const TrackedFrame seen = scout.step(*frame);
+    if (!go_on(i)) {
+      return std::nullopt;
+    }
+    if (!scout.calibration()) {
+      continue;
+    }
+    if (candidates.empty()) {
+      first.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
+    }
+    if (seen.motion.state == TrackState::tracking && frames++ % kStride == 0 && seen.observation.head) {
+      candidates.push_back(
+          {{prepare(seen.observation, scout.working_camera()), seen.motion.pose, seen.motion.region_score},
+           seen.motion.frame,
+           *seen.observation.head});
+    }
+  }
+  if (candidates.empty()) {
+    return std::nullopt;
+  }
+  // Single poses on many threads suit no device.
+  const bool own = config.backend == "scalar" || config.backend == "parts";
+  const std::string backend = own ? config.backend : "simd";
+  const std::vector<Portrait> portraits = portraits_of(config, backend, scout.limits(), std::move(first));
+  LookAhead best;
+  best.start = portraits.front().start;
+  for (const Portrait& portrait : portraits) {
+    const auto found = refined(config, backend, scout.limits(), portrait);
+    if (found && (best.keyframes == 0 || found->cost < best.cost)) {
+      best = *found;
+    }
+  }
+  best.frames = frames;
+  best.image = scout.features().calibration();
+  return best;
+}
+
+}  // namespace telemime

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
+
+#include "telemime/render/renderer.h"
+
+namespace telemime {
+namespace {
+
+const cv::Scalar kLeft(80, 200, 255);    // orange
+const cv::Scalar kRight(255, 190, 70);   // light blue
+const cv::Scalar kTrunk(120, 230, 120);  // green
+const cv::Scalar kContour(255, 255, 255);
+const cv::Scalar kInk(235, 235, 235);
+const cv::Scalar kFaint(90, 90, 90);
+const cv::Scalar kPanel(32, 30, 28);
+
+struct Bone {
+  Joint from, to;
+  const cv::Scalar* colour;
+};
+
+const std::array<Bone, 11> kBones = {{{Joint::root, Joint::neck, &kTrunk},
+                                      {Joint::neck, Joint::head, &kTrunk},
+                                      {Joint::head, Joint::head_top, &kTrunk},
+                                      {Joint::neck, Joint::l_shoulder, &kLeft},
+                                      {Joint::l_shoulder, Joint::l_elbow, &kLeft},
+                                      {Joint::l_elbow, Joint::l_wrist, &kLeft},
+                                      {Joint::l_wrist, Joint::l_hand, &kLeft},
+                                      {Joint::neck, Joint::r_shoulder, &kRight},
+                                      {Joint::r_shoulder, Joint::r_elbow, &kRight},
+                                      {Joint::r_elbow, Joint::r_wrist, &kRight},
+                                      {Joint::r_wrist, Joint::r_hand, &kRight}}};
+
+constexpr int kFractionBits = 4;  // of the coordinates that OpenCV draws with
+
+cv::Point fixed(double u, double v) {
+  const double scale = 1 << kFractionBits;
+  const auto clip = [](double x) { return std::clamp(x, -1e5, 1e5); };
+  return {static_cast<int>(std::lround(clip(u) * scale)), static_cast<int>(std::lround(clip(v) * scale))};
+}
+
+void draw_skeleton(cv::Mat& canvas, const MotionFrame& motion, double unit) {
+  const int thick = std::max(1, static_cast<int>(std::lround(unit * 2.0)));
+  const auto at = [&](Joint j) {
+    const Eigen::Vector2d& p = motion.pixels[static_cast<std::size_t>(j)];
+    return fixed(p.x(), p.y());
+  };
+  for (const Bone& bone : kBones) {
+    cv::line(canvas, at(bone.from), at(bone.to), cv::Scalar(0, 0, 0), thick + 2, cv::LINE_AA, kFractionBits);
+    cv::line(canvas, at(bone.from), at(bone.to), *bone.colour, thick, cv::LINE_AA, kFractionBits);
+  }
+  for (const Bone& bone : kBones) {
+    cv::circle(canvas, at(bone.to), static_cast<int>(unit * 2.6 * (1 << kFractionBits)), *bone.colour,
+               cv::FILLED, cv::LINE_AA, kFractionBits);
+  }
+}
+
+void draw_contour(cv::Mat& canvas, const OverlayView& view) {
+  Rendering rendering;
+  std::vector<Eigen::Vector2f> contour;
+  render(view.model->mesh, forward_kinematics(view.model->body, view.motion->pose), view.camera, rendering);
+  occluding_contour(view.model->mesh, rendering, contour);
+  for (const Eigen::Vector2f& p : contour) {
+    cv::circle(canvas, fixed(p.x(), p.y()), 1 << (kFractionBits - 1), kContour, cv::FILLED, cv::LINE_AA,
+               kFractionBits);
+  }
+}
+
+void text(cv::Mat& canvas, const std::string& words, cv::Point at, double unit, const cv::Scalar& colour) {
+  cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, 0.42 * unit, colour, 1, cv::LINE_AA);
+}
+
+// The scene from above: the camera at the lower edge, one ring each half metre.
+void draw_top_view(cv::Mat& panel, const MotionFrame& motion, double unit) {
+  const double range = 2.0 * std::max(0.5, std::ceil(motion.joints[Joint::neck].z() + 0.3)) / 2.0;
+  const double pixels_a_metre = 0.86 * panel.rows / range;
+  const double middle = panel.cols / 2.0;
+  const auto at = [&](const Eigen::Vector3d& p) {
+    return fixed(middle + p.x() * pixels_a_metre, panel.rows * 0.95 - p.z() * pixels_a_metre);
+  };
+  const int rings = static_cast<int>(std::floor(range / 0.5 + 0.02));
+  for (int i = 1; i <= rings; ++i) {
+    const double ring = 0.5 * i;
+    cv::circle(panel, at(Eigen::Vector3d::Zero()),
+               static_cast<int>(ring * pixels_a_metre * (1 << kFractionBits)), kFaint, 1, cv::LINE_AA,
+               kFractionBits);
+    const cv::Point label = at({0.0, 0.0, ring});
+    std::array<char, 16> words{};
+    std::snprintf(words.data(), words.size(), "%.1f m", ring);
+    text(panel, words.data(), {label.x / (1 << kFractionBits) + 3, label.y / (1 << kFractionBits) - 3},
+         0.8 * unit, kFaint);
+  }
+  cv::drawMarker(panel, {static_cast<int>(middle), static_cast<int>(panel.rows * 0.95)}, kInk,
+                 cv::MARKER_TRIANGLE_UP, static_cast<int>(8 * unit), 1, cv::LINE_AA);
+  const int thick = std::max(1, static_cast<int>(std::lround(2.0 * unit)));
+  for (const Bone& bone : kBones) {
+    cv::line(panel, at(motion.joints[bone.from]), at(motion.joints[bone.to]), *bone.colour, thick,
+             cv::LINE_AA, kFractionBits);
+  }
+  for (const Bone& bone : kBones) {
+    cv::circle(panel, at(motion.joints[bone.to]), static_cast<int>(2.2 * unit * (1 << kFractionBits)),
+               *bone.colour, cv::FILLED, cv::LINE_AA, kFractionBits);
+  }
+  text(panel, "from above", {static_cast<int>(6 * unit), static_cast<int>(14 * unit)}, unit, kInk);
+}
+
+void draw_gauge(cv::Mat& panel, const std::string& name, double value, double full, int row, double unit) {
+  std::array<char, 32> words{};
+  std::snprintf(words.data(), words.size(), "%s %.2f", name.c_str(), value);
+  const int y = static_cast<int>((18 + 26 * row) * unit);
+  text(panel, words.data(), {static_cast<int>(6 * unit), y}, unit, kInk);
+  const cv::Rect bar(static_cast<int>(6 * unit), y + static_cast<int>(4 * unit),
+                     panel.cols - static_cast<int>(12 * unit), std::max(2, static_cast<int>(6 * unit)));
+  cv::rectangle(panel, bar, kFaint, 1);
+  cv::Rect filled = bar;
+  filled.width = static_cast<int>(bar.width * std::clamp(value / full, 0.0, 1.0));
+  cv::rectangle(panel, filled, kTrunk, cv::FILLED);
+}
+
+}  // namespace
+
+cv::Mat draw_overlay(const cv::Mat& image, const OverlayView& view) {
+  const double unit = std::max(0.6, image.rows / 480.0);
+  const int side = (static_cast<int>(image.cols * 0.42) + image.cols) / 2 * 2 - image.cols;
+  cv::Mat canvas(image.rows / 2 * 2, (image.cols + side) / 2 * 2, CV_8UC3, kPanel);
+  cv::Mat picture = canvas(cv::Rect(0, 0, image.cols, canvas.rows));
+  image(cv::Rect(0, 0, image.cols, canvas.rows)).copyTo(picture);
+  const bool tracking = view.motion->state == TrackState::tracking;
+  cv::Mat panel = canvas(cv::Rect(image.cols, 0, canvas.cols - image.cols, canvas.rows));
+  const int top_rows = static_cast<int>(panel.rows * 0.78);
+  if (tracking) {
+    draw_contour(picture, view);
+    draw_skeleton(picture, *view.motion, unit);
+    cv::Mat top = panel.rowRange(0, top_rows);
+    draw_top_view(top, *view.motion, unit);
+  }
+  cv::Mat gauges = panel.rowRange(top_rows, panel.rows);
+  draw_gauge(gauges, "regions F", tracking ? view.motion->region_score : 0.0, 1.0, 0, unit);
+  draw_gauge(gauges, "contours D_C px", tracking ? view.motion->contour_score : 0.0, 10.0, 1, unit);
+  text(gauges, "frame " + std::to_string(view.motion->frame) + (tracking ? "  tracking" : "  LOST"),
+       {static_cast<int>(6 * unit), static_cast<int>(72 * unit)}, unit,
+       tracking ? kInk : cv::Scalar(80, 80, 255));
+  if (!view.note.empty()) {
+    const cv::Rect strip(0, picture.rows - static_cast<int>(20 * unit), picture.cols,
+                         static_cast<int>(20 * unit));
+    cv::rectangle(picture, strip, kPanel, cv::FILLED);
+    text(picture, view.note, {static_cast<int>(6 * unit), picture.rows - static_cast<int>(6 * unit)}, unit,
+         kInk);
+  }
+  return canvas;
+}
+
+}  // namespace telemime

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/two_way_smoother.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/random.h"
+#include "telemime/tracker/testing_smoothing.h"
+
+namespace telemime {
+namespace {
+
+using testing::standing;
+
+class TwoWaySmootherTest : public ::testing::Test, protected testing::Stage {
+ protected:
+  std::vector<MotionFrame> smoothed(const std::vector<MotionFrame>& frames, int look_ahead,
+                                    const std::string& name = "one-euro") const {
+    SmoothingOptions options;
+    options.name = name;
+    options.look_ahead = look_ahead;
+    TwoWaySmoother smoother(options, body, camera);
+    std::vector<MotionFrame> result;
+    const auto collect = [&] {
+      while (const auto next = smoother.next()) {
+        result.push_back(*next);
+      }
+    };
+    for (const MotionFrame& f : frames) {
+      smoother.push(f);
+      collect();
+      const std::size_t late = static_cast<std::size_t>(f.frame) + 1 - result.size();
+      EXPECT_LE(late, static_cast<std::size_t>(look_ahead));
+    }
+    smoother.finish();
+    collect();
+    return result;
+  }
+};
+
+// Both arms swing; the phase of what comes out tells the lag.
+Pose swinging(double frame) {
+  Pose pose = standing();
+  const double swing = 0.8 * std::sin(2.0 * std::numbers::pi * frame / 40.0);
+  pose[Angle::l_shoulder_flexion] = -0.7 + swing;
+  pose[Angle::r_elbow_flexion] = -1.2 + swing;
+  return pose;
+}
+
+TEST_F(TwoWaySmootherTest, WithoutFutureItIsThePlainFilter) {
+  const auto input = frames(30, swinging);
+  SmoothingOptions options;
+  const auto plain = make_smoother(options, body, camera);
+  const auto result = smoothed(input, 0);
+  ASSERT_EQ(result.size(), input.size());
+  for (std::size_t t = 0; t < input.size(); ++t) {
+    EXPECT_EQ(result[t].pose.vector(), (*plain)(input[t]).pose.vector()) << t;
+  }
+}
+
+TEST_F(TwoWaySmootherTest, EveryFrameComesOutOnceInOrder) {
+  const auto input = frames(30, swinging);
+  for (const int look_ahead : {0, 1, 12, 100}) {
+    const auto result = smoothed(input, look_ahead);
+    ASSERT_EQ(result.size(), input.size());
+    for (std::size_t t = 0; t < input.size(); ++t) {
+      EXPECT_EQ(result[t].frame, input[t].frame);
+      EXPECT_EQ(result[t].time, input[t].time) << "time is never turned in what comes out";
+    }
+  }
+}
+
+TEST_F(TwoWaySmootherTest, APoseThatRestsStays) {
+  const auto result = smoothed(frames(20, [](int) { return swinging(7); }), 12);
+  for (const MotionFrame& f : result) {
+    EXPECT_LT((f.pose.vector() - swinging(7).vector()).norm(), 1e-9);
+  }
+}
+
+TEST_F(TwoWaySmootherTest, DoesNotLag) {
+  const auto input = frames(200, swinging);
+  const auto error_at = [&](const std::vector<MotionFrame>& result, double shift) {
+    double sum = 0.0;
+    for (int t = 40; t < 160; ++t) {
+      sum += std::abs(result[static_cast<std::size_t>(t)].pose[Angle::l_shoulder_flexion] -
+                      swinging(t - shift)[Angle::l_shoulder_flexion]);
+    }
+    return sum;
+  };
+  for (const std::string name : {"one-euro", "recursive"}) {
+    const auto one_way = smoothed(input, 0, name);
+    const auto two_way = smoothed(input, 12, name);
+    EXPECT_LT(error_at(one_way, 0.5), error_at(one_way, 0.0)) << name << ": the plain filter is late";
+    EXPECT_LT(error_at(two_way, 0.0), error_at(two_way, 0.15)) << name;
+    EXPECT_LT(error_at(two_way, 0.0), error_at(two_way, -0.15)) << name;
+  }
+}
+
+TEST_F(TwoWaySmootherTest, IsSteadierThanThePlainFilter) {
+  Random random(3);
+  const auto input = frames(200, [&](int) {
+    Pose pose = standing();
+    pose[Angle::l_shoulder_flexion] = -0.7 + random.normal(0.0, 0.03);
+    return pose;
+  });
+  const auto jitter = [](const std::vector<MotionFrame>& f) {
+    double sum = 0.0;
+    for (std::size_t t = 1; t + 1 < f.size(); ++t) {
+      sum += (f[t - 1].joints[Joint::l_wrist] - 2.0 * f[t].joints[Joint::l_wrist] +
+              f[t + 1].joints[Joint::l_wrist])
+                 .norm();
+    }
+    return sum;
+  };
+  EXPECT_LT(jitter(smoothed(input, 12)), 0.75 * jitter(smoothed(input, 0)));
+}
+
+TEST_F(TwoWaySmootherTest, LostFramesPassAndPartWhatIsBeforeFromWhatIsAfter) {
+  auto input = frames(30, [](int t) {
+    Pose pose = standing();
+    pose.root.x() = t < 15 ? 0.0 : 0.5;
+    return pose;
+  });
+  for (std::size_t t = 14; t < 17; ++t) {
+    input[t].state = TrackState::lost;
+  }
+  const auto result = smoothed(input, 12);
+  ASSERT_EQ(result.size(), input.size());
+  for (std::size_t t = 0; t < input.size(); ++t) {
+    EXPECT_EQ(result[t].state, input[t].state);
+    EXPECT_NEAR(result[t].pose.root.x(), input[t].pose.root.x(), 1e-9) << t;
+  }
+}
+
+TEST_F(TwoWaySmootherTest, FramesThatAreNotFinitePass) {
+  auto input = frames(10, swinging);
+  input[4].pose.root.x() = std::numeric_limits<double>::quiet_NaN();
+  const auto result = smoothed(input, 5);
+  ASSERT_EQ(result.size(), input.size());
+  for (std::size_t t = 0; t < input.size(); ++t) {
+    EXPECT_EQ(result[t].pose.vector().allFinite(), t != 4) << t;
+  }
+}
+
+TEST_F(TwoWaySmootherTest, RefusesALookAheadThatCannotBe) {
+  for (const int look_ahead : {-1, kLongestLookAhead + 1}) {
+    SmoothingOptions options;
+    options.look_ahead = look_ahead;
+    EXPECT_THROW(TwoWaySmoother(options, body, camera), Error) << look_ahead;
+  }
+}
+
+}  // namespace
+}  // namespace telemime

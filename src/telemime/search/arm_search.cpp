@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/arm_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "telemime/body/interpenetration.h"
+#include "telemime/search/blocks.h"
+
+namespace telemime {
+namespace {
+
+struct Candidate {
+  Pose pose;
+  double cost = 0.0;
+};
+
+}  // namespace
+
+Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random) {
+  const auto i = static_cast<std::size_t>(side);
+  const bool left = side == Side::left;
+  const double outward = left ? 1.0 : -1.0;
+  Pose rest = pose;
+  set_arm_angles(rest, side, {0.0, 0.0, 0.0, 0.0});
+  const Kinematics k = forward_kinematics(body, rest);
+  const Eigen::Vector3d shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Matrix3d& chest = k[Segment::chest].linear();
+  Pose arm = rest;
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    // In the chest's frame: x outward, y up, z forward.
+    const Eigen::Vector3d upper = Eigen::Vector3d(outward * random.normal(0.45, 0.5),
+                                                  random.normal(-0.55, 0.6), random.normal(0.2, 0.45))
+                                      .normalized();
+    const Eigen::Vector3d fore =
+        Eigen::Vector3d(outward * random.normal(0.1, 0.7), random.normal(0.0, 0.7), random.normal(0.45, 0.5))
+            .normalized();
+    const Eigen::Vector3d elbow = shoulder + chest * upper * body.upper_arm_length[i];
+    const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[i];
+    set_arm_angles(arm, side, arm_through(body, rest, side, elbow, wrist, limits));
+    if (limits.contains(arm, 0.05) &&
+        interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
+      break;
+    }
+  }
+  return limits.clamp(arm);
+}
+
+std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
+                              int count, Random& random) {
+  const bool left = side == Side::left;
+  const Kinematics k = forward_kinematics(body, pose);
+  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Matrix3d& chest = k[Segment::chest].linear();
+  Pose straight = pose;
+  for (const Angle a : left ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot}
+                            : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot}) {
+    straight[a] = 0.0;
+  }
+  constexpr double kBehind = 0.25;  // of the unit sphere's radius
+  constexpr double kGoldenAngle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
+  const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const double shift = random.uniform();
+  std::vector<Pose> fan;
+  for (int i = 0; i < count; ++i) {
+    const double forward = 1.0 - (1.0 + kBehind) * (i + shift) / count;
+    const double aside = std::sqrt(std::max(0.0, 1.0 - forward * forward));
+    const double angle = turn + i * kGoldenAngle;
+    const Eigen::Vector3d fore(aside * std::cos(angle), aside * std::sin(angle), forward);
+    const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)];
+    Pose arm = straight;
+    set_arm_angles(arm, side, arm_through(body, straight, side, elbow, wrist, limits));
+    // What the limits cut off by little is still near the direction.
+    if (limits.contains(arm, 0.15)) {
+      arm = limits.clamp(arm);
+      if (interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
+        fan.push_back(arm);
+      }
+    }
+  }
+  return fan;
+}
+
+Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,
+                const ArmSearchConfig& config, Random& random) {
+  const Body& body = objective.model().body;
+  std::vector<Candidate> candidates = {{pose, objective(pose, weights)}};
+  for (int i = 0; i < config.samples; ++i) {
+    const Pose arm = random_arm(body, pose, side, objective.limits(), random);
+    candidates.push_back({arm, objective(arm, weights)});
+  }
+  const auto kept = std::min(candidates.size(), static_cast<std::size_t>(std::max(1, config.kept)));
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  Candidate best = candidates.front();
+  for (std::size_t i = 0; i < kept; ++i) {
+    const SearchBlock block = arm_block(body, candidates[i].pose, side, objective.limits(), 3.0);
+    SimplexOptions options;
+    options.max_evaluations = config.refine;
+    const SimplexResult found =
+        minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+                 axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
+    if (found.best().cost < best.cost) {
+      best = {block.decode(found.best().point), found.best().cost};
+    }
+  }
+  return best.pose;
+}
+
+}  // namespace telemime

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/calibration.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+// The head of the model at 1.70 m, from the neck (mesh.cpp): chin at 0.030, crown with hair at 0.271, centre
+// 0.045 ahead.
+constexpr double kChin = 0.030;
+constexpr double kCrown = 0.271;
+constexpr double kAhead = 0.045;
+constexpr double kDesignStature = 1.70;
+
+ObjectiveWeights search_weights() {
+  ObjectiveWeights weights;
+  weights.contour = 0.15;
+  weights.natural = 0.04;
+  return weights;
+}
+
+// Pose alignment without memory of earlier frames.
+RegistrationConfig alignment(const RegistrationConfig& registration, int iterations, double fronto_parallel) {
+  RegistrationConfig config = registration;
+  config.iterations = iterations;
+  for (ObjectiveWeights* w : {&config.region, &config.edge}) {
+    w->temporal = 0.0;
+    w->trunk = 0.0;
+    w->fronto_parallel = fronto_parallel;
+  }
+  return config;
+}
+
+struct HeadGeometry {
+  double half_height;
+  Eigen::Vector3d centre_from_root;  // body frame
+};
+
+HeadGeometry head_geometry(const Body& body) {
+  const double size = body.shape.stature / kDesignStature;
+  const SegmentScale& s = body.shape[Segment::head];
+  return {0.5 * (kCrown - kChin) * size * s.length,
+          body.neck_from_root +
+              Eigen::Vector3d(0.0, 0.5 * (kCrown + kChin) * size * s.length, kAhead * size * s.height)};
+}
+
+// Is some part of the arm outside the image, or before the chest or head?
+std::string arm_problem(const Model& model, const Pose& pose, const Camera& camera, Side side) {
+  const Kinematics k = forward_kinematics(model.body, pose);
+  const bool left = side == Side::left;
+  const std::string name = left ? "left" : "right";
+  const Eigen::Vector2d l = camera.project(k.joints[Joint::l_shoulder]);
+  const Eigen::Vector2d r = camera.project(k.joints[Joint::r_shoulder]);
+  for (const Joint j : {left ? Joint::l_elbow : Joint::r_elbow, left ? Joint::l_wrist : Joint::r_wrist}) {
+    if (k.joints[j].z() < 0.1) {
+      return "the " + name + " arm is too near the camera";
+    }
+    const Eigen::Vector2d p = camera.project(k.joints[j]);
+    if (p.x() < 0 || p.y() < 0 || p.x() > camera.width - 1 || p.y() > camera.height - 1) {
+      return "the " + name + " arm leaves the picture";
+    }
+    const double low = std::min(l.x(), r.x());
+    const double high = std::max(l.x(), r.x());
+    const double margin = 0.1 * (high - low);
+    if (j != Joint::l_elbow && j != Joint::r_elbow && p.x() > low + margin && p.x() < high - margin) {
+      return "the " + name + " hand is before the body";
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+void CalibrationConfig::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "calibration: " + what);
+    }
+  };
+  require(!stature || (*stature > 0.8 && *stature < 2.5), "the height must be between 0.8 and 2.5 m");
+  require(nearest > 0.1 && nearest < farthest && farthest < 50.0,
+          "0.1 < nearest < farthest < 50 m is needed");
+  require(rounds >= 1 && rounds <= 20, "rounds must be between 1 and 20");
+  require(pose_iterations >= 10 && pose_iterations <= 1000000,
+          "pose_iterations must be between 10 and 1000000");
+  require(arms.samples >= 0 && arms.kept >= 1 && arms.refine >= 1,
+          "arms: samples >= 0, kept >= 1, refine >= 1");
+  require(shape.iterations >= 10, "shape.iterations must be at least 10");
+  require(shape.length_spread > 0.0 && shape.girth_spread > 0.0 && shape.ratio_spread > 0.0,
+          "shape spreads must be positive");
+  require(shape.prior_weight >= 0.0 && shape.contour_weight >= 0.0,
+          "shape.prior_weight and shape.contour_weight must not be negative");
+  require(look_ahead >= 0 && look_ahead <= 1000, "look_ahead must be between 0 and 1000 frames");
+  require(refine.keyframes >= 1 && refine.keyframes <= 100, "keyframes must be between 1 and 100");
+  require(refine.pose_iterations >= 10 && refine.pose_iterations <= 10000,
+          "refine_iterations must be between 10 and 10000");
+  require(refine.rounds >= 0 && refine.rounds <= 20, "refine_rounds must be between 0 and 20");
+  require(refine.prior_weight >= 0.0 && refine.natural_weight >= 0.0 && refine.contour_weight >= 0.0,
+          "refine_prior_weight, refine_natural_weight and refine_contour_weight must not be negative");
+  require(refine.shapes >= 0 && refine.shapes <= 10000, "refine_shapes must be between 0 and 10000");
+  require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
+  require(worst_region > 0.0 && worst_region <= 1.0, "worst_region must be above 0, at most 1");
+}
+
+Pose place_at_head(const Body& body, const HeadRegion& head, const Camera& camera) {
+  const HeadGeometry g = head_geometry(body);
+  const double z = camera.fy * g.half_height / std::max(1.0, head.radii.y());
+  Pose pose;
+  pose.root = camera.ray(head.centre) * z - camera_from_body_at_rest() * g.centre_from_root;
+  return pose;
+}
+
+Pose initialise_pose(Objective& objective, const HeadRegion& head, const CalibrationConfig& config,
+                     const RegistrationConfig& registration, Random& random) {
+  const Body& body = objective.model().body;
+  const Camera& camera = objective.frame().camera;
+  const HeadGeometry g = head_geometry(body);
+  const ObjectiveWeights weights = search_weights();
+  const Pose placed = place_at_head(body, head, camera);
+  const double z_head = placed.root.z() - g.centre_from_root.z();
+  Pose best = placed;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (int i = -6; i <= 6; ++i) {
+    const double z = std::clamp(z_head * std::pow(1.035, i), config.nearest, config.farthest);
+    Pose pose = placed;
+    pose.root = camera.ray(head.centre) * z - camera_from_body_at_rest() * g.centre_from_root;
+    set_arm_angles(pose, Side::left, {0.0, 0.0, 0.3, -0.3});
+    set_arm_angles(pose, Side::right, {0.0, 0.0, -0.3, -0.3});
+    // Head and clothes decide the distance: where the arms are is not known yet.
+    const Score s = objective.score(pose, Reduction::overlap);
+    double cost = 0.05 * std::abs(static_cast<double>(i)) / 6.0;
+    for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
+      const int either = s.reductions.observed[c] + s.reductions.model[c] - s.reductions.both[c];
+      cost += either > 0 ? 0.5 * (either - s.reductions.both[c]) / either : 0.0;
+    }
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = pose;
+    }
+  }
+  for (int round = 0; round < 2; ++round) {
+    ArmSearchConfig arms = config.arms;
+    arms.samples = round == 0 ? arms.samples : arms.samples / 4;
+    best = search_arm(objective, best, Side::left, weights, arms, random);
+    best = search_arm(objective, best, Side::right, weights, arms, random);
+  }
+  return register_pose(objective, best, alignment(registration, config.pose_iterations, 0.0), random).pose;
+}
+
+Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRegion& head,
+                      const JointLimits& limits, const CalibrationConfig& config,
+                      const RegistrationConfig& registration, Random& random) {
+  Calibration result;
+  result.shape.stature = config.stature.value_or(kDesignStature);
+  Model model = make_model(result.shape);
+  {
+    Objective objective(backend, frame, model, limits);
+    result.pose = initialise_pose(objective, head, config, registration, random);
+    result.pose =
+        register_pose(objective, result.pose,
+                      alignment(registration, config.pose_iterations, config.fronto_parallel), random)
+            .pose;
+    result.evaluations += objective.evaluations();
+  }
+  const RegistrationConfig align = alignment(registration, config.pose_iterations, config.fronto_parallel);
+  for (int round = 0; round < config.rounds; ++round) {
+    const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, limits, config.shape);
+    result.evaluations += fit.evaluations;
+    result.shape = fit.shape;
+    model = make_model(result.shape);
+    Objective objective(backend, frame, model, limits);
+    const RegistrationResult registered = register_pose(objective, fit.pose, align, random);
+    result.pose = registered.pose;
+    result.score = registered.score;
+    result.evaluations += objective.evaluations();
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    if (result.refusal.empty()) {
+      result.refusal = arm_problem(model, result.pose, frame.camera, side);
+    }
+  }
+  // An outline without a face may be somebody's side.
+  constexpr double kFaceless = 0.85;
+  const double worst = config.worst_region * (head.detected ? 1.0 : kFaceless);
+  if (result.refusal.empty() && result.score.region > worst) {
+    result.refusal = "the body does not fit the picture (F " + std::to_string(result.score.region) + ")";
+  }
+  return result;
+}
+
+}  // namespace telemime

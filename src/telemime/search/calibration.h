@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "telemime/core/random.h"
+#include "telemime/search/arm_search.h"
+#include "telemime/search/shape_refine.h"
+#include "telemime/search/two_step.h"
+
+namespace telemime {
+
+struct CalibrationConfig {
+  std::optional<double> stature;  ///< m; none: scale from an average head height
+  double nearest = 0.35;          ///< m, D_min of the thesis
+  double farthest = 5.0;          ///< m, D_max
+  ArmSearchConfig arms;
+  ShapeFitConfig shape;
+  ShapeRefineConfig refine;
+  int look_ahead = 150;           ///< frames of a file that the shape is fitted to; 0: the first one only
+  int rounds = 2;                 ///< of pose alignment and shape adjustment
+  int pose_iterations = 800;      ///< evaluations of each pose alignment
+  double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image
+  double worst_region = 0.45;     ///< F above which the fit is refused; less where no face is seen
+
+  void validate() const;
+};
+
+struct Calibration {
+  Shape shape;
+  Pose pose;
+  Score score;
+  int evaluations = 0;
+  /// Why the shape of the arms could not be fitted here ("the left arm covers the chest"); empty: all was.
+  std::string refusal;
+};
+
+/// Places an average body behind the head in the image: distance from the head's height, the trunk upright
+/// and facing the camera, the arms hanging (thesis 3.3, "model translation").
+Pose place_at_head(const Body& body, const HeadRegion& head, const Camera& camera);
+
+/// Pose of a person whose shape is known, from nothing but the head: depth that minimises F, then arms
+/// everywhere, then all together.
+Pose initialise_pose(Objective& objective, const HeadRegion& head, const CalibrationConfig& config,
+                     const RegistrationConfig& registration, Random& random);
+
+/// The three steps of thesis 3.3 on one frame: translation, pose, shape. Refuses (keeps the average arms)
+/// when the arms are not free of the body or of the image's edge, and says why.
+Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRegion& head,
+                      const JointLimits& limits, const CalibrationConfig& config,
+                      const RegistrationConfig& registration, Random& random);
+
+}  // namespace telemime

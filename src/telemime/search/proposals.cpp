@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/proposals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "telemime/body/arm_flips.h"
+#include "telemime/core/errors.h"
+#include "telemime/search/arm_search.h"
+#include "telemime/search/blocks.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kFlips = 3;
+// Between the wrists (m) of a proposal and of the arm itself: what is nearer belongs to the same valley of
+// the cost mostly, and would hide the others. And between two proposals that are both worth a search.
+constexpr double kAway = 0.15;
+constexpr double kApart = 0.10;
+constexpr double kTolerance = 1e-4;
+
+struct Candidate {
+  Pose pose;
+  double cost = 0.0;
+};
+
+Candidate searched(Objective& objective, const Candidate& from, const SearchBlock& block,
+                   const ObjectiveWeights& weights, int evaluations) {
+  if (evaluations < 2) {
+    return from;
+  }
+  SimplexOptions options;
+  options.tolerance = kTolerance;
+  options.max_evaluations = evaluations;
+  const SimplexResult found =
+      minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+               axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
+  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost}
+                                       : from;
+}
+
+Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
+  return forward_kinematics(body, pose).joints[side == Side::left ? Joint::l_wrist : Joint::r_wrist];
+}
+
+// The cheapest ones whose wrists are away from that of `here` and apart from each other's.
+std::vector<Candidate> unlike(std::vector<Candidate> candidates, const Body& body, const Pose& here,
+                              Side side, int count) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  const Eigen::Vector3d own = wrist_of(body, here, side);
+  std::vector<Eigen::Vector3d> wrists;
+  std::vector<Candidate> kept;
+  for (const Candidate& c : candidates) {
+    if (static_cast<int>(kept.size()) == count) {
+      break;
+    }
+    const Eigen::Vector3d wrist = wrist_of(body, c.pose, side);
+    if ((wrist - own).norm() >= kAway &&
+        std::all_of(wrists.begin(), wrists.end(),
+                    [&](const Eigen::Vector3d& w) { return (w - wrist).norm() >= kApart; })) {
+      wrists.push_back(wrist);
+      kept.push_back(c);
+    }
+  }
+  return kept;
+}
+
+std::vector<Pose> arms_from_elsewhere(const Objective& objective, const Pose& from, Side side,
+                                      const ProposalConfig& config, Random& random) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  std::vector<Pose> arms = forearm_fan(body, from, side, limits, config.directions, random);
+  for (int i = 0; i < config.arms; ++i) {
+    arms.push_back(random_arm(body, from, side, limits, random));
+  }
+  if (config.flips) {
+    const std::vector<Pose> flips = arm_flips(body, from, side, limits);
+    arms.insert(arms.end(), flips.begin(), flips.end());
+  }
+  return arms;
+}
+
+}  // namespace
+
+ProposalConfig no_proposals() {
+  ProposalConfig none;
+  none.directions = 0;
+  none.arms = 0;
+  none.flips = false;
+  none.upright = false;
+  return none;
+}
+
+int ProposalConfig::evaluations() const {
+  return directions + arms + (flips ? kFlips : 0) + kept * turns + refine + refine / 2;
+}
+
+ProposalConfig ProposalConfig::within(int most) const {
+  ProposalConfig less = *this;
+  if (evaluations() <= most) {
+    return less;
+  }
+  constexpr int kFewest = 8;  // directions; fewer find nothing
+  for (double share = static_cast<double>(most) / evaluations(); share > 0.0; share -= 0.02) {
+    const auto shared = [&](int whole) { return static_cast<int>(std::floor(whole * share)); };
+    less.directions = shared(directions);
+    less.arms = shared(arms);
+    less.kept = std::max(1, shared(kept));
+    less.refine = shared(refine);
+    if (less.directions + less.arms < std::min(kFewest, directions + arms)) {
+      break;
+    }
+    if (less.evaluations() <= most) {
+      return less;
+    }
+  }
+  return no_proposals();
+}
+
+void ProposalConfig::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "registration: proposals." + what);
+    }
+  };
+  require(directions >= 0 && directions <= 10000, "directions must be between 0 and 10000");
+  require(arms >= 0 && arms <= 10000, "arms must be between 0 and 10000");
+  require(kept >= 1 && kept <= 100, "kept must be between 1 and 100");
+  require(turns >= 0 && turns <= 10000, "turns must be between 0 and 10000");
+  require(refine >= 0 && refine <= 10000, "refine must be between 0 and 10000");
+  require(margin >= 0.0 && margin <= 10.0, "margin must be between 0 and 10");
+}
+
+Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights,
+                     double simplex_factor, int evaluations) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  Pose upright = start;
+  for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt}) {
+    upright[a] = 0.5 * start[a];
+  }
+  const auto neck = [&](const Pose& pose) { return forward_kinematics(body, pose).joints[Joint::neck]; };
+  upright.root += neck(start) - neck(upright);
+  for (const Side side : {Side::left, Side::right}) {
+    upright = with_wrist(body, upright, side, arm_target(body, start, side), limits);
+  }
+  // The arms fit the trunk that they were followed with: both get a short search before they are compared.
+  const auto settled = [&](const Pose& pose) {
+    Candidate best = {pose, objective(pose, weights)};
+    for (const Side side : {Side::left, Side::right}) {
+      best =
+          searched(objective, best, part_of(bones_block(body, best.pose, side, limits, simplex_factor), 0, 4),
+                   weights, evaluations / 4);
+    }
+    return best;
+  };
+  const Candidate rival = settled(limits.clamp(upright));
+  const Candidate own = settled(start);
+  return rival.cost < own.cost ? rival.pose : own.pose;
+}
+
+Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeights& weights,
+                  const ProposalConfig& config, bool both, double simplex_factor, Random& random) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  std::vector<Side> sides = {Side::left, Side::right};
+  if (!both) {
+    sides = {random.uniform() < 0.5 ? Side::left : Side::right};
+  }
+  Candidate best = {start, objective(start, weights)};
+  const auto bones = [&](const Pose& pose, Side side) {
+    return bones_block(body, pose, side, limits, simplex_factor);
+  };
+  for (const Side side : sides) {
+    std::vector<Candidate> others;
+    for (const Pose& arm : arms_from_elsewhere(objective, best.pose, side, config, random)) {
+      others.push_back({arm, objective(arm, weights)});
+    }
+    others = unlike(std::move(others), body, best.pose, side, config.kept);
+    if (others.empty()) {
+      continue;
+    }
+    for (Candidate& other : others) {
+      other = searched(objective, other, part_of(bones(other.pose, side), 2, 2), weights, config.turns);
+    }
+    const Candidate other = *std::min_element(
+        others.begin(), others.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+    const Candidate rival = searched(objective, other, bones(other.pose, side), weights, config.refine);
+    best = searched(objective, best, bones(best.pose, side), weights, config.refine / 2);
+    if (rival.cost + config.margin < best.cost) {
+      best = rival;
+    }
+  }
+  return best.pose;
+}
+
+}  // namespace telemime

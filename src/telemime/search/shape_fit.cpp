@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/shape_fit.h"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "telemime/body/arm_ik.h"
+#include "telemime/search/simplex.h"
+
+namespace telemime {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+struct Candidate {
+  Shape shape;
+  Pose pose;
+};
+
+// A group of numbers that are fitted together: added to the logarithm of scales, to the sleeve or to the
+// translation.
+struct Group {
+  std::vector<double> steps;
+  std::vector<double> reach;  // how far each may go from the start
+  std::function<Candidate(const Candidate&, const Eigen::VectorXd&)> apply;
+};
+
+void scale(SegmentScale& s, double length, double height, double width) {
+  s.length *= std::exp(length);
+  s.height *= std::exp(height);
+  s.width *= std::exp(width);
+}
+
+Group trunk_group() {
+  return {{0.02, 0.02, 0.04, 0.05, 0.05, 0.05},
+          {0.3, 0.3, 0.4, 0.3, 0.3, 0.4},
+          [](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            to.pose.root += Eigen::Vector3d(x[0], x[1], x[2]);
+            scale(to.shape[Segment::chest], x[3], x[4], x[5]);
+            return to;
+          }};
+}
+
+Group head_group() {
+  return {{0.05, 0.05, 0.05}, {0.3, 0.3, 0.3}, [](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            scale(to.shape[Segment::head], x[0], x[1], x[2]);
+            return to;
+          }};
+}
+
+// How far a relaxed forearm points toward the camera when the arms are held parallel to the image.
+constexpr double kRelaxedSlope = 15.0 * std::numbers::pi / 180.0;
+
+// The arm of a person who holds it parallel to the image: in-plane directions turned by two angles from where
+// the pose has them, the forearm sloping a little toward the camera. Lengths and directions can then be
+// fitted together, without the foreshortening that would hide a wrong length.
+void flatten_arm(const Body& body, const JointLimits& limits, Side side, double turn_upper, double turn_fore,
+                 Pose& pose) {
+  const auto i = static_cast<std::size_t>(side);
+  const bool left = side == Side::left;
+  const Kinematics k = forward_kinematics(body, pose);
+  const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const auto in_plane = [](const Eigen::Vector3d& along, double turn) {
+    const double a = std::atan2(along.y(), along.x()) + turn;
+    return Eigen::Vector3d(std::cos(a), std::sin(a), 0.0);
+  };
+  const Eigen::Vector3d upper = in_plane(elbow - shoulder, turn_upper);
+  const Eigen::Vector3d fore = in_plane(wrist - elbow, turn_fore) * std::cos(kRelaxedSlope) -
+                               Eigen::Vector3d::UnitZ() * std::sin(kRelaxedSlope);
+  const Eigen::Vector3d new_elbow = shoulder + upper * body.upper_arm_length[i];
+  set_arm_angles(pose, side,
+                 arm_through(body, pose, side, new_elbow, new_elbow + fore * body.forearm_length[i], limits));
+}
+
+Group arms_group(const std::vector<Side>& sides, const JointLimits& limits) {
+  Group group;
+  group.steps = {0.05, 0.10, 0.05, 0.10, 0.05, 0.10, 0.15};
+  group.reach = {0.3, 0.6, 0.3, 0.6, 0.3, 0.5, 2.0};
+  for (std::size_t i = 0; i < 2 * sides.size(); ++i) {
+    group.steps.push_back(0.06);
+    group.reach.push_back(0.6);
+  }
+  group.apply = [sides, &limits](const Candidate& from, const Eigen::VectorXd& x) {
+    Candidate to = from;
+    for (const Side side : sides) {
+      const bool left = side == Side::left;
+      scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], x[0], x[1], x[1]);
+      scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], x[2], x[3], x[3]);
+      scale(to.shape[left ? Segment::l_hand : Segment::r_hand], x[4], x[5], x[5]);
+    }
+    to.shape.sleeve = std::clamp(from.shape.sleeve + x[6], 0.0, 2.0);
+    const Body body = make_body(to.shape);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(7 + 2 * i);
+      flatten_arm(body, limits, sides[i], x[at], x[at + 1], to.pose);
+    }
+    return to;
+  };
+  return group;
+}
+
+}  // namespace
+
+double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
+  double sum = 0.0;
+  for (const SegmentScale& s : shape.segments) {
+    sum += square(std::log(s.length) / config.length_spread) +
+           square(std::log(s.height) / config.girth_spread) + square(std::log(s.width) / config.girth_spread);
+  }
+  sum /= static_cast<double>(3 * kSegmentCount);
+  // A nearly straight arm shows its whole length but not where the elbow is: people's proportions decide.
+  sum += square(std::log(shape[Segment::l_upper_arm].length / shape[Segment::l_forearm].length) /
+                config.ratio_spread);
+  sum += square(std::log(shape[Segment::r_upper_arm].length / shape[Segment::r_forearm].length) /
+                config.ratio_spread);
+  return sum;
+}
+
+ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
+                   const JointLimits& limits, const ShapeFitConfig& config) {
+  std::vector<Group> groups = {trunk_group(), head_group()};
+  if (config.share_sides) {
+    groups.push_back(arms_group({Side::left, Side::right}, limits));
+  } else {
+    groups.push_back(arms_group({Side::left}, limits));
+    groups.push_back(arms_group({Side::right}, limits));
+  }
+  Candidate best = {shape, pose};
+  ShapeFit fit;
+  for (const Group& group : groups) {
+    const auto n = static_cast<Eigen::Index>(group.steps.size());
+    const Eigen::VectorXd steps = Eigen::Map<const Eigen::VectorXd>(group.steps.data(), n);
+    const Eigen::VectorXd reach = Eigen::Map<const Eigen::VectorXd>(group.reach.data(), n);
+    const auto cost = [&](const Eigen::VectorXd& x) {
+      const Candidate c = group.apply(best, x);
+      const Model model = make_model(c.shape);
+      Score s;
+      backend.evaluate(frame, model, {&c.pose, 1}, Reduction::all, {&s, 1});
+      const double scale_px = 0.02 * frame.camera.width;
+      return s.region + config.contour_weight * s.contour / scale_px +
+             config.prior_weight * shape_prior(c.shape, config);
+    };
+    SimplexOptions options;
+    options.max_evaluations = config.iterations * static_cast<int>(n) / 6;
+    const Bounds bounds = {-reach, reach};
+    const SimplexResult found =
+        minimise(cost, axis_simplex(Eigen::VectorXd::Zero(n), steps, bounds), bounds, options);
+    best = group.apply(best, found.best().point);
+    fit.cost = found.best().cost;
+    fit.evaluations += found.evaluations;
+  }
+  fit.shape = best.shape;
+  fit.pose = best.pose;
+  return fit;
+}
+
+}  // namespace telemime

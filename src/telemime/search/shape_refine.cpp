@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/shape_refine.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "telemime/search/blocks.h"
+#include "telemime/search/simplex.h"
+
+namespace telemime {
+namespace {
+
+double square(double x) {
+  return x * x;
+}
+
+using ArmPoints = Eigen::Matrix<double, 3, 4>;
+
+// Elbows and wrists from the middle of the shoulders.
+ArmPoints arm_points(const Body& body, const Pose& pose) {
+  const JointPositions j = forward_kinematics(body, pose).joints;
+  const Eigen::Vector3d middle = mid_shoulders(j);
+  ArmPoints points;
+  points << j[Joint::l_elbow], j[Joint::l_wrist], j[Joint::r_elbow], j[Joint::r_wrist];
+  return points.colwise() - middle;
+}
+
+// The point at `length` from `parent` on the viewing ray of `seen`, on the side of `parent` on which `seen`
+// was; when the ray passes too far away, the point of the sphere nearest to it.
+Eigen::Vector3d on_ray(const Eigen::Vector3d& seen, const Eigen::Vector3d& old_parent,
+                       const Eigen::Vector3d& parent, double length) {
+  const Eigen::Vector3d ray = seen.normalized();
+  const double along = ray.dot(parent);
+  const Eigen::Vector3d foot = ray * along;
+  const double across = (foot - parent).norm();
+  if (across >= length) {
+    return parent + (foot - parent) * (length / across);
+  }
+  const double half = std::sqrt(length * length - across * across);
+  const double side = seen.dot(ray) < ray.dot(old_parent) ? -1.0 : 1.0;
+  return ray * (along + side * half);
+}
+
+void both(Shape& shape, Segment left, Segment right, double length, double girth) {
+  for (const Segment s : {left, right}) {
+    shape[s].length *= std::exp(length);
+    shape[s].height *= std::exp(girth);
+    shape[s].width *= std::exp(girth);
+  }
+}
+
+// Directions in which lengths are searched one after the other: the whole arm, its share between upper arm
+// and forearm, the hand, the shoulders.
+using LengthChange = void (*)(Shape&, double);
+constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
+    {[](Shape& s, double x) {
+       both(s, Segment::l_upper_arm, Segment::r_upper_arm, x, 0.0);
+       both(s, Segment::l_forearm, Segment::r_forearm, x, 0.0);
+     },
+     0.06},
+    {[](Shape& s, double x) {
+       both(s, Segment::l_upper_arm, Segment::r_upper_arm, 0.5 * x, 0.0);
+       both(s, Segment::l_forearm, Segment::r_forearm, -0.5 * x, 0.0);
+     },
+     0.08},
+    {[](Shape& s, double x) { both(s, Segment::l_hand, Segment::r_hand, x, 0.0); }, 0.10},
+    {[](Shape& s, double x) { s[Segment::chest].width *= std::exp(x); }, 0.04},
+}};
+
+// Logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
+Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
+  Shape to = from;
+  both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
+  both(to, Segment::l_forearm, Segment::r_forearm, 0.0, x[1]);
+  both(to, Segment::l_hand, Segment::r_hand, 0.0, x[2]);
+  to.sleeve = std::clamp(from.sleeve + x[3], 0.0, 2.0);
+  return to;
+}
+
+// A shape with the best poses that were found for it.
+struct Fitted {
+  Shape shape;
+  std::vector<Pose> poses;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+class Refiner {
+ public:
+  Refiner(const BackendMaker& make_backend, std::span<const Keyframe> keyframes, const JointLimits& limits,
+          const ShapeFitConfig& spreads, const ShapeRefineConfig& config)
+      : keyframes_(keyframes), limits_(limits), spreads_(spreads), config_(config) {
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      backends_.push_back(make_backend());
+    }
+  }
+
+  // The cost of a shape. Each keyframe's pose is carried over from `from` (or keeps its angles, whichever
+  // fits better); with `iterations`, each arm is then searched anew.
+  Fitted fit(const Fitted& from, const Shape& shape, int iterations) {
+    const Model model = make_model(shape);
+    const Body old_body = make_body(from.shape);
+    Fitted fitted;
+    fitted.shape = shape;
+    fitted.poses.resize(keyframes_.size());
+    std::vector<double> costs(keyframes_.size());
+    std::vector<int> evaluations(keyframes_.size());
+    tbb::parallel_for(std::size_t{0}, keyframes_.size(), [&](std::size_t i) {
+      Objective objective(*backends_[i], keyframes_[i].frame, model, limits_);
+      std::tie(fitted.poses[i], costs[i]) = best_pose(
+          objective, {from.poses[i], carry_pose(old_body, model.body, from.poses[i], limits_)}, iterations);
+      evaluations[i] = objective.evaluations();
+    });
+    fitted.cost = prior(shape);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+      fitted.cost += costs[i] / static_cast<double>(costs.size());
+      evaluations_ += evaluations[i];
+    }
+    return fitted;
+  }
+
+  int evaluations() const { return evaluations_; }
+
+ private:
+  // People's arms differ less than what single frames make of them.
+  double prior(const Shape& shape) const {
+    const SegmentScale& upper = shape[Segment::l_upper_arm];
+    const SegmentScale& fore = shape[Segment::l_forearm];
+    const SegmentScale& hand = shape[Segment::l_hand];
+    double sum = square(std::log(upper.length / fore.length) / spreads_.ratio_spread) +
+                 square(std::log(shape[Segment::chest].width) / spreads_.girth_spread);
+    for (const SegmentScale* s : {&upper, &fore, &hand}) {
+      sum += square(std::log(s->length) / spreads_.length_spread) +
+             square(std::log(s->width) / spreads_.girth_spread);
+    }
+    return config_.prior_weight * sum;
+  }
+
+  std::pair<Pose, double> best_pose(Objective& objective, const std::array<Pose, 2>& starts,
+                                    int iterations) const {
+    ObjectiveWeights weights;
+    weights.contour = config_.contour_weight;
+    weights.natural = config_.natural_weight;
+    std::pair<Pose, double> best = {starts[0], objective(starts[0], weights)};
+    if (const double other = objective(starts[1], weights); other < best.second) {
+      best = {starts[1], other};
+    }
+    if (iterations == 0) {
+      return best;
+    }
+    for (const Side side : {Side::left, Side::right}) {
+      const SearchBlock block = bones_block(objective.model().body, best.first, side, limits_, 1.0);
+      SimplexOptions options;
+      options.max_evaluations = iterations;
+      const SimplexResult found =
+          minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+                   axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
+      if (found.best().cost < best.second) {
+        best = {block.decode(found.best().point), found.best().cost};
+      }
+    }
+    return best;
+  }
+
+  std::span<const Keyframe> keyframes_;
+  const JointLimits& limits_;
+  const ShapeFitConfig& spreads_;
+  const ShapeRefineConfig& config_;
+  std::vector<std::unique_ptr<Backend>> backends_;
+  int evaluations_ = 0;
+};
+
+// The minimum of the parabola through costs at -2, -1, 0, 1, 2 (least squares), within that range. The costs
+// are noisy, because the poses' searches end early: a parabola through five of them is less so.
+double minimum_of_parabola(const std::array<double, 5>& cost) {
+  const double slope = (-2.0 * cost[0] - cost[1] + cost[3] + 2.0 * cost[4]) / 10.0;
+  const double bend = (2.0 * cost[0] - cost[1] - 2.0 * cost[2] - cost[3] + 2.0 * cost[4]) / 14.0;
+  const auto lowest = std::distance(cost.begin(), std::min_element(cost.begin(), cost.end()));
+  return bend > 0.0 ? std::clamp(-0.5 * slope / bend, -2.0, 2.0) : static_cast<double>(lowest - 2);
+}
+
+Fitted search_length(Refiner& refiner, const Fitted& from, LengthChange change, double step, int iterations) {
+  const auto at = [&](double x) {
+    Shape shape = from.shape;
+    change(shape, x * step);
+    return refiner.fit(from, shape, iterations);
+  };
+  std::array<Fitted, 5> tried;
+  std::array<double, 5> costs{};
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    tried[i] = at(static_cast<double>(i) - 2.0);
+    costs[i] = tried[i].cost;
+  }
+  Fitted between = at(minimum_of_parabola(costs));
+  const auto lowest = std::min_element(costs.begin(), costs.end()) - costs.begin();
+  return between.cost <= costs[static_cast<std::size_t>(lowest)] ? between
+                                                                 : tried[static_cast<std::size_t>(lowest)];
+}
+
+// Girths move no joint: the poses are not searched anew.
+Fitted search_girths(Refiner& refiner, const Fitted& from, double step, int shapes) {
+  const Eigen::VectorXd reach = Eigen::Vector4d(0.5, 0.5, 0.5, 1.0);
+  const Bounds bounds = {-reach, reach};
+  SimplexOptions options;
+  options.max_evaluations = shapes;
+  const auto at = [&](const Eigen::VectorXd& x) { return refiner.fit(from, with_girths(from.shape, x), 0); };
+  const SimplexResult found = minimise(
+      [&](const Eigen::VectorXd& x) { return at(x).cost; },
+      axis_simplex(Eigen::VectorXd::Zero(4), Eigen::VectorXd::Constant(4, step), bounds), bounds, options);
+  return at(found.best().point);
+}
+
+}  // namespace
+
+bool shows_arms(const Body& body, const Keyframe& keyframe) {
+  const Camera& camera = keyframe.frame.camera;
+  const JointPositions joints = forward_kinematics(body, keyframe.pose).joints;
+  for (const Joint j :
+       {Joint::l_elbow, Joint::l_wrist, Joint::l_hand, Joint::r_elbow, Joint::r_wrist, Joint::r_hand}) {
+    const Eigen::Vector2d p = joints[j].z() > 0.1 ? camera.project(joints[j]) : Eigen::Vector2d(-1.0, -1.0);
+    if (p.x() < 0.0 || p.y() < 0.0 || p.x() > camera.width - 1 || p.y() > camera.height - 1) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyframe> candidates,
+                                        std::size_t count) {
+  std::vector<std::size_t> picked;
+  if (candidates.empty() || count == 0) {
+    return picked;
+  }
+  std::vector<double> regions;
+  std::vector<ArmPoints> points;
+  for (const Keyframe& k : candidates) {
+    regions.push_back(k.region);
+    points.push_back(arm_points(body, k.pose));
+  }
+  const auto middle = regions.begin() + static_cast<std::ptrdiff_t>(regions.size() / 2);
+  std::nth_element(regions.begin(), middle, regions.end());
+  const double worst = 1.1 * *middle;
+  std::vector<double> distance(candidates.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].region > worst || !shows_arms(body, candidates[i])) {
+      distance[i] = 0.0;
+    } else if (picked.empty()) {
+      picked.push_back(i);
+    }
+  }
+  if (picked.empty()) {
+    return picked;
+  }
+  while (picked.size() < count) {
+    std::size_t farthest = picked.front();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      distance[i] = std::min(distance[i], (points[i] - points[picked.back()]).squaredNorm());
+      if (distance[i] > distance[farthest]) {
+        farthest = i;
+      }
+    }
+    if (distance[farthest] <= 0.0) {
+      break;
+    }
+    picked.push_back(farthest);
+  }
+  std::sort(picked.begin(), picked.end());
+  return picked;
+}
+
+Pose carry_pose(const Body& from, const Body& to, const Pose& pose, const JointLimits& limits) {
+  return carry_arms(from, pose, to, pose, limits);
+}
+
+Pose carry_arms(const Body& from, const Pose& pose, const Body& to, const Pose& trunk,
+                const JointLimits& limits) {
+  const JointPositions seen = forward_kinematics(from, pose).joints;
+  Pose carried = trunk;
+  for (const Side side : {Side::left, Side::right}) {
+    const auto i = static_cast<std::size_t>(side);
+    const bool left = side == Side::left;
+    const Joint shoulder = left ? Joint::l_shoulder : Joint::r_shoulder;
+    const Joint elbow = left ? Joint::l_elbow : Joint::r_elbow;
+    const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
+    const Eigen::Vector3d origin = forward_kinematics(to, carried).joints[shoulder];
+    const Eigen::Vector3d e = on_ray(seen[elbow], seen[shoulder], origin, to.upper_arm_length[i]);
+    const Eigen::Vector3d w = on_ray(seen[wrist], seen[elbow], e, to.forearm_length[i]);
+    set_arm_angles(carried, side, arm_through(to, carried, side, e, w, limits));
+  }
+  return limits.clamp(carried);
+}
+
+ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const Keyframe> keyframes,
+                             const Shape& shape, const JointLimits& limits, const ShapeFitConfig& spreads,
+                             const ShapeRefineConfig& config) {
+  Refiner refiner(make_backend, keyframes, limits, spreads, config);
+  Fitted best;
+  best.shape = shape;
+  for (const Keyframe& k : keyframes) {
+    best.poses.push_back(k.pose);
+  }
+  ShapeRefinement result;
+  best = refiner.fit(best, shape, config.pose_iterations);
+  result.cost_before = best.cost;
+  for (int round = 0; round < config.rounds; ++round) {
+    const double scale = std::pow(0.5, round);
+    for (const auto& [change, step] : kLengths) {
+      best = search_length(refiner, best, change, scale * step, config.pose_iterations);
+    }
+    best = search_girths(refiner, best, 0.1 * scale, config.shapes);
+  }
+  result.shape = best.shape;
+  result.poses = best.poses;
+  result.cost = best.cost;
+  result.evaluations = refiner.evaluations();
+  return result;
+}
+
+}  // namespace telemime

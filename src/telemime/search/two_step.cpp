@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/two_step.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kParts = 3;  // trunk, left arm, right arm
+
+// What a step leaves to the next: the pose, and the extent of each block's last simplex.
+struct StepResult {
+  Pose pose;
+  std::vector<std::vector<Vertex>> simplexes;
+  bool converged = true;
+};
+
+// Arms are searched by their bones in even rounds and by their wrist in odd ones: the first moves the forearm
+// without the elbow, the second slides the wrist along its viewing ray.
+SearchBlock make_block(std::size_t part, int round, const Objective& objective, const Pose& pose,
+                       double factor) {
+  const Body& body = objective.model().body;
+  const JointLimits& limits = objective.limits();
+  if (part == 0) {
+    return trunk_block(body, pose, limits, factor);
+  }
+  const Side side = part == 1 ? Side::left : Side::right;
+  return round % 2 == 0 ? bones_block(body, pose, side, limits, factor)
+                        : arm_block(body, pose, side, limits, factor);
+}
+
+// How far the first simplex reaches along each axis.
+Eigen::VectorXd first_steps(const SearchBlock& block, const std::vector<Vertex>* last, double shrink) {
+  if (last == nullptr || last->size() < 2) {
+    return block.steps;
+  }
+  // The last simplex's extent, laid about where this block is now (other blocks may have moved on).
+  Eigen::VectorXd extent = block.steps * shrink;
+  for (const Vertex& v : *last) {
+    extent = extent.cwiseMax((v.point - last->front().point).cwiseAbs().cwiseMin(block.steps));
+  }
+  return extent;
+}
+
+Eigen::VectorXd either_way(Eigen::VectorXd steps, Random& random) {
+  for (double& step : steps) {
+    step = random.uniform() < 0.5 ? -step : step;
+  }
+  return steps;
+}
+
+StepResult run_step(Objective& objective, const Pose& start, const RegistrationConfig& config,
+                    const ObjectiveWeights& weights, int budget, const StepResult* before, Random& random) {
+  StepResult result;
+  result.pose = start;
+  result.simplexes.resize(kParts);
+  const double shrink = config.edge_factor / config.simplex_factor;
+  const auto search = [&](const SearchBlock& block, std::size_t part, int evaluations) {
+    if (evaluations < 2) {
+      return;
+    }
+    const auto* last = before != nullptr ? &before->simplexes[part] : nullptr;
+    Eigen::VectorXd steps = first_steps(block, last, shrink);
+    if (config.blocks && part == 0) {
+      // Where the face points is hardly seen: it would drift from frame to frame to the side on which the
+      // simplex always begins. Arms are seen; chance makes them less steady.
+      steps = either_way(steps, random);
+    }
+    SimplexOptions options;
+    options.tolerance = config.tolerance;
+    options.max_evaluations = evaluations;
+    const SimplexResult found =
+        minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+                 axis_simplex(block.start, steps, block.bounds), block.bounds, options);
+    result.pose = block.decode(found.best().point);
+    result.simplexes[part] = found.simplex;
+    result.converged = result.converged && found.reason == StopReason::converged;
+  };
+  if (!config.blocks) {
+    search(whole_block(start, objective.limits(), config.simplex_factor), 0, budget);
+    return result;
+  }
+  const int first = objective.evaluations();
+  constexpr std::array<double, kParts> kShare = {0.2, 0.4, 0.4};
+  for (int round = 0; round < config.rounds; ++round) {
+    const double factor = config.simplex_factor * std::pow(0.5, round);
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const int left = budget - (objective.evaluations() - first);
+      const int planned = static_cast<int>(std::lround(budget * kShare[part] / config.rounds));
+      search(make_block(part, round, objective, result.pose, factor), part, std::min(left, planned));
+    }
+  }
+  return result;
+}
+
+bool is_bent(const Pose& pose) {
+  constexpr double kUpright = 0.07;  // rad
+  return std::max({std::abs(pose[Angle::root_torsion]), std::abs(pose[Angle::root_roll]),
+                   std::abs(pose[Angle::root_tilt])}) > kUpright;
+}
+
+// For both arms where the evaluations would be enough for one in full, else for one at random.
+Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
+             Random& random) {
+  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk, before any search
+  const int most = std::min(static_cast<int>(std::floor(config.proposal_share * budget)), budget - kBeside);
+  const bool upright = config.proposals.upright && most >= kBeside;
+  const int settle = upright && is_bent(start) ? most / 8 : 0;
+  const bool both = most - settle >= config.proposals.evaluations();
+  const ProposalConfig proposals = config.proposals.within(both ? (most - settle) / 2 : most - settle);
+  const Pose from =
+      upright ? propose_upright(objective, start, config.region, config.simplex_factor, settle) : start;
+  return proposals.any_arms()
+             ? propose_arms(objective, from, config.region, proposals, both, config.simplex_factor, random)
+             : from;
+}
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void RegistrationConfig::validate() const {
+  const auto require = [](bool good, const std::string& what) {
+    if (!good) {
+      throw Error(ErrorKind::config, "registration: " + what);
+    }
+  };
+  require(iterations >= 1 && iterations <= 1000000, "iterations must be between 1 and 1000000");
+  require(region_share >= 0.0 && region_share <= 1.0, "region_share must be between 0 and 1");
+  require(simplex_factor > 0.0 && simplex_factor <= 20.0, "simplex_factor must be above 0, at most 20");
+  require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
+  require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
+  proposals.validate();
+  require(proposal_share >= 0.0 && proposal_share <= 1.0, "proposal_share must be between 0 and 1");
+  require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
+  for (const ObjectiveWeights* w : {&region, &edge}) {
+    require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
+                w->temporal >= 0.0 && w->trunk >= 0.0 && w->fronto_parallel >= 0.0,
+            "weights must not be negative");
+    require(w->contour_scale > 0.0, "contour_scale must be positive");
+  }
+}
+
+RegistrationConfig for_time_step(RegistrationConfig config, double frames) {
+  config.simplex_factor = std::min(20.0, config.simplex_factor * std::sqrt(frames));
+  for (ObjectiveWeights* w : {&config.region, &config.edge}) {
+    w->temporal /= frames;
+    w->trunk /= frames;
+  }
+  return config;
+}
+
+RegistrationConfig reference_registration() {
+  RegistrationConfig config;
+  config.blocks = false;
+  config.region_share = 0.5;
+  config.proposals = no_proposals();
+  config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0, 0.0};
+  config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0, 0.0};
+  return config;
+}
+
+RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config,
+                                 Random& random) {
+  const double share = config.method == Method::regions ? 1.0
+                       : config.method == Method::edges ? 0.0
+                                                        : config.region_share;
+  // The last evaluation scores the pose that is returned.
+  const int budget = std::max(1, config.iterations - 1);
+  const int region_budget = static_cast<int>(std::lround(share * budget));
+
+  RegistrationResult result;
+  StepResult step;
+  step.pose = start;
+  step.simplexes.resize(kParts);
+  int before = objective.evaluations();
+  auto clock = std::chrono::steady_clock::now();
+  if (region_budget > 0) {
+    const Pose from = propose(objective, start, config, region_budget, random);
+    const int spent = objective.evaluations() - before;
+    step = run_step(objective, from, config, config.region, region_budget - spent, nullptr, random);
+  }
+  result.region_evaluations = objective.evaluations() - before;
+  result.region_ms = milliseconds_since(clock);
+
+  before = objective.evaluations();
+  clock = std::chrono::steady_clock::now();
+  if (budget - region_budget > 0) {
+    step = run_step(objective, step.pose, config, config.edge, budget - region_budget,
+                    region_budget > 0 ? &step : nullptr, random);
+  }
+  result.edge_evaluations = objective.evaluations() - before;
+  result.edge_ms = milliseconds_since(clock);
+  result.pose = objective.limits().clamp(step.pose);
+  result.score = objective.score(result.pose, Reduction::all);
+  result.converged = step.converged;
+  return result;
+}
+
+Method parse_method(const std::string& name) {
+  for (const Method m : {Method::regions, Method::edges, Method::two_step}) {
+    if (name == to_string(m)) {
+      return m;
+    }
+  }
+  throw Error(ErrorKind::usage, "unknown method '" + name + "'", "Use regions, edges or two-step.");
+}
+
+std::string_view to_string(Method method) {
+  switch (method) {
+    case Method::regions:
+      return "regions";
+    case Method::edges:
+      return "edges";
+    case Method::two_step:
+      break;
+  }
+  return "two-step";
+}
+
+}  // namespace telemime

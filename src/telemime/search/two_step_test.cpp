@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/two_step.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+TEST(RegistrationConfig, MethodsHaveNames) {
+  for (const Method m : {Method::regions, Method::edges, Method::two_step}) {
+    EXPECT_EQ(parse_method(std::string(to_string(m))), m);
+  }
+  EXPECT_EQ(to_string(Method::two_step), "two-step");
+  try {
+    parse_method("telepathy");
+    FAIL() << "an unknown method was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_NE(std::string(error.what()).find("telepathy"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("two-step"), std::string::npos) << "no remedy";
+  }
+}
+
+TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
+  EXPECT_NO_THROW(RegistrationConfig{}.validate());
+  const RegistrationConfig reference = reference_registration();
+  EXPECT_NO_THROW(reference.validate());
+  // One simplex, F alone, then D_C alone, and nothing that the thesis does not have.
+  EXPECT_FALSE(reference.blocks);
+  EXPECT_FALSE(reference.proposals.any_arms());
+  EXPECT_EQ(reference.region.contour, 0.0);
+  EXPECT_EQ(reference.edge.region, 0.0);
+  for (const ObjectiveWeights& w : {reference.region, reference.edge}) {
+    EXPECT_EQ(w.natural, 0.0);
+    EXPECT_EQ(w.temporal, 0.0);
+  }
+}
+
+TEST(RegistrationConfig, RefusesValuesByName) {
+  using Fault = std::pair<std::string, std::function<void(RegistrationConfig&)>>;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Fault faults[] = {
+      {"iterations", [](auto& c) { c.iterations = 0; }},
+      {"iterations", [](auto& c) { c.iterations = -5; }},
+      {"region_share", [](auto& c) { c.region_share = 1.01; }},
+      {"region_share", [=](auto& c) { c.region_share = nan; }},
+      {"simplex_factor", [](auto& c) { c.simplex_factor = 0.0; }},
+      {"simplex_factor", [=](auto& c) { c.simplex_factor = nan; }},
+      {"edge_factor", [](auto& c) { c.edge_factor = -1.0; }},
+      {"rounds", [](auto& c) { c.rounds = 0; }},
+      {"proposals", [](auto& c) { c.proposals.directions = -1; }},
+      {"proposal_share", [=](auto& c) { c.proposal_share = nan; }},
+      {"tolerance", [](auto& c) { c.tolerance = -1e-9; }},
+      {"weights", [](auto& c) { c.region.region = -1.0; }},
+      {"weights", [=](auto& c) { c.edge.contour = nan; }},
+      {"weights", [](auto& c) { c.edge.fronto_parallel = -1.0; }},
+      {"contour_scale", [](auto& c) { c.edge.contour_scale = 0.0; }},
+  };
+  for (const auto& [name, spoil] : faults) {
+    RegistrationConfig config;
+    spoil(config);
+    try {
+      config.validate();
+      ADD_FAILURE() << name << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::config);
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "telemime/streaming/person_motion.h"
+
+namespace telemime {
+
+/// The messages `body` and `pose` of docs/live-protocol.md, JSON without line breaks, for one person. Numbers
+/// that are not finite never appear: see outputs/finite.h for what stands in their place.
+class PoseMessages {
+ public:
+  /// Where the scale comes from is read from header.extra["scale_from"], when it is there.
+  explicit PoseMessages(const StreamHeader& header);
+
+  /// The person: their skeleton in its T-pose.
+  std::string body() const;
+  /// One frame, in the order of the stream. `stamp` is ms of the program's monotonic clock.
+  std::string pose(const MotionFrame& frame, double stamp);
+  /// A frame that nobody is told of; the messages behind it are as if it had been told.
+  void pass(const MotionFrame& frame) { motion_(motion_.clean(frame)); }
+
+ private:
+  PersonMotion motion_;
+  std::string scale_from_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/send_queue.h"
+
+#include <algorithm>
+#include <atomic>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "telemime/streaming/mirror.h"
+
+namespace telemime {
+namespace {
+
+using std::chrono::milliseconds;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr milliseconds kFirstPause{100};
+constexpr milliseconds kLongestPause{5000};
+/// A connection that stood this long was a good one: the next failure is a new one.
+constexpr milliseconds kGoodConnection{2000};
+constexpr milliseconds kForever = std::chrono::hours(1);
+
+/// Thrown through the Link when the sender is destroyed. Not a std::exception: nobody else shall catch it.
+struct Stopped {};
+
+struct WaitingFrame {
+  MotionFrame frame;
+  double taken = 0.0;  ///< ms of the monotonic clock
+};
+
+/// Growing pauses between attempts: none, then 0.1 s, doubled up to 5 s.
+class Pauses {
+ public:
+  milliseconds next() {
+    return std::exchange(next_, std::min(std::max(2 * next_, kFirstPause), kLongestPause));
+  }
+  void reset() { next_ = milliseconds{0}; }
+
+ private:
+  milliseconds next_{0};
+};
+
+class QueuedSender final : public Sender, private SendLoop {
+ public:
+  QueuedSender(const SendUrl& url, const MakeLink& make_link)
+      : mirror_(option(url, "mirror", {"0", "1"}) == "1") {
+    status_.url = url.text;
+    status_.words = "connecting";
+    link_ = make_link(*this);
+    thread_ = std::thread([this] { run(); });
+  }
+
+  ~QueuedSender() override {
+    stopping_ = true;
+    wake();
+    thread_.join();
+    link_.reset();  // its sockets before the context that they belong to
+  }
+
+  void begin(const StreamHeader& header) override {
+    auto person = std::make_shared<const StreamHeader>(mirror_ ? mirrored(header) : header);
+    {
+      const std::lock_guard lock(mutex_);
+      status_.dropped += static_cast<std::int64_t>(queue_.size());  // they show someone else
+      queue_.clear();
+      person_ = std::move(person);
+      person_is_new_ = true;
+    }
+    wake();
+  }
+
+  void send(const MotionFrame& frame, double taken) override {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!person_) {
+        return;
+      }
+      if (queue_.size() == kSendQueueFrames) {
+        queue_.pop_front();
+        ++status_.dropped;
+      }
+      queue_.push_back({frame, taken});
+    }
+    wake();
+  }
+
+  SenderStatus status() const override {
+    const std::lock_guard lock(mutex_);
+    return status_;
+  }
+
+ private:
+  // SendLoop
+  boost::asio::io_context& io() override { return *io_; }
+
+  bool wait(const std::function<bool()>& done, milliseconds limit) override {
+    const auto end = SteadyClock::now() + limit;
+    while (!done()) {
+      if (stopping_) {
+        throw Stopped{};
+      }
+      if (SteadyClock::now() >= end) {
+        return false;
+      }
+      io_->run_one_until(end);
+    }
+    return true;
+  }
+
+  std::function<void()> waker() override {
+    return [weak = std::weak_ptr(io_)] {
+      if (const auto io = weak.lock()) {
+        boost::asio::post(*io, [] {});
+      }
+    };
+  }
+
+  void waiting(const std::string& words) override {
+    const std::lock_guard lock(mutex_);
+    if (status_.state == SenderState::connecting) {
+      status_.words = words;
+    }
+  }
+
+  void sending(const std::string& words) override {
+    const std::lock_guard lock(mutex_);
+    if (status_.state != SenderState::sending) {
+      status_.receivers = 1;
+    }
+    status_.state = SenderState::sending;
+    status_.words = words;
+    if (!good_since_) {
+      good_since_ = SteadyClock::now();
+    }
+  }
+
+  void receivers(std::int64_t count) override {
+    const std::lock_guard lock(mutex_);
+    status_.receivers = count;
+  }
+
+  // The thread
+  void wake() {
+    boost::asio::post(*io_, [] {});
+  }
+
+  void run() {
+    try {
+      for (;;) {
+        try {
+          link_->open();
+          write_frames();
+        } catch (const std::exception& e) {
+          failed(e.what());
+        }
+        link_->close();
+        forget_old_handlers();
+        wait([] { return false; }, pauses_.next());
+      }
+    } catch (const Stopped&) {
+      link_->close();
+    }
+  }
+
+  void write_frames() {
+    std::shared_ptr<const StreamHeader> given;
+    for (;;) {
+      wait([&] { return has_work(given != nullptr); }, kForever);
+      std::optional<WaitingFrame> next;
+      std::shared_ptr<const StreamHeader> person;
+      {
+        const std::lock_guard lock(mutex_);
+        if (person_ && (person_is_new_ || !given)) {
+          person = person_;
+          person_is_new_ = false;
+        } else if (!queue_.empty()) {
+          next = std::move(queue_.front());
+          queue_.pop_front();
+        }
+      }
+      if (person) {
+        given = std::move(person);
+        link_->person(given);
+      } else if (next) {
+        write(*given, *next);
+      }
+    }
+  }
+
+  bool has_work(bool person_given) const {
+    const std::lock_guard lock(mutex_);
+    return person_is_new_ || (person_ && !person_given) || !queue_.empty();
+  }
+
+  void write(const StreamHeader& person, const WaitingFrame& next) {
+    bool arrived = false;
+    try {
+      arrived = link_->frame(mirror_ ? mirrored(next.frame, person.camera) : next.frame, next.taken);
+    } catch (const std::exception&) {
+      const std::lock_guard lock(mutex_);
+      ++status_.dropped;
+      throw;
+    }
+    const std::lock_guard lock(mutex_);
+    status_.sent += arrived ? 1 : 0;
+  }
+
+  void failed(const std::string& cause) {
+    const std::lock_guard lock(mutex_);
+    status_.state = SenderState::failed;
+    status_.words = cause + "; trying again";
+    status_.receivers = 0;
+    if (good_since_ && SteadyClock::now() - *good_since_ >= kGoodConnection) {
+      pauses_.reset();
+    }
+    good_since_.reset();
+  }
+
+  /// What the closed connection still has to say interests nobody.
+  void forget_old_handlers() {
+    for (;;) {
+      try {
+        if (io_->poll_one() == 0) {
+          return;
+        }
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+  }
+
+  const bool mirror_;
+  const std::shared_ptr<boost::asio::io_context> io_ = std::make_shared<boost::asio::io_context>(1);
+  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_->get_executor()};
+  mutable std::mutex mutex_;  ///< of the five below; all else is the thread's
+  SenderStatus status_;
+  std::deque<WaitingFrame> queue_;
+  std::shared_ptr<const StreamHeader> person_;
+  bool person_is_new_ = false;
+  std::optional<SteadyClock::time_point> good_since_;  ///< when frames began to arrive
+  std::unique_ptr<Link> link_;
+  Pauses pauses_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sender> make_queued_sender(const SendUrl& url, const MakeLink& make_link) {
+  return std::make_unique<QueuedSender>(url, make_link);
+}
+
+}  // namespace telemime

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/vmc.h"
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/udp.hpp>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "telemime/core/errors.h"
+#include "telemime/streaming/person_motion.h"
+#include "telemime/streaming/resolve.h"
+#include "telemime/streaming/send_queue.h"
+#include "telemime/streaming/tcp.h"
+#include "telemime/streaming/vmc_messages.h"
+
+namespace telemime {
+namespace {
+
+namespace asio = boost::asio;
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLongestWait{5000};  // for a network that takes nothing
+constexpr std::chrono::seconds kLongestSearch{5};        // for a computer's address: Linux asks three times
+
+class VmcLink final : public Link {
+ public:
+  VmcLink(SendLoop& loop, const SendUrl& url, const VmcOptions& options)
+      : loop_(loop),
+        host_(url.host),
+        port_(url.port.value_or(kMarionettePort)),
+        options_(options),
+        socket_(loop.io()) {}
+
+  void open() override {
+    // IPv4 where the host has it: the avatar programs listen there.
+    const asio::ip::udp::endpoint endpoint(asio::ip::make_address(resolve(loop_, host_).front()), port_);
+    frames_ = 0;
+    told_ = false;
+    believed_at_ = SteadyClock::now() + (unreachable_ ? kLongestSearch : std::chrono::seconds(0));
+    boost::system::error_code error;
+    socket_.open(endpoint.protocol(), error);
+    if (!error) {
+      socket_.connect(endpoint, error);  // or the system would not tell us of refusals
+    }
+    if (error) {
+      throw LinkBroken(in_words(error));
+    }
+    socket_.non_blocking(true);
+    tell_of_unreachable(endpoint.protocol() == asio::ip::udp::v4());
+    read_on();
+    loop_.waiting("waits for a person to follow");
+  }
+
+  void person(const std::shared_ptr<const StreamHeader>& person) override {
+    if (person_ != person) {
+      motion_.emplace(person->body);
+      person_ = person;
+    }
+  }
+
+  bool frame(const MotionFrame& raw, double /*taken*/) override {
+    const MotionFrame frame = motion_->clean(raw);
+    const auto motion = (*motion_)(frame);
+    followed_at_ = motion ? std::optional(frame.time) : std::nullopt;
+    for (const std::string& datagram :
+         vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.time, options_)) {
+      send(datagram);
+    }
+    // A refusal comes back after the frame: the one behind it would have heard of it.
+    if (++frames_ >= 2 && !told_ && SteadyClock::now() >= believed_at_) {
+      loop_.sending();
+      told_ = true;
+      unreachable_ = false;
+    }
+    return true;
+  }
+
+  void close() noexcept override {
+    boost::system::error_code ignored;
+    try {
+      say_farewell();
+    } catch (const std::exception&) {  // for want of memory: it was a courtesy
+    }
+    socket_.close(ignored);
+  }
+
+ private:
+  /// The last that a receiver hears is not that somebody is followed.
+  void say_farewell() {
+    if (!followed_at_ || !socket_.is_open()) {
+      return;
+    }
+    boost::system::error_code ignored;
+    for (const std::string& datagram :
+         vmc_datagrams(motion_->skeleton(), nullptr, *std::exchange(followed_at_, std::nullopt), options_)) {
+      socket_.send(asio::buffer(datagram), 0, ignored);
+    }
+  }
+
+  /// Else only a refusal comes back, and a computer that is off is sent to for ever.
+  void tell_of_unreachable(bool v4) {
+    const int on = 1;
+    ::setsockopt(socket_.native_handle(), v4 ? IPPROTO_IP : IPPROTO_IPV6, v4 ? IP_RECVERR : IPV6_RECVERR, &on,
+                 sizeof on);
+  }
+
+  void send(const std::string& datagram) {
+    boost::system::error_code error;
+    while (socket_.send(asio::buffer(datagram), 0, error), error == asio::error::would_block) {
+      // Nothing leaves this computer for now: the receiver's address is being looked for, or a radio is slow.
+      const auto room = std::make_shared<Completion>();
+      socket_.async_wait(asio::socket_base::wait_write, note<>(room));
+      if (!loop_.wait([&room] { return room->done; }, kLongestWait)) {
+        throw LinkBroken("the network takes nothing that is sent there");
+      }
+    }
+    if (error && error != asio::error::no_buffer_space) {  // lost, as datagrams may be
+      fail(error);
+    }
+  }
+
+  [[noreturn]] void fail(const boost::system::error_code& error) {
+    unreachable_ = error == asio::error::host_unreachable;
+    throw LinkBroken(in_words(error));
+  }
+
+  /// Nothing is expected; what matters is the refusal.
+  void read_on() {
+    socket_.async_receive(asio::buffer(rubbish_),
+                          [this](const boost::system::error_code& error, std::size_t /*count*/) {
+                            if (error == asio::error::operation_aborted) {
+                              return;
+                            }
+                            if (error && error != asio::error::message_size) {
+                              fail(error);
+                            }
+                            read_on();
+                          });
+  }
+
+  SendLoop& loop_;
+  const std::string host_;
+  const std::uint16_t port_;
+  const VmcOptions options_;
+  std::optional<PersonMotion> motion_;
+  std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
+  std::optional<double> followed_at_;           ///< time of the last frame, when it had somebody
+  std::int64_t frames_ = 0;                     ///< of this attempt
+  bool told_ = false;                           ///< that frames arrive
+  bool unreachable_ = false;                    ///< the computer was, in the last attempt
+  SteadyClock::time_point believed_at_;         ///< when frames without an answer are thought to arrive
+  asio::ip::udp::socket socket_;
+  std::array<char, 512> rubbish_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url) {
+  check_options(url, {"bundle", "positions", "root", "mirror"});
+  require_host(url);
+  if (url.port == 0 || url.path.size() > 1) {
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not name a port of a computer",
+                "Write it like vmc://localhost:39539.");
+  }
+  VmcOptions options;
+  options.bundles = option(url, "bundle", {"1", "0"}) == "1";
+  options.all_positions = option(url, "positions", {"all", "hips"}) == "all";
+  options.root_moves = option(url, "root", {"still", "moves"}) == "moves";
+  return make_queued_sender(url,
+                            [&](SendLoop& loop) { return std::make_unique<VmcLink>(loop, url, options); });
+}
+
+}  // namespace telemime

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/web_answer.h"
+
+#include <algorithm>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <exception>
+#include <optional>
+#include <utility>
+
+#include "telemime/streaming/web_path.h"
+
+namespace telemime {
+namespace {
+
+namespace http = boost::beast::http;
+
+constexpr std::size_t longest_target = 4096;
+constexpr std::string_view socket_path = "/ws";
+
+std::string_view view(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+/// What a page from here may do. glTF loaders fetch blob: and data: addresses of their own textures; the
+/// WebSocket's address is named because 'self' does not cover ws: in every browser. Styles may be inline:
+/// they cannot act.
+std::string content_policy(std::string_view host) {
+  std::string policy =
+      "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
+      "font-src 'self' data:; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; "
+      "connect-src 'self' blob: data:";
+  if (!host.empty()) {
+    policy.append(" ws://").append(host);
+  }
+  return policy + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+template <typename Message>
+void set_guards(Message& message, const std::string& policy) {
+  message.set("Content-Security-Policy", policy);
+  message.set("X-Content-Type-Options", "nosniff");
+  message.set("X-Frame-Options", "DENY");
+  message.set("Referrer-Policy", "no-referrer");
+  message.set("Cross-Origin-Resource-Policy", "same-origin");
+  message.set("Cross-Origin-Opener-Policy", "same-origin");
+}
+
+/// A file name that needs no quoting in a header.
+std::string plain_name(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(),
+      [](char c) {
+        return (c < 'a' || c > 'z') && (c < 'A' || c > 'Z') && (c < '0' || c > '9') && c != '.' && c != '-' &&
+               c != '_';
+      },
+      '_');
+  return name;
+}
+
+/// What is asked for of a file, by its headers. `message` is that of the whole.
+void set_file(WebAnswer& answer, WebFile file, const WebRequest& request) {
+  auto& message = answer.message;
+  WebRange range{WebRange::Kind::whole, 0, file.size()};
+  const std::string_view condition = view(request[http::field::if_range]);
+  if (!answer.head && request.count(http::field::range) == 1 &&
+      (condition.empty() || condition == file.tag())) {
+    range = web_range(view(request[http::field::range]), file.size());
+  }
+  const std::string size = std::to_string(file.size());
+  message.set(http::field::accept_ranges, "bytes");
+  message.set(http::field::etag, file.tag());
+  if (range.kind == WebRange::Kind::part) {
+    message.result(http::status::partial_content);
+    message.set(http::field::content_range, "bytes " + std::to_string(range.first) + "-" +
+                                                std::to_string(range.first + range.size - 1) + "/" + size);
+  } else if (range.kind == WebRange::Kind::nothing) {
+    message.result(http::status::range_not_satisfiable);
+    message.set(http::field::content_range, "bytes */" + size);
+  }
+  message.content_length(range.size);
+  answer.first = range.first;
+  answer.left = answer.head ? 0 : range.size;
+  answer.file = std::make_shared<WebFile>(std::move(file));
+}
+
+void set_bytes(WebAnswer& answer, WebBytes bytes) {
+  answer.bytes = std::move(bytes);
+  answer.message.content_length(answer.bytes->size());
+  if (!answer.head) {
+    answer.message.body() = {answer.bytes->data(), answer.bytes->size()};
+  }
+}
+
+}  // namespace
+
+WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers) {
+  WebAnswer answer;
+  answer.head = request.method() == http::verb::head;
+  auto& message = answer.message;
+  message.result(content.status);
+  message.version(request.version());
+  message.keep_alive(request.keep_alive());
+  const std::string_view host = view(request[http::field::host]);
+  set_guards(message, handlers.policy ? handlers.policy(host) : content_policy(host));
+  message.set(http::field::content_type, content.type);
+  message.set(http::field::cache_control,
+              content.immutable ? "public, max-age=31536000, immutable" : "no-store");
+  if (!content.file_name.empty()) {
+    message.set(http::field::content_disposition,
+                "attachment; filename=\"" + plain_name(std::move(content.file_name)) + "\"");
+  }
+  if (!content.file.empty()) {
+    std::optional<WebFile> file = WebFile::open(content.file);
+    if (!file) {
+      return web_refusal(http::status::not_found, "This file is no longer there.");
+    }
+    set_file(answer, std::move(*file), request);
+  } else if (content.later) {
+    answer.later = std::move(content.later);
+  } else {
+    set_bytes(answer, content.bytes ? std::move(content.bytes) : std::make_shared<const std::string>());
+  }
+  return answer;
+}
+
+namespace {
+
+WebAnswer ask_handler(const WebRequest& request, const std::string& path, const WebHandlers& handlers) {
+  std::optional<WebContent> content;
+  try {
+    content = handlers.get ? handlers.get(path) : std::nullopt;
+  } catch (const std::exception& error) {
+    return web_refusal(http::status::internal_server_error,
+                       std::string("The program could not answer this: ") + error.what());
+  } catch (...) {
+    return web_refusal(http::status::internal_server_error, "The program could not answer this.");
+  }
+  return content ? web_content(std::move(*content), request, handlers)
+                 : web_refusal(http::status::not_found, "There is nothing here: " + path);
+}
+
+/// Why the request may come from another web site, or from a page that goes by a false name; nothing when
+/// not.
+std::optional<WebAnswer> stranger(const WebRequest& request, const WebNames& names, std::string_view local) {
+  if (request.count(http::field::host) != 1) {
+    return web_refusal(http::status::bad_request, "The request must have one Host header.");
+  }
+  if (!names.host(view(request[http::field::host]), local)) {
+    return web_refusal(http::status::forbidden,
+                       "This program does not answer to that name (header Host).\n"
+                       "Ask for it by http://localhost and its port, or start it with that name as a further "
+                       "host.");
+  }
+  const std::size_t origins = request.count(http::field::origin);
+  if (origins > 1 || (origins == 1 && !names.origin(view(request[http::field::origin]), local))) {
+    return web_refusal(http::status::forbidden,
+                       "Pages of other web sites may not use this program (header Origin).");
+  }
+  // Browsers say so, too, where they send no Origin. A link from elsewhere is fine: it navigates.
+  const std::string_view site = view(request["Sec-Fetch-Site"]);
+  if ((site == "cross-site" || site == "same-site") && view(request["Sec-Fetch-Mode"]) != "navigate") {
+    return web_refusal(http::status::forbidden,
+                       "Pages of other web sites may not use this program (header Sec-Fetch-Site).");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void WebAnswer::finish(WebBytes made) {
+  later = nullptr;
+  if (made) {
+    set_bytes(*this, std::move(made));
+    return;
+  }
+  refuse(http::status::internal_server_error, "The program could not make this.");
+}
+
+void WebAnswer::refuse(http::status status, const std::string& words) {
+  const bool without_body = head;
+  *this = web_refusal(status, words);
+  if (without_body) {
+    message.body() = {};
+  }
+}
+
+WebAnswer web_refusal(http::status status, const std::string& words) {
+  WebAnswer answer;
+  answer.bytes = std::make_shared<const std::string>(words + "\n");
+  auto& message = answer.message;
+  message.result(status);
+  message.version(11);
+  message.keep_alive(false);
+  set_guards(message, content_policy({}));
+  message.set(http::field::content_type, "text/plain; charset=utf-8");
+  message.set(http::field::cache_control, "no-store");
+  message.content_length(answer.bytes->size());
+  message.body() = {answer.bytes->data(), answer.bytes->size()};
+  return answer;
+}
+
+bool web_post(const WebRequest& request, const WebNames& names, std::string_view local,
+              const WebHandlers& handlers, WebPost& post) {
+  if (!handlers.post || request.method() != http::verb::post || stranger(request, names, local) ||
+      request.target().size() > longest_target) {
+    return false;
+  }
+  std::optional<std::string> path = web_path(view(request.target()));
+  if (!path || *path == socket_path) {
+    return false;
+  }
+  post.path = std::move(*path);
+  post.type = view(request[http::field::content_type]);
+  post.host = view(request[http::field::host]);
+  return true;
+}
+
+WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
+                     const WebHandlers& handlers) {
+  if (std::optional<WebAnswer> refusal = stranger(request, names, local)) {
+    return std::move(*refusal);
+  }
+  const bool head = request.method() == http::verb::head;
+  if (!head && request.method() != http::verb::get) {
+    WebAnswer refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are answered.");
+    refusal.message.set(http::field::allow, "GET, HEAD");
+    return refusal;
+  }
+  if (has_body) {
+    return web_refusal(http::status::payload_too_large, "A request must have no body.");
+  }
+  if (request.target().size() > longest_target) {
+    return web_refusal(http::status::uri_too_long, "The address is too long.");
+  }
+  const std::optional<std::string> path = web_path(view(request.target()));
+  if (!path) {
+    return web_refusal(http::status::bad_request, "The address is malformed.");
+  }
+  WebAnswer answer;
+  answer.upgrade = *path == socket_path && boost::beast::websocket::is_upgrade(request);
+  if (answer.upgrade) {
+    return answer;
+  }
+  if (*path == socket_path) {
+    answer = web_refusal(http::status::upgrade_required, "This address is for WebSockets.");
+    answer.message.set(http::field::upgrade, "websocket");
+  } else {
+    answer = ask_handler(request, *path, handlers);
+  }
+  if (head) {
+    answer.message.body() = {};
+  }
+  return answer;
+}
+
+}  // namespace telemime

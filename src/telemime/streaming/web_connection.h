@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/streaming/web_answer.h"
+#include "telemime/streaming/web_hub.h"
+#include "telemime/streaming/web_stream.h"
+
+namespace telemime {
+
+/// One HTTP connection: requests are read and answered one after the other, until one asks for a WebSocket,
+/// something is wrong, or nothing comes for too long. It lives as long as one of its operations is under way.
+/// For the server's thread only.
+class WebConnection : public std::enable_shared_from_this<WebConnection> {
+ public:
+  WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket,
+                boost::asio::ip::tcp::socket socket);
+  /// Begins, once.
+  void start();
+
+ private:
+  void read();
+  void read_body(WebPost post);
+  void ask(WebPost post);
+  void put_bytes(WebBytes bytes);
+  void put_content(WebContent content);
+  void hold();
+  void answer(boost::system::error_code error);
+  void upgrade();
+  void respond(WebAnswer answer);
+  void wait();
+  void write();
+  void write_some();
+  void send_file();
+  void send_part();
+  void sent();
+  void linger();
+
+  std::shared_ptr<WebHub> hub_;
+  std::shared_ptr<void> ticket_;
+  WebStream stream_;
+  boost::asio::steady_timer patience_;  ///< with an answer that is still being made
+  std::string local_;                   ///< the address at which it came in
+  boost::beast::flat_buffer buffer_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> body_;  ///< of a POST
+  WebAnswer answer_;
+  std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>>
+      serializer_;
+  std::vector<char> part_;     ///< of the file
+  std::size_t part_sent_ = 0;  ///< bytes of it
+  std::array<char, 4096> rest_{};
+};
+
+}  // namespace telemime

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/web_socket_sender.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <optional>
+#include <string>
+
+#include "telemime/core/errors.h"
+#include "telemime/streaming/pose_message.h"
+#include "telemime/streaming/send_queue.h"
+#include "telemime/streaming/tcp.h"
+
+namespace telemime {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+
+constexpr std::chrono::milliseconds kLongestHandshake{5000};
+constexpr std::size_t kLongestIncoming = 64 * 1024;  // bytes of a message; all are thrown away
+
+/// Path and query as the receiver shall see them.
+std::string target_of(const SendUrl& url) {
+  std::string target = url.path.empty() ? "/" : url.path;
+  char mark = '?';
+  for (const auto& [name, value] : url.options) {
+    if (name != "mirror") {
+      target.append(1, mark).append(name).append("=").append(value);
+      mark = '&';
+    }
+  }
+  return target;
+}
+
+class WebSocketLink final : public Link {
+ public:
+  WebSocketLink(SendLoop& loop, const SendUrl& url)
+      : loop_(loop), host_(url.host), port_(url.port.value_or(kHttpPort)), target_(target_of(url)) {}
+
+  void open() override {
+    stream_.emplace(loop_.io());
+    connect_tcp(loop_, stream_->next_layer(), host_, port_);
+    stream_->read_message_max(kLongestIncoming);
+    stream_->text(true);
+    const auto shaken = std::make_shared<Completion>();
+    stream_->async_handshake(host_and_port(host_, port_), target_, note<>(shaken));
+    if (!loop_.wait([&] { return shaken->done; }, kLongestHandshake)) {
+      throw LinkBroken("it does not answer as a WebSocket server does");
+    }
+    if (shaken->error) {
+      throw LinkBroken(shaken->error == beast::websocket::error::upgrade_declined
+                           ? "it refuses a WebSocket at \"" + target_ + "\""
+                           : in_words(shaken->error));
+    }
+    read_on();
+    loop_.sending();
+  }
+
+  void person(const std::shared_ptr<const StreamHeader>& person) override {
+    if (person_ != person) {
+      messages_.emplace(*person);
+      person_ = person;
+    }
+    write(messages_->body());
+  }
+
+  bool frame(const MotionFrame& frame, double taken) override {
+    write(messages_->pose(frame, taken));
+    return true;
+  }
+
+  void close() noexcept override {
+    if (stream_) {
+      boost::system::error_code ignored;
+      stream_->next_layer().close(ignored);
+    }
+  }
+
+ private:
+  using Stream = beast::websocket::stream<asio::ip::tcp::socket>;
+
+  void write(std::string message) {
+    const auto text = std::make_shared<const std::string>(std::move(message));
+    const auto written = std::make_shared<Completion>();
+    stream_->async_write(asio::buffer(*text), [text, done = note<std::size_t>(written)](
+                                                  const boost::system::error_code& error, std::size_t count) {
+      done(error, count);
+    });
+    finish_write(loop_, *written);
+  }
+
+  /// Reading is what answers the receiver's pings and notices that it has closed.
+  void read_on() {
+    stream_->async_read(incoming_, [this](const boost::system::error_code& error, std::size_t /*count*/) {
+      incoming_.clear();
+      if (error == asio::error::operation_aborted) {
+        return;
+      }
+      if (error) {
+        throw LinkBroken(error == beast::websocket::error::closed ? "it closed the connection"
+                                                                  : in_words(error));
+      }
+      read_on();
+    });
+  }
+
+  SendLoop& loop_;
+  const std::string host_;
+  const std::uint16_t port_;
+  const std::string target_;
+  std::optional<PoseMessages> messages_;
+  std::shared_ptr<const StreamHeader> person_;  ///< whose messages_ are
+  beast::flat_buffer incoming_;
+  std::optional<Stream> stream_;
+};
+
+}  // namespace
+
+std::unique_ptr<Sender> make_web_socket_sender(const SendUrl& url) {
+  require_host(url);
+  if (url.port == 0) {
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no port",
+                "Write it like ws://localhost:8080/motion.");
+  }
+  return make_queued_sender(url, [&](SendLoop& loop) { return std::make_unique<WebSocketLink>(loop, url); });
+}
+
+}  // namespace telemime

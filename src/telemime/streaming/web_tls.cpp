@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/web_tls.h"
+
+#include <openssl/err.h>
+#include <openssl/ssl.h>
+
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+namespace ssl = boost::asio::ssl;
+
+void require_readable(const std::filesystem::path& file, const std::string& what) {
+  errno = 0;
+  std::ifstream in(file);
+  if (!in || in.peek() == std::ifstream::traits_type::eof()) {
+    const int number = errno;
+    throw Error(ErrorKind::usage, "the " + what + " cannot be read: " + file.string() + ": " +
+                                      (number == 0 ? std::string("the file is empty")
+                                                   : std::generic_category().message(number)));
+  }
+}
+
+// Asked for by a key that has one; nobody sits there to type it.
+int no_password(char* /*buffer*/, int /*size*/, int /*writes*/, void* /*data*/) {
+  return 0;
+}
+
+}  // namespace
+
+std::shared_ptr<ssl::context> web_tls(const std::filesystem::path& certificate,
+                                      const std::filesystem::path& key) {
+  require_readable(certificate, "certificate");
+  require_readable(key, "certificate's key");
+  auto tls = std::make_shared<ssl::context>(ssl::context::tls_server);
+  SSL_CTX* const native = tls->native_handle();
+  SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
+  SSL_CTX_set_default_passwd_cb(native, no_password);
+  ERR_clear_error();
+  if (SSL_CTX_use_certificate_chain_file(native, certificate.c_str()) != 1) {
+    ERR_clear_error();
+    throw Error(ErrorKind::usage, "there is no certificate to be used in " + certificate.string(),
+                "It is a file in PEM form: the server's own certificate first, then those in between.");
+  }
+  if (SSL_CTX_use_PrivateKey_file(native, key.c_str(), SSL_FILETYPE_PEM) != 1) {
+    const bool another = ERR_GET_LIB(ERR_peek_error()) == ERR_LIB_X509;
+    ERR_clear_error();
+    if (another) {
+      throw Error(ErrorKind::usage, key.string() + " is not the key of " + certificate.string());
+    }
+    throw Error(ErrorKind::usage, "there is no key to be used in " + key.string(),
+                "It is a file in PEM form, without a password.");
+  }
+  return tls;
+}
+
+}  // namespace telemime

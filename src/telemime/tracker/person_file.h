@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "telemime/tracker/tracker.h"
+
+namespace telemime {
+
+/// What `telemime calibrate` keeps: the person, the camera, and the look of person and scene.
+struct PersonFile {
+  TrackerCalibration person;
+  Camera camera;
+  ImageCalibration image;
+};
+
+/// Writes FILE (JSON: shape, camera) and beside it FILE.scene.yml.gz (colours and background). Throws
+/// Error(output).
+void save_person(const PersonFile& person, const std::filesystem::path& file);
+
+/// The JSON part of such a file; the image part stays empty. `name` is for messages. Throws Error(config).
+PersonFile parse_person(std::string_view text, const std::filesystem::path& name);
+
+/// Reads both again. Throws Error(config) that names the file and what is missing or out of range.
+PersonFile load_person(const std::filesystem::path& file);
+
+}  // namespace telemime

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/scene.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "telemime/core/errors.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kBackgroundFrames = 100;
+
+std::vector<Frame> read_frames(Source& source, std::size_t most) {
+  std::vector<Frame> frames;
+  while (frames.size() < most) {
+    auto frame = source.next();
+    if (!frame) {
+      break;
+    }
+    frames.push_back(std::move(*frame));
+  }
+  return frames;
+}
+
+// Pictures of the clip itself at working size: the start in full, for an empty stretch, then ever fewer, for
+// what the background looks like where the person has gone. Reads the input once more.
+std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig& image) {
+  constexpr std::int64_t kDense = 150;
+  constexpr std::int64_t kStride = 10;
+  constexpr std::int64_t kMost = 4000;
+  const auto again = open_source(request.input);
+  std::vector<Frame> sample;
+  for (std::int64_t i = 0; i < kMost; ++i) {
+    auto frame = again->next();
+    if (!frame) {
+      break;
+    }
+    if (i < kDense || i % kStride == 0 || again->info().frames < 3 * kDense) {
+      Frame small = *frame;
+      cv::resize(frame->image, small.image, {image.width, image.height}, 0.0, 0.0, cv::INTER_AREA);
+      sample.push_back(std::move(small));
+    }
+  }
+  return sample;
+}
+
+}  // namespace
+
+std::optional<Frame> Footage::next(Source& source) {
+  if (ahead.empty()) {
+    return source.next();
+  }
+  Frame frame = std::move(ahead.front());
+  ahead.pop_front();
+  return frame;
+}
+
+Footage learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker) {
+  Footage scene;
+  if (!request.background.empty()) {
+    const auto clip = open_source(request.background);
+    const double aspect = static_cast<double>(clip->info().width) * info.height /
+                          (static_cast<double>(clip->info().height) * info.width);
+    if (aspect < 0.98 || aspect > 1.02) {
+      throw Error(ErrorKind::input,
+                  "the background clip " + request.background + " has another shape than the input",
+                  "Record it with the same camera and the same settings.");
+    }
+    const std::vector<Frame> frames = read_frames(*clip, kBackgroundFrames);
+    tracker.learn_background(frames);
+    scene.messages.push_back("background: " + std::to_string(frames.size()) + " frames of " +
+                             request.background);
+    return scene;
+  }
+  std::vector<Frame> sample;
+  if (info.live) {
+    sample = read_frames(source, static_cast<std::size_t>(std::max(8.0, info.fps)));
+    scene.ahead.assign(sample.begin(), sample.end());
+  } else {
+    sample = sample_of_clip(request, tracker.config().image);
+  }
+  const SceneReport report = tracker.bootstrap(sample);
+  scene.messages.push_back("background: " + report.sentence);
+  return scene;
+}
+
+}  // namespace telemime

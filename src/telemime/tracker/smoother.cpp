@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/smoother.h"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "telemime/body/rotations.h"
+#include "telemime/core/errors.h"
+#include "telemime/tracker/joint_rotations.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kLongestGap = 1.0;  // s
+
+class NoSmoother final : public Smoother {
+ public:
+  MotionFrame operator()(const MotionFrame& frame) override { return frame; }
+};
+
+/// What all filters share: when to start anew, and how a smoothed pose becomes a frame.
+class RotationSmoother : public Smoother {
+ public:
+  RotationSmoother(const Body& body, const Camera& camera) : body_(body), camera_(camera) {}
+
+  MotionFrame operator()(const MotionFrame& frame) final {
+    if (frame.state == TrackState::lost || !frame.pose.vector().allFinite()) {
+      last_time_.reset();
+      return frame;
+    }
+    const JointRotations measured = rotations_of(frame.pose);
+    const double step = last_time_ ? frame.time - *last_time_ : 0.0;
+    if (step > 0.0 && step <= kLongestGap) {
+      update(measured, step);
+    } else {
+      start(measured);
+    }
+    last_time_ = frame.time;
+    return with_pose(frame, pose_of(smooth_, frame.pose), body_, camera_);
+  }
+
+ protected:
+  /// First frame after a start or a loss: smooth_ becomes `measured`.
+  virtual void start(const JointRotations& measured) = 0;
+  /// Moves smooth_ toward `measured`, `step` seconds after the last.
+  virtual void update(const JointRotations& measured, double step) = 0;
+
+  JointRotations smooth_;
+
+ private:
+  Body body_;
+  Camera camera_;
+  std::optional<double> last_time_;
+};
+
+/// Equation 4.30 for a rotation: a of the past and 1 - a of the present along the arc between them.
+class RecursiveSmoother final : public RotationSmoother {
+ public:
+  RecursiveSmoother(const Body& body, const Camera& camera, double coefficient)
+      : RotationSmoother(body, camera), present_(1.0 - coefficient) {}
+
+ private:
+  void start(const JointRotations& measured) override { smooth_ = measured; }
+
+  void update(const JointRotations& measured, double /*step*/) override {
+    smooth_.root += present_ * (measured.root - smooth_.root);
+    for (std::size_t j = 0; j < smooth_.rotation.size(); ++j) {
+      smooth_.rotation[j] = smooth_.rotation[j].slerp(present_, measured.rotation[j]).normalized();
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      smooth_.elbow[side] += present_ * wrap_angle(measured.elbow[side] - smooth_.elbow[side]);
+    }
+  }
+
+  double present_;
+};
+
+/// Share of the present in a first-order low-pass.
+double share(double cutoff, double step) {
+  const double tau = 1.0 / (2.0 * std::numbers::pi * cutoff);
+  return step / (step + tau);
+}
+
+/// Low-passed velocity of one quantity, and from it the share of the present of the quantity.
+class SpeedShare {
+ public:
+  void reset() { velocity_.setZero(); }
+  double operator()(const Eigen::Vector3d& change, double step, const OneEuroOptions& options) {
+    velocity_ += share(options.speed_cutoff, step) * (change / step - velocity_);
+    return share(options.minimum_cutoff + options.slope * velocity_.norm(), step);
+  }
+
+ private:
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+};
+
+/// Rotation vector from one orientation to another, rad, in the frame of the first.
+Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::AngleAxisd turn(from.conjugate() * to);
+  return wrap_angle(turn.angle()) * turn.axis();
+}
+
+class OneEuroSmoother final : public RotationSmoother {
+ public:
+  OneEuroSmoother(const Body& body, const Camera& camera, const OneEuroOptions& angles,
+                  const OneEuroOptions& root)
+      : RotationSmoother(body, camera), angles_(angles), root_(root) {}
+
+ private:
+  void start(const JointRotations& measured) override {
+    smooth_ = measured;
+    last_ = measured;
+    root_speed_.reset();
+    for (auto& speed : rotation_speed_) {
+      speed.reset();
+    }
+    for (auto& speed : elbow_speed_) {
+      speed.reset();
+    }
+  }
+
+  void update(const JointRotations& measured, double step) override {
+    const double root_share = root_speed_(measured.root - last_.root, step, root_);
+    smooth_.root += root_share * (measured.root - smooth_.root);
+    for (std::size_t j = 0; j < smooth_.rotation.size(); ++j) {
+      const double present =
+          rotation_speed_[j](turn_between(last_.rotation[j], measured.rotation[j]), step, angles_);
+      smooth_.rotation[j] = smooth_.rotation[j].slerp(present, measured.rotation[j]).normalized();
+    }
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double change = wrap_angle(measured.elbow[side] - last_.elbow[side]);
+      const double present = elbow_speed_[side]({change, 0.0, 0.0}, step, angles_);
+      smooth_.elbow[side] += present * wrap_angle(measured.elbow[side] - smooth_.elbow[side]);
+    }
+    last_ = measured;
+  }
+
+  OneEuroOptions angles_;
+  OneEuroOptions root_;
+  JointRotations last_;
+  SpeedShare root_speed_;
+  std::array<SpeedShare, 6> rotation_speed_;
+  std::array<SpeedShare, 2> elbow_speed_;
+};
+
+bool usable(const OneEuroOptions& options) {
+  return std::isfinite(options.minimum_cutoff) && options.minimum_cutoff > 0.0 &&
+         std::isfinite(options.slope) && options.slope >= 0.0 && std::isfinite(options.speed_cutoff) &&
+         options.speed_cutoff > 0.0;
+}
+
+}  // namespace
+
+MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& body, const Camera& camera) {
+  MotionFrame result = frame;
+  result.pose = pose;
+  result.joints = forward_kinematics(body, pose).joints;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    const Eigen::Vector3d& before = frame.joints.at[j];
+    const Eigen::Vector3d& after = result.joints.at[j];
+    if (before.z() > 0.0 && after.z() > 0.0) {
+      // A difference, so that the distortion of the input image, if any, stays in the pixel.
+      result.pixels[j] += camera.project(after) - camera.project(before);
+    }
+  }
+  return result;
+}
+
+std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const Body& body,
+                                        const Camera& camera) {
+  if (options.name == "none") {
+    return std::make_unique<NoSmoother>();
+  }
+  if (options.name == "recursive") {
+    if (!(options.recursive_coefficient >= 0.0 && options.recursive_coefficient < 1.0)) {
+      throw Error(ErrorKind::config, "the smoothing coefficient must be in [0, 1)", "the thesis uses 0.6");
+    }
+    return std::make_unique<RecursiveSmoother>(body, camera, options.recursive_coefficient);
+  }
+  if (options.name == "one-euro") {
+    if (!usable(options.angles) || !usable(options.root)) {
+      throw Error(ErrorKind::config, "the One-Euro filter needs cutoffs above 0 Hz and slopes of at least 0");
+    }
+    return std::make_unique<OneEuroSmoother>(body, camera, options.angles, options.root);
+  }
+  throw Error(ErrorKind::config, "there is no smoothing \"" + options.name + "\"",
+              "use none, recursive or one-euro");
+}
+
+}  // namespace telemime

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "telemime/outputs/all.h"
+#include "telemime/tracker/config.h"
+
+namespace telemime {
+
+/// What `telemime track` is asked to do.
+struct TrackRequest {
+  std::string input;
+  std::string background;   ///< person-free clip; empty: learned from the input, or done without
+  std::string camera;       ///< calibration file; empty: field of view
+  std::string calibration;  ///< file of `telemime calibrate`; empty: calibrate on the first good frame
+  std::filesystem::path out;
+  std::vector<std::string> formats;  ///< empty: all
+  OutputOptions output_options;
+  bool overlay = true;
+  std::int64_t most_frames = 0;  ///< 0: all
+  bool keep_pace = false;        ///< live only: fewer evaluations where there is no time for all
+  Config config;
+};
+
+}  // namespace telemime

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "support/quick_config.h"
+#include "support/synthetic_clip.h"
+#include "telemime/tracker/tracker.h"
+
+/// A tracker with little work to do, and a clip of a few frames for it.
+namespace telemime {
+
+inline constexpr int kPersonFrames = 6;
+
+// Rendered once for all tests of this program.
+inline const support::SyntheticClip& clip() {
+  static const support::SyntheticClip the_clip = support::synthetic_clip(12, kPersonFrames);
+  return the_clip;
+}
+
+inline Config quick_config() {
+  Config config = support::quick_config();
+  config.registration.iterations = 300;
+  config.tracking.patience = 2;
+  config.tracking.retry_every = 1;
+  return config;
+}
+
+inline Tracker make_tracker(const Config& config) {
+  return {config, clip().camera};
+}
+
+}  // namespace telemime
