@@ -31,7 +31,7 @@ void features(benchmark::State& state) {
   cv::setNumThreads(1);
   FeatureExtractor extractor(image_config(state));
   extractor.learn_background(clip().background);
-  if (!extractor.begin_person(clip().frames[0]).accepted) {
+  if (!extractor.learn_person(clip().frames[0]).accepted) {
     state.SkipWithError("no face was found in the first picture");
     return;
   }

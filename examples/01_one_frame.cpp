@@ -19,10 +19,10 @@ int main() {
   // The model's own class planes stand for a segmented picture here.
   Rendering seen;
   render(model.mesh, forward_kinematics(model.body, truth), camera, seen);
-  Observation observation;
-  observation.labels = cv::Mat(camera.height, camera.width, CV_8UC1, seen.surface.data()).clone();
-  observation.distance = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);
-  const PreparedFrame frame = prepare(observation, camera);
+  FrameFeatures features;
+  features.labels = cv::Mat(camera.height, camera.width, CV_8UC1, seen.surface.data()).clone();
+  features.distance = cv::Mat::zeros(camera.height, camera.width, CV_32FC1);
+  const PreparedFrame frame = prepare(features, camera);
 
   Pose guess = truth;
   guess[Angle::l_shoulder_abduct] += 0.2;

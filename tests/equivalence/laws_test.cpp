@@ -38,7 +38,7 @@ TEST_P(Law, ImageAndPrincipalPointMovedTogetherChangeNothing) {
   Random random(1);
   for (Pose truth : support::gestures()) {
     truth.root = {0.0, 0.25, 2.4};
-    const Observation seen = support::observe(model_, truth, whole);
+    const FrameFeatures seen = support::observe(model_, truth, whole);
     const std::vector<Pose> poses = poses_near(truth, 50, random);
     const auto piece = [&](int x, int y) {
       Camera camera = whole;
@@ -46,7 +46,7 @@ TEST_P(Law, ImageAndPrincipalPointMovedTogetherChangeNothing) {
       camera.height = 130;
       camera.cx -= x;
       camera.cy -= y;
-      Observation part;
+      FrameFeatures part;
       part.labels = seen.labels(cv::Rect(x, y, camera.width, camera.height));
       part.distance = seen.distance(cv::Rect(x, y, camera.width, camera.height));
       return scores_of(*backend_, prepare(part, camera), model_, poses);
@@ -69,10 +69,10 @@ TEST_P(Law, MirrorMirrors) {
     for (const Pose& truth : support::gestures()) {
       Camera camera = camera_of(160, 120);
       camera.cx += 3.25;
-      const Observation seen = support::observe(model, truth, camera);
+      const FrameFeatures seen = support::observe(model, truth, camera);
       Camera other = camera;
       other.cx = camera.width - 1 - camera.cx;
-      Observation flipped;
+      FrameFeatures flipped;
       cv::flip(seen.labels, flipped.labels, 1);
       cv::flip(seen.distance, flipped.distance, 1);
       const std::vector<Pose> poses = poses_near(truth, 50, random);
@@ -116,7 +116,7 @@ TEST_P(Law, ScoresStayInTheirRanges) {
   for (int i = 0; i < 30; ++i) {
     const Camera camera =
         camera_of(static_cast<int>(1 + random.below(90)), static_cast<int>(1 + random.below(90)));
-    Observation seen;
+    FrameFeatures seen;
     seen.labels = cv::Mat(camera.height, camera.width, CV_8UC1);
     seen.distance = cv::Mat(camera.height, camera.width, CV_32FC1);
     for (int y = 0; y < camera.height; ++y) {

@@ -16,14 +16,14 @@ class OddFrames : public EveryBackend {
     }
     seen_ = support::observe(model_, poses_.front(), camera_);
   }
-  Deviations compared_with(const Observation& seen) {
+  Deviations compared_with(const FrameFeatures& seen) {
     return compared(prepare(seen, camera_), model_, poses_);
   }
 
   const Model model_ = make_model(Shape{});
   const Camera camera_ = camera_of(160, 120);
   std::vector<Pose> poses_;
-  Observation seen_;
+  FrameFeatures seen_;
 };
 INSTANTIATE_TEST_SUITE_P(Backends, OddFrames, ::testing::ValuesIn(kBackends), name_of);
 
@@ -33,7 +33,7 @@ TEST_P(OddFrames, OneClassEmptyOrEverywhere) {
     expect_within("everywhere_" + std::to_string(label), compared_with(seen_), kUsual);
   }
   for (const int label : {1, 2, 3}) {
-    Observation seen = support::observe(model_, poses_.front(), camera_);
+    FrameFeatures seen = support::observe(model_, poses_.front(), camera_);
     seen.labels.setTo(0, seen.labels == label);
     expect_within("without_" + std::to_string(label), compared_with(seen), kUsual);
   }

@@ -28,7 +28,7 @@ Shape person(double arms) {
 Calibration calibrated(const Shape& shape, const Pose& pose, std::uint64_t seed = 1,
                        CalibrationConfig config = {}, bool face = true) {
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  Observation seen = observe(make_model(shape), pose, camera);
+  FrameFeatures seen = observe(make_model(shape), pose, camera);
   seen.head->detected = face;
   config.stature = shape.stature;
   const auto backend = make_scalar_backend();
@@ -105,7 +105,7 @@ TEST(CalibrationLaw, WithoutAFaceTheBodyMustFitBetter) {
 
 TEST(CalibrationLaw, RefusesWhatIsNoPerson) {
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  Observation seen;
+  FrameFeatures seen;
   seen.labels = cv::Mat::zeros(120, 160, CV_8UC1);
   seen.labels(cv::Rect(70, 20, 20, 25)).setTo(1);  // a head and nothing else
   seen.distance = cv::Mat(120, 160, CV_32FC1, cv::Scalar(20));

@@ -57,7 +57,7 @@ Pose perturbed(const Pose& pose, const Perturbation& p) {
 // Costs of poses on a frame, by any cue.
 class Judge {
  public:
-  Judge(const Camera& camera, const Observation& seen) : frame_(prepare(seen, camera)) {}
+  Judge(const Camera& camera, const FrameFeatures& seen) : frame_(prepare(seen, camera)) {}
   double cost(const Cue& cue, const Pose& pose) {
     Score score;
     backend_->evaluate(frame_, model_, {&pose, 1}, cue.needs, {&score, 1});
@@ -105,7 +105,7 @@ TEST_P(EveryCue, IsFiniteAndNotNegativeOnAnyPicture) {
   gone.root.x() = 30.0;
   for (const int label : {0, 1, 2, 3, 255}) {
     for (const float distance : {0.0F, 5.0F, 20.0F}) {
-      Observation seen;
+      FrameFeatures seen;
       seen.labels = cv::Mat(60, 80, CV_8UC1, cv::Scalar(label));
       seen.distance = cv::Mat(60, 80, CV_32FC1, cv::Scalar(distance));
       Judge judge(camera, seen);

@@ -59,11 +59,11 @@ inline HeadRegion head_of(const Body& body, const Kinematics& k, const Camera& c
 }
 
 /// A noise-free frame of the model in this pose.
-inline Observation observe(const Model& model, const Pose& pose, const Camera& camera) {
+inline FrameFeatures observe(const Model& model, const Pose& pose, const Camera& camera) {
   const Kinematics k = forward_kinematics(model.body, pose);
   Rendering rendering;
   render(model.mesh, k, camera, rendering);
-  Observation seen;
+  FrameFeatures seen;
   seen.labels = cv::Mat(camera.height, camera.width, CV_8UC1, rendering.surface.data()).clone();
   seen.silhouette = cv::Mat(seen.labels > 0);
   seen.edges = edges_of(rendering);

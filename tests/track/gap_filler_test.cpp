@@ -105,7 +105,7 @@ TEST(GapFiller, WhereTheBodyNoLongerFitsThePersonStaysLost) {
   const Tracked t(filling(10));
   // The person's clothes on the other side of the picture only.
   GapFrame other = t.lost(0);
-  Observation elsewhere;
+  FrameFeatures elsewhere;
   elsewhere.labels = cv::Mat::zeros(other.seen->labels.size(), CV_8UC1);
   elsewhere.labels.colRange(0, 8).setTo(3);
   elsewhere.distance = other.seen->distance;

@@ -69,8 +69,8 @@ TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
   for (const Frame& frame : frames) {
     const TrackedFrame seen = scout.step(frame);
     EXPECT_EQ(seen.motion.state, TrackState::tracking) << frame.index;
-    ASSERT_TRUE(seen.observation.head) << frame.index;
-    EXPECT_FALSE(seen.observation.head->detected) << frame.index;
+    ASSERT_TRUE(seen.features.head) << frame.index;
+    EXPECT_FALSE(seen.features.head->detected) << frame.index;
   }
 }
 

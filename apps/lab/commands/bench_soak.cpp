@@ -32,16 +32,16 @@ long resident_kib() {
 }
 
 // What a camera would show of some poses, one after the other.
-std::vector<Observation> soak_observations(const Model& model, const Camera& camera,
-                                           const std::vector<Pose>& poses) {
+std::vector<FrameFeatures> soak_features(const Model& model, const Camera& camera,
+                                         const std::vector<Pose>& poses) {
   constexpr std::size_t kFrames = 16;
-  std::vector<Observation> seen;
+  std::vector<FrameFeatures> seen;
   for (std::size_t i = 0; i < kFrames; ++i) {
     const PreparedFrame frame = frame_of_model(model, poses[i], camera);
-    Observation observation;
-    observation.labels = frame.labels;
-    observation.distance = frame.distance;
-    seen.push_back(observation);
+    FrameFeatures features;
+    features.labels = frame.labels;
+    features.distance = frame.distance;
+    seen.push_back(features);
   }
   return seen;
 }
@@ -56,7 +56,7 @@ void run_soak(double minutes) {
   const Model model = make_model(Shape{});
   Random random(1);
   const std::vector<Pose> poses = typical_poses(kBatch + 100, random);
-  const std::vector<Observation> seen = soak_observations(model, camera, poses);
+  const std::vector<FrameFeatures> seen = soak_features(model, camera, poses);
   const auto backend = make_backend("simd", {0});
   std::vector<Score> scores(kBatch);
   PreparedFrame frame;

@@ -111,7 +111,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
             arm_target(body, frame.motion.pose, side).swivel - arm_target(body, before->pose, side).swivel;
         samples.swivel[static_cast<std::size_t>(side)].push_back(std::abs(wrap_angle(turn)));
       }
-      const auto shares = uncovered_shares(labels, frame.observation.labels, tracker.model(), before->pose,
+      const auto shares = uncovered_shares(labels, frame.features.labels, tracker.model(), before->pose,
                                            tracker.working_camera());
       constexpr double kStill = 0.0015;  // m from frame to frame
       for (std::size_t part = 0; part < kPartCount; ++part) {
@@ -122,7 +122,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
       }
     }
     before = frame.motion;
-    labels = frame.observation.labels.clone();
+    labels = frame.features.labels.clone();
   }
   if (regions.empty()) {
     throw Error(ErrorKind::tracking, clip.name + ": nobody was tracked");

@@ -129,11 +129,11 @@ PreparedSequence prepare_sequence(const Clip& clip, const Config& config) {
   std::string reason = "there is no frame";
   for (std::size_t t = 0; t < clip.frames.size(); ++t) {
     if (!coloured) {
-      const PersonReport person = features.begin_person(clip.frames[t]);
+      const PersonReport person = features.learn_person(clip.frames[t]);
       coloured = person.accepted;
       reason = person.reason;
     }
-    const Observation seen = features.extract(clip.frames[t]);
+    const FrameFeatures seen = features.extract(clip.frames[t]);
     sequence.frames.push_back(prepare(seen, working));
     if (calibrated || !coloured || !seen.head) {
       continue;

@@ -24,7 +24,7 @@ double measure_features(Lab& lab, const ImageConfig& config) {
   const Clip& clip = lab.timing_clip();
   FeatureExtractor features(config);
   features.learn_background(clip.background);
-  const PersonReport person = features.begin_person(clip.frames.front());
+  const PersonReport person = features.learn_person(clip.frames.front());
   if (!person.accepted) {
     throw Error(ErrorKind::tracking, clip.name + ": " + person.reason,
                 "Timings need a clip that starts with a face.");
@@ -32,7 +32,7 @@ double measure_features(Lab& lab, const ImageConfig& config) {
   std::vector<double> times;
   for (const Frame& frame : clip.frames) {
     const double start = lab.options().seconds();
-    const Observation seen = features.extract(frame);
+    const FrameFeatures seen = features.extract(frame);
     times.push_back(kMilliseconds * (lab.options().seconds() - start));
   }
   return median_of(times);

@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 #include "telemime/image/person_colours.h"
 #include "telemime/image/segmentation.h"
 

@@ -3,8 +3,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "telemime/image/frame_features.h"
 #include "telemime/image/log_colour.h"
-#include "telemime/image/observation.h"
 
 namespace telemime {
 
@@ -18,7 +18,8 @@ struct FaceMemory {
 
 /// Gives the pixels of hands before head and neck back to the arms: pixels labelled head, of skin colour
 /// (`skin`, CV_8UC1, not 0), that differ from the remembered look and hang together with arms outside. Frames
-/// in which no arm is near the head refresh the memory instead. `labels` as in Observation, changed in place.
+/// in which no arm is near the head refresh the memory instead. `labels` as in FrameFeatures, changed in
+/// place.
 void uncover_hands(FaceMemory& memory, const LogColour& picture, const HeadRegion& head, const cv::Mat& skin,
                    cv::Mat& labels);
 

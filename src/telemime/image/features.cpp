@@ -188,7 +188,7 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   all_valid_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
 }
 
-PersonReport FeatureExtractor::begin_person(const Frame& frame) {
+PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   Pictures p = pictures_of(frame);
   shape_ = HeadShape{};
   std::optional<TrackedFace> face = head_.restart(p.face, whole_of(p.face), face_test(p));
@@ -225,7 +225,7 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
     head_.forget();
     return {false, "no face was found, and the outline is not that of somebody who faces the camera"};
   }
-  PersonReport report = learn_person(p.colour, rough.silhouette, *head, calibration_.colours);
+  PersonReport report = learn_person_colours(p.colour, rough.silhouette, *head, calibration_.colours);
   if (report.accepted) {
     face_memory_ = FaceMemory{};
     silhouette_ = rough.silhouette;
@@ -233,9 +233,9 @@ PersonReport FeatureExtractor::begin_person(const Frame& frame) {
   return report;
 }
 
-Observation FeatureExtractor::extract(const Frame& frame) {
+FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   Pictures p = pictures_of(frame);
-  Observation out;
+  FrameFeatures out;
   const std::optional<TrackedFace> face = head_.update(p.face, search_area(p), face_test(p));
   const HeadShape before = shape_;
   if (face && head_.replaced()) {

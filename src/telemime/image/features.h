@@ -7,20 +7,20 @@
 #include "telemime/core/frame.h"
 #include "telemime/image/face_memory.h"
 #include "telemime/image/feature_config.h"
+#include "telemime/image/frame_features.h"
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
-#include "telemime/image/observation.h"
 #include "telemime/image/scene_bootstrap.h"
 
 namespace telemime {
 
-/// Frame -> Observation (thesis 2.4.4.1, 3.4, 3.5.1). Holds what it has learned of the scene and the person;
-/// the same frames in the same order always give the same observations.
+/// Frame -> FrameFeatures (thesis 2.4.4.1, 3.4, 3.5.1). Holds what it has learned of the scene and the
+/// person; the same frames in the same order always give the same features.
 ///
 ///     FeatureExtractor features(config);
 ///     features.learn_background(empty_frames);      // or features.bootstrap(clip)
-///     while (!features.begin_person(frame).accepted) frame = next();
-///     Observation seen = features.extract(frame);   // this and every later frame
+///     while (!features.learn_person(frame).accepted) frame = next();
+///     FrameFeatures seen = features.extract(frame);   // this and every later frame
 class FeatureExtractor {
  public:
   /// Throws Error(config) for a bad configuration or missing face cascades.
@@ -37,10 +37,10 @@ class FeatureExtractor {
   /// Learns skin, clothes and hair from a frame in which the face is seen. Refuses with a reason; then try
   /// the next frame. Frames may be extracted before a person has begun: their labels are background and
   /// ignore.
-  PersonReport begin_person(const Frame& frame);
+  PersonReport learn_person(const Frame& frame);
 
   /// Everything of one frame. Frames in the order of time.
-  Observation extract(const Frame& frame);
+  FrameFeatures extract(const Frame& frame);
 
   const ImageStatus& status() const { return status_; }
   const ImageCalibration& calibration() const { return calibration_; }
@@ -64,7 +64,7 @@ class FeatureExtractor {
   std::vector<SceneSample> samples_of(std::span<const Frame> clip);
   double all_valid_share() const;
   void watch_camera(const cv::Mat& grey);
-  void update_status(const Pictures& p, const Observation& seen);
+  void update_status(const Pictures& p, const FrameFeatures& seen);
 
   ImageConfig config_;
   HeadTracker head_;

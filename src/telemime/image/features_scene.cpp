@@ -173,7 +173,7 @@ void FeatureExtractor::watch_camera(const cv::Mat& grey) {
   motion_scene_ = believed_.clone();
 }
 
-void FeatureExtractor::update_status(const Pictures& p, const Observation& seen) {
+void FeatureExtractor::update_status(const Pictures& p, const FrameFeatures& seen) {
   const auto total = static_cast<double>(seen.labels.total());
   const auto share = [&](Label label) {
     return cv::countNonZero(seen.labels == static_cast<unsigned char>(label)) / total;

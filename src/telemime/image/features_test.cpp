@@ -34,7 +34,7 @@ std::vector<Frame> frames_of(const std::filesystem::path& file, int most) {
 }
 
 /// Share of (frame, joint) whose label at the joint's true pixel is `wanted`.
-double agreement(const std::vector<Observation>& seen, const nlohmann::json& truth,
+double agreement(const std::vector<FrameFeatures>& seen, const nlohmann::json& truth,
                  const std::vector<std::string>& joints, Label wanted) {
   const auto names = truth["joints"].get<std::vector<std::string>>();
   const auto& camera = truth["small"];
@@ -187,8 +187,8 @@ TEST(FeatureExtractor, ABlackPictureGivesAnEmptyObservationOfTheRightShape) {
   const Frame black{cv::Mat::zeros(480, 640, CV_8UC3), 0, 0.0};
   const std::vector<Frame> empty(3, black);
   features.learn_background(empty);
-  EXPECT_FALSE(features.begin_person(black).accepted);
-  const Observation seen = features.extract(black);
+  EXPECT_FALSE(features.learn_person(black).accepted);
+  const FrameFeatures seen = features.extract(black);
   EXPECT_EQ(seen.labels.size(), cv::Size(160, 120));
   EXPECT_EQ(seen.labels.type(), CV_8UC1);
   EXPECT_EQ(seen.distance.type(), CV_32FC1);
@@ -212,18 +212,18 @@ TEST_P(OnClip, LabelsAgreeWithTheTrueJointsAndAreRepeatable) {
   std::ifstream(clip / "truth.json") >> truth;
   FeatureExtractor features(ImageConfig{});
   features.learn_background(background);
-  const Observation nobody = features.extract(background.front());
+  const FrameFeatures nobody = features.extract(background.front());
   EXPECT_EQ(cv::countNonZero(nobody.silhouette), 0);
-  const PersonReport report = features.begin_person(frames.front());
+  const PersonReport report = features.learn_person(frames.front());
   ASSERT_TRUE(report.accepted) << report.reason;
   FeatureExtractor again(ImageConfig{});
   again.learn_background(background);
   again.extract(background.front());
-  again.begin_person(frames.front());
-  std::vector<Observation> seen;
+  again.learn_person(frames.front());
+  std::vector<FrameFeatures> seen;
   for (const Frame& frame : frames) {
     seen.push_back(features.extract(frame));
-    const Observation second = again.extract(frame);
+    const FrameFeatures second = again.extract(frame);
     ASSERT_EQ(cv::countNonZero(seen.back().labels != second.labels), 0);
     ASSERT_EQ(cv::countNonZero(seen.back().edges != second.edges), 0);
     ASSERT_TRUE(seen.back().head.has_value());
@@ -269,7 +269,7 @@ TEST(FeatureExtractor, AHeadKeepsItsSizeWhenItsFaceIsFirstSeen) {
   features.bootstrap(frames);
   // Walking in, seen from the side: the outline leads until the detector knows the face.
   std::size_t f = 35;
-  while (f < frames.size() && !features.begin_person(frames[f]).accepted) {
+  while (f < frames.size() && !features.learn_person(frames[f]).accepted) {
     ++f;
   }
   ASSERT_LT(f, 50U);
@@ -277,7 +277,7 @@ TEST(FeatureExtractor, AHeadKeepsItsSizeWhenItsFaceIsFirstSeen) {
   bool by_face = false;
   double before = 0.0;
   for (; f < frames.size(); ++f) {
-    const Observation seen = features.extract(frames[f]);
+    const FrameFeatures seen = features.extract(frames[f]);
     ASSERT_TRUE(seen.head.has_value()) << f;
     by_outline = by_outline || !seen.head->detected;
     by_face = by_face || (by_outline && seen.head->detected);

@@ -4,8 +4,8 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
+#include "telemime/image/frame_features.h"
 #include "telemime/image/head_tracker.h"
-#include "telemime/image/observation.h"
 
 namespace telemime {
 

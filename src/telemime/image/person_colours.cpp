@@ -60,8 +60,8 @@ void add_if_narrow(const ColourGaussian& fitted, ColourMixture& mixture) {
 
 }  // namespace
 
-PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
-                          PersonColours& colours) {
+PersonReport learn_person_colours(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
+                                  PersonColours& colours) {
   constexpr std::size_t kFewest = 20;
   const Samples face = collect(picture, silhouette, head, [](double x, double y) {
     return x * x / 0.49 + (y - 0.25) * (y - 0.25) / 0.36 < 1;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "telemime/image/colour_model.h"
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 
 namespace telemime {
 
@@ -28,8 +28,8 @@ struct PersonReport {
 /// 2.4.4.1), each from pixels of `silhouette` (CV_8UC1, not 0: person) only. Skin is what most of the face
 /// is: eyes, glasses, beard, hair and a mask are trimmed away. `head` in pixels of the picture.
 /// On refusal `colours` stays as it was.
-PersonReport learn_person(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
-                          PersonColours& colours);
+PersonReport learn_person_colours(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
+                                  PersonColours& colours);
 
 /// Share of the pixels of a box in which the colour of any human skin would be possible. Coloured light can
 /// deceive it: a test against faces in wallpaper, not for skin.

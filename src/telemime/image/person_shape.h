@@ -3,7 +3,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 
 namespace telemime {
 

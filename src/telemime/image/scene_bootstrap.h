@@ -10,7 +10,7 @@
 
 #include "telemime/image/background_model.h"
 #include "telemime/image/colour_model.h"
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 
 namespace telemime {
 

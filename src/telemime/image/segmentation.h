@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "telemime/image/background_model.h"
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 #include "telemime/image/person_colours.h"
 
 namespace telemime {
@@ -20,7 +20,7 @@ struct SegmentationConfig {
   float focal_length = 0.866F;           ///< in widths of the picture; of a field of view of 60 degrees
 };
 
-/// Labels and silhouette of one frame (see Observation).
+/// Labels and silhouette of one frame (see FrameFeatures).
 struct Segmentation {
   cv::Mat labels;
   cv::Mat silhouette;

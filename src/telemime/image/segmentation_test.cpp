@@ -44,7 +44,7 @@ Scene scene() {
   s.head.radii = {10.5, 14.5};
   s.head.detected = true;
   const Segmentation rough = segment(s.colour, s.background, {}, s.head, {});
-  const PersonReport report = learn_person(s.colour, rough.silhouette, s.head, s.colours);
+  const PersonReport report = learn_person_colours(s.colour, rough.silhouette, s.head, s.colours);
   EXPECT_TRUE(report.accepted) << report.reason;
   return s;
 }
@@ -82,7 +82,8 @@ Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& c
   HeadRegion head{{160, 28}, {9.5, 13.5}, true};
   PersonColours colours;
   EXPECT_TRUE(
-      learn_person(colour, segment(colour, background, {}, head, {}).silhouette, head, colours).accepted);
+      learn_person_colours(colour, segment(colour, background, {}, head, {}).silhouette, head, colours)
+          .accepted);
   head.radii.y() = head_height;
   return segment(colour, background, colours, head, config);
 }
@@ -139,11 +140,11 @@ TEST(PersonColours, RefusesATinyFaceAndAHiddenChestWithAReason) {
   HeadRegion tiny = s.head;
   tiny.radii = {1, 1.5};
   const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  PersonReport report = learn_person(s.colour, everywhere, tiny, colours);
+  PersonReport report = learn_person_colours(s.colour, everywhere, tiny, colours);
   EXPECT_FALSE(report.accepted);
   EXPECT_NE(report.reason.find("pixels"), std::string::npos);
   const LogColour all_skin = log_colour(cv::Mat(120, 160, CV_8UC3, kSkinColour));
-  report = learn_person(all_skin, everywhere, s.head, colours);
+  report = learn_person_colours(all_skin, everywhere, s.head, colours);
   EXPECT_FALSE(report.accepted);
   EXPECT_FALSE(report.reason.empty());
   EXPECT_FALSE(colours.known());
@@ -155,7 +156,7 @@ TEST(PersonColours, AMaskOnHalfTheFaceDoesNotBecomeSkin) {
   PersonColours colours;
   const Scene s = scene();
   const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  ASSERT_TRUE(learn_person(log_colour(image), everywhere, s.head, colours).accepted);
+  ASSERT_TRUE(learn_person_colours(log_colour(image), everywhere, s.head, colours).accepted);
   EXPECT_LT(mahalanobis2(colours.skin, log_colour_of(125, 155, 205)), 4);
   EXPECT_GT(mahalanobis2(colours.skin, log_colour_of(225, 222, 220)), 9);
 }
@@ -173,7 +174,7 @@ TEST(PersonColours, WhatHasTheColourOfAMaskIsNotAnArm) {
     }
     const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
     const LogColour colour = log_colour(shown);
-    EXPECT_TRUE(learn_person(colour, everywhere, s.head, s.colours).accepted);
+    EXPECT_TRUE(learn_person_colours(colour, everywhere, s.head, s.colours).accepted);
     const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
     const BackgroundModel model = learn_background_model(empty);
     const BackgroundEnergy background = background_energy(model, colour, ShadowRange{}, {});
@@ -193,7 +194,7 @@ TEST(PersonColours, AShirtInsideTheHeadsEllipseIsNoMask) {
   PersonColours colours;
   const Scene s = scene();
   const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  ASSERT_TRUE(learn_person(log_colour(image), everywhere, s.head, colours).accepted);
+  ASSERT_TRUE(learn_person_colours(log_colour(image), everywhere, s.head, colours).accepted);
   EXPECT_GT(mahalanobis2(colours.other, log_colour_of(150, 60, 40)), 9);
 }
 

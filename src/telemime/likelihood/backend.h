@@ -9,7 +9,7 @@
 #include "telemime/body/body.h"
 #include "telemime/body/mesh.h"
 #include "telemime/core/camera.h"
-#include "telemime/image/observation.h"
+#include "telemime/image/frame_features.h"
 #include "telemime/likelihood/cues/reductions.h"
 #include "telemime/likelihood/device_times.h"
 #include "telemime/likelihood/tiled_planes.h"
@@ -58,12 +58,12 @@ class Backend {
   virtual std::optional<DeviceTimes> device_times() const { return std::nullopt; }
 };
 
-/// `camera` is the one of the working image that the observation has. Throws Error(usage) when they do not
+/// `camera` is the one of the working image of the features. Throws Error(usage) when they do not
 /// match.
-PreparedFrame prepare(const Observation& observation, const Camera& camera);
+PreparedFrame prepare(const FrameFeatures& features, const Camera& camera);
 
 /// The same into a frame whose memory is used again.
-void prepare(const Observation& observation, const Camera& camera, PreparedFrame& frame);
+void prepare(const FrameFeatures& features, const Camera& camera, PreparedFrame& frame);
 
 /// The definition: exact z-buffered meshes, one pose after the other.
 std::unique_ptr<Backend> make_scalar_backend();

@@ -30,12 +30,12 @@ Pose middle_pose() {
 }
 
 // What a perfect segmentation would see of this pose; edges along the occluding contour.
-Observation observe(const Model& model, const Pose& pose, const Camera& camera) {
+FrameFeatures observe(const Model& model, const Pose& pose, const Camera& camera) {
   Rendering rendering;
   render(model.mesh, forward_kinematics(model.body, pose), camera, rendering);
   std::vector<Eigen::Vector2f> contour;
   occluding_contour(model.mesh, rendering, contour);
-  Observation seen;
+  FrameFeatures seen;
   seen.labels = cv::Mat(camera.height, camera.width, CV_8UC1, rendering.surface.data()).clone();
   seen.silhouette = (seen.labels > 0);
   seen.edges = cv::Mat::zeros(seen.labels.size(), CV_8UC1);
@@ -57,7 +57,7 @@ class Likelihood : public ::testing::Test {
 
   Camera camera_ = camera_from_field_of_view(160, 120, 60.0);
   Model model_ = make_model(Shape{});
-  Observation seen_ = observe(model_, middle_pose(), camera_);
+  FrameFeatures seen_ = observe(model_, middle_pose(), camera_);
   PreparedFrame frame_ = prepare(seen_, camera_);
   std::unique_ptr<Backend> backend_ = make_scalar_backend();
 };
@@ -208,17 +208,17 @@ TEST_F(Likelihood, PrepareTakesPiecesOfBiggerImages) {
 }
 
 TEST_F(Likelihood, PrepareRefusesWhatDoesNotMatchTheCamera) {
-  const std::vector<std::function<void(Observation&)>> faults = {
-      [](Observation& o) { o.labels = cv::Mat::zeros(120, 159, CV_8UC1); },
-      [](Observation& o) { o.labels = cv::Mat::zeros(160, 120, CV_8UC1); },
-      [](Observation& o) { o.labels = cv::Mat(); },
-      [](Observation& o) { o.labels.convertTo(o.labels, CV_32FC1); },
-      [](Observation& o) { o.distance = cv::Mat::zeros(60, 80, CV_32FC1); },
-      [](Observation& o) { o.distance.convertTo(o.distance, CV_8UC1); },
-      [](Observation& o) { o.distance = cv::Mat(); },
+  const std::vector<std::function<void(FrameFeatures&)>> faults = {
+      [](FrameFeatures& o) { o.labels = cv::Mat::zeros(120, 159, CV_8UC1); },
+      [](FrameFeatures& o) { o.labels = cv::Mat::zeros(160, 120, CV_8UC1); },
+      [](FrameFeatures& o) { o.labels = cv::Mat(); },
+      [](FrameFeatures& o) { o.labels.convertTo(o.labels, CV_32FC1); },
+      [](FrameFeatures& o) { o.distance = cv::Mat::zeros(60, 80, CV_32FC1); },
+      [](FrameFeatures& o) { o.distance.convertTo(o.distance, CV_8UC1); },
+      [](FrameFeatures& o) { o.distance = cv::Mat(); },
   };
   for (std::size_t i = 0; i < faults.size(); ++i) {
-    Observation wrong = seen_;
+    FrameFeatures wrong = seen_;
     faults[i](wrong);
     try {
       prepare(wrong, camera_);

@@ -11,23 +11,23 @@ Model make_model(const Shape& shape) {
   return {body, make_mesh(body)};
 }
 
-PreparedFrame prepare(const Observation& observation, const Camera& camera) {
+PreparedFrame prepare(const FrameFeatures& features, const Camera& camera) {
   PreparedFrame frame;
-  prepare(observation, camera, frame);
+  prepare(features, camera, frame);
   return frame;
 }
 
-void prepare(const Observation& observation, const Camera& camera, PreparedFrame& frame) {
+void prepare(const FrameFeatures& features, const Camera& camera, PreparedFrame& frame) {
   const cv::Size size(camera.width, camera.height);
-  if (observation.labels.size() != size || observation.distance.size() != size ||
-      observation.labels.type() != CV_8UC1 || observation.distance.type() != CV_32FC1) {
-    throw Error(ErrorKind::usage, "the observation has another size or type than the camera's image");
+  if (features.labels.size() != size || features.distance.size() != size ||
+      features.labels.type() != CV_8UC1 || features.distance.type() != CV_32FC1) {
+    throw Error(ErrorKind::usage, "the features have another size or type than the camera's image");
   }
   frame.camera = camera;
   frame.observed = {};
   frame.distance_cap = 0.0;
-  frame.labels = observation.labels.isContinuous() ? observation.labels : observation.labels.clone();
-  frame.distance = observation.distance.isContinuous() ? observation.distance : observation.distance.clone();
+  frame.labels = features.labels.isContinuous() ? features.labels : features.labels.clone();
+  frame.distance = features.distance.isContinuous() ? features.distance : features.distance.clone();
   const std::uint8_t* label = frame.labels.ptr<std::uint8_t>();
   const float* distance = frame.distance.ptr<float>();
   for (std::size_t i = 0; i < frame.labels.total(); ++i) {

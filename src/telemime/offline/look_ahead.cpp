@@ -164,11 +164,11 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
     if (candidates.empty()) {
       first.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
     }
-    if (seen.motion.state == TrackState::tracking && frames++ % kStride == 0 && seen.observation.head) {
+    if (seen.motion.state == TrackState::tracking && frames++ % kStride == 0 && seen.features.head) {
       candidates.push_back(
-          {{prepare(seen.observation, scout.working_camera()), seen.motion.pose, seen.motion.region_score},
+          {{prepare(seen.features, scout.working_camera()), seen.motion.pose, seen.motion.region_score},
            seen.motion.frame,
-           *seen.observation.head});
+           *seen.features.head});
     }
   }
   if (candidates.empty()) {

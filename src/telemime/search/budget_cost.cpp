@@ -16,7 +16,7 @@ PreparedFrame frame_of_model(const Model& model, const Pose& pose, const Camera&
   std::vector<Eigen::Vector2f> contour;
   occluding_contour(model.mesh, rendering, contour);
 
-  Observation seen;
+  FrameFeatures seen;
   seen.labels = cv::Mat(camera.height, camera.width, CV_8UC1, rendering.surface.data()).clone();
   seen.edges = cv::Mat::zeros(camera.height, camera.width, CV_8UC1);
   for (const Eigen::Vector2f& p : contour) {

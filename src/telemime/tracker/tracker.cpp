@@ -126,7 +126,7 @@ void Tracker::person_colours(SeenFrame& seen) {
     seen.coloured = true;
     return;
   }
-  const PersonReport report = features_.begin_person(seen.frame);
+  const PersonReport report = features_.learn_person(seen.frame);
   seen.note = report.reason;
   seen.face_just_seen = report.accepted;
   since_ = report.accepted ? seen.frame.index : since_;
@@ -143,14 +143,14 @@ void Tracker::look(const Frame& frame, bool settled, SeenFrame& seen) {
   if (!settled) {
     person_colours(seen);
   }
-  seen.observation = features_.extract(frame);
+  seen.features = features_.extract(frame);
   seen.warnings = features_.status().warnings;
   seen.person = features_.status().person;
-  if (!seen.observation.head) {
+  if (!seen.features.head) {
     since_ = frame.index + 1;
   }
   if (seen.coloured) {
-    prepare(seen.observation, working_camera_, seen.prepared);
+    prepare(seen.features, working_camera_, seen.prepared);
   }
   seen.ms = watch.lap();
 }
@@ -193,15 +193,15 @@ TrackedFrame Tracker::decide(SeenFrame& seen) {
   motion.state = phase_ == Phase::tracking ? TrackState::tracking : TrackState::lost;
   motion.pose = pose_;
   complete(motion, model_.body, camera_);
-  result.observation = std::move(seen.observation);
+  result.features = std::move(seen.features);
   motion.stage_ms.emplace_back("search", watch.lap());
   return result;
 }
 
 void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
-  const Observation& observation = seen.observation;
+  const FrameFeatures& features = seen.features;
   const PreparedFrame& prepared = seen.prepared;
-  if (!observation.head) {
+  if (!features.head) {
     waited_ = 0;
     lose("nobody is found: the head must be in the picture", result);
     return;
@@ -217,7 +217,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
   }
   if (!calibration_) {
     // Somebody in profile has a head, too, but no shape that could be fitted.
-    if (!observation.head->detected && !seen.face_just_seen) {
+    if (!features.head->detected && !seen.face_just_seen) {
       lose("waiting for a face that looks at the camera", result);
       frames_until_search_ = 1.0;
       return;
@@ -228,7 +228,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
     model_ = make_model(known_->person.shape);
   }
   if (!calibration_) {
-    const Calibration fit = calibrate(*backend_, prepared, *observation.head, limits_, config_.calibration,
+    const Calibration fit = calibrate(*backend_, prepared, *features.head, limits_, config_.calibration,
                                       config_.registration, random_);
     result.motion.evaluations += fit.evaluations;
     const bool patient = waited_ < config_.tracking.calibration_patience;
@@ -246,7 +246,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
   }
   Objective objective(*backend_, prepared, model_, limits_);
   const Pose found =
-      initialise_pose(objective, *observation.head, config_.calibration, config_.registration, random_);
+      initialise_pose(objective, *features.head, config_.calibration, config_.registration, random_);
   const Score score = objective.score(found, Reduction::all);
   result.motion.evaluations += objective.evaluations();
   if (score.region > config_.tracking.found_region) {
@@ -302,7 +302,7 @@ void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& res
     lose("nobody is in the picture", result);
     return;
   }
-  const bool bad = score.region > config_.tracking.lost_region || !seen.observation.head;
+  const bool bad = score.region > config_.tracking.lost_region || !seen.features.head;
   bad_frames_ = bad ? bad_frames_ + 1 : 0;
   bad_for_ = bad ? bad_for_ + steps_ : 0.0;
   // At a few frames a second one bad frame lasts as long as the patience.

@@ -39,9 +39,9 @@ struct KnownStart {
 
 /// One frame's result with what a viewer may want to draw.
 struct TrackedFrame {
-  MotionFrame motion;       ///< not smoothed
-  Observation observation;  ///< of the working image
-  std::string note;         ///< why the person is not tracked, in words; empty while tracking
+  MotionFrame motion;      ///< not smoothed
+  FrameFeatures features;  ///< of the working image
+  std::string note;        ///< why the person is not tracked, in words; empty while tracking
   std::vector<std::string>
       warnings;  ///< what breaks the tracker's assumptions (light, sleeves, camera), in words
   std::optional<StretchFrame> stretch;  ///< while tracking, where Config::look_back asks for it
@@ -50,7 +50,7 @@ struct TrackedFrame {
 /// The image side of one frame: what the search side goes on with.
 struct SeenFrame {
   Frame frame;
-  Observation observation;
+  FrameFeatures features;
   PreparedFrame prepared;             ///< when `coloured`; memory is used again
   std::vector<std::string> warnings;  ///< as TrackedFrame::warnings
   std::string note;                   ///< why the person's colours are not known

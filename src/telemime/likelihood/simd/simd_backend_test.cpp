@@ -25,7 +25,7 @@ PreparedFrame make_frame(const Model& model, int width, int height) {
   pose.root = {0.0, 0.35, 1.4};
   Rendering rendering;
   render(model.mesh, forward_kinematics(model.body, pose), camera, rendering);
-  Observation seen;
+  FrameFeatures seen;
   seen.labels = cv::Mat(height, width, CV_8UC1, rendering.surface.data()).clone();
   seen.labels.col(width / 3).setTo(255);
   seen.distance = cv::Mat(height, width, CV_32FC1);

@@ -27,7 +27,7 @@ struct HeadRegion {
 };
 
 /// What the image says, and all that the search sees of it.
-struct Observation {
+struct FrameFeatures {
   cv::Mat labels;      ///< (h x w) CV_8UC1, values of Label
   cv::Mat silhouette;  ///< (h x w) CV_8UC1, 255 where the person is
   cv::Mat edges;       ///< (h x w) CV_8UC1, 255 on edges inside the silhouette
