@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# One module: a static library from every *.cpp below the module's folder, and one test program from every *_test.cpp.
+# One module: a static library from every *.cpp below the module's folder (but a main.cpp), and one test program from
+# every *_test.cpp.
 # The DEPENDS list is the whole set of modules that it may include (checked by tests/layering).
 
 add_library(telemime_flags INTERFACE)
@@ -93,7 +94,7 @@ function(telemime_module name)
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   set(tests ${sources})
-  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "(_test|/main)\\.cpp$")
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
 
   add_library(telemime_${name} STATIC ${sources})

@@ -14,8 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "cli/data_folder.h"
 #include "cli/interrupt.h"
-#include "data_folder.h"
 #include "open_page.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
@@ -162,6 +162,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
                 "Leave --paced and --loop out.");
   }
   command.live.version = TELEMIME_VERSION;
+  command.live.avatars = avatar_folder();
   command.live.settings = command.no_settings ? std::filesystem::path() : settings_file();
   std::mutex mutex;
   const auto say = [&mutex, quiet = command.track.quiet](MessageLevel level, const std::string& words) {

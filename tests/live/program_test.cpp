@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -29,6 +30,7 @@ class Program : public ::testing::Test {
   LiveRequest options() const {
     LiveRequest options;
     options.request = quick_request(folder_);
+    options.avatars = folder_.path();
     options.web.port = 0;
     options.recordings = folder_.file("recordings");
     options.version = "1.2.3";
@@ -120,12 +122,15 @@ TEST_F(Program, RecordsAndHandsOutTheFiles) {
 }
 
 TEST_F(Program, EveryLookIsAnAvatar) {
+  for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
+    std::ofstream(folder_.file(name)) << "glTF " << name;
+  }
   const LiveProgram program(options(), camera_of(somebody()), {});
   SocketClient page(program.port());
   const Json hello = hear(page, "hello");
-  ASSERT_FALSE(hello.at("looks").empty());
-  for (const Json& look : hello.at("looks")) {
-    EXPECT_EQ(get(program.port(), "/avatars/" + look.get<std::string>() + ".vrm", 200).substr(0, 4), "glTF");
+  EXPECT_EQ(hello.at("looks"), Json({"plain", "robot"}));
+  for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
+    EXPECT_EQ(get(program.port(), "/avatars/" + name, 200), "glTF " + name);
   }
   get(program.port(), "/avatars/nobody.vrm", 404);
 }

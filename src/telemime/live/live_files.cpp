@@ -10,32 +10,7 @@
 namespace telemime {
 namespace {
 
-// "/avatars/robot.vrm": its look.
-std::optional<std::string> look_of(std::string_view path) {
-  constexpr std::string_view kFolder = "/avatars/";
-  constexpr std::string_view kEnding = ".vrm";
-  if (!path.starts_with(kFolder) || !path.ends_with(kEnding) ||
-      path.size() < kFolder.size() + kEnding.size()) {
-    return std::nullopt;
-  }
-  path.remove_prefix(kFolder.size());
-  path.remove_suffix(kEnding.size());
-  return std::string(path);
-}
-
-std::optional<WebContent> avatar(const std::string& look, AvatarShelf& avatars) {
-  if (!AvatarShelf::has(look)) {
-    return std::nullopt;
-  }
-  WebContent content;
-  content.type = "model/gltf-binary";
-  content.later = [look, &avatars](std::function<void(WebBytes)> ready) {
-    avatars.get(look, std::move(ready));
-  };
-  return content;
-}
-
-// "/recordings/3/motion.bvh" in its parts.
+// Number and file name in "/recordings/3/motion.bvh".
 std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) {
   constexpr std::string_view kFolder = "/recordings/";
   if (!path.starts_with(kFolder)) {
@@ -52,9 +27,10 @@ std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) 
 
 }  // namespace
 
-std::optional<WebContent> live_file(const std::string& path, AvatarShelf& avatars, const Recorder& recorder) {
-  if (const auto look = look_of(path)) {
-    return avatar(*look, avatars);
+std::optional<WebContent> live_file(const std::string& path, const AvatarFolder& avatars,
+                                    const Recorder& recorder) {
+  if (auto avatar = avatars.file(path)) {
+    return avatar;
   }
   if (const auto name = recorded_name(path)) {
     const auto file = recorder.file(name->first, name->second);
@@ -70,9 +46,9 @@ std::optional<WebContent> live_file(const std::string& path, AvatarShelf& avatar
   return page_file(path);
 }
 
-std::optional<WebContent> room_file(const std::string& path, AvatarShelf& avatars) {
-  if (const auto look = look_of(path)) {
-    return avatar(*look, avatars);
+std::optional<WebContent> room_file(const std::string& path, const AvatarFolder& avatars) {
+  if (auto avatar = avatars.file(path)) {
+    return avatar;
   }
   if (path == "/" || path == "/room") {
     auto page = page_file("/room.html");

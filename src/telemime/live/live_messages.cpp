@@ -8,7 +8,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "avatars/look.h"
 #include "telemime/outputs/all.h"
 #include "telemime/streaming/all.h"
 
@@ -54,11 +53,7 @@ Json recorded(const Recording& r) {
 }  // namespace
 
 std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
-                          SenderKinds kinds) {
-  Json looks = Json::array();
-  for (const AvatarLook& look : kAvatarLooks) {
-    looks.push_back(look.name);
-  }
+                          const std::vector<std::string>& looks, SenderKinds kinds) {
   Json formats = Json::array();
   for (const OutputFormat& format : kOutputFormats) {
     formats.push_back(format.name);

@@ -21,7 +21,7 @@ enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3, kPictur
 /// The messages of docs/live-protocol.md that are not about a pose, as JSON without line breaks.
 
 std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
-                          SenderKinds kinds = sender_kinds());
+                          const std::vector<std::string>& looks, SenderKinds kinds = sender_kinds());
 
 struct LiveStatus {
   LiveState state;

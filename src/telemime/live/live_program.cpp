@@ -72,7 +72,7 @@ struct LiveProgram::State {
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
       const std::lock_guard lock(mutex);
-      hello = hello_message(options.version, info, session->camera(), senders.kinds());
+      hello = hello_message(options.version, info, session->camera(), avatars.looks(), senders.kinds());
     }
     ready = session.get();
     answers.begin(*session);
@@ -97,7 +97,6 @@ struct LiveProgram::State {
     }
     // The server's handlers use the session and the recorder until it has stopped; their messages use the
     // server.
-    avatars.stop();
     if (session) {
       session->stop();
     }
@@ -334,7 +333,7 @@ struct LiveProgram::State {
   KeptOutputs kept{options.settings, senders,
                    [this](MessageLevel level, const std::string& words) { tell(level, words); }};
   Recorder recorder;
-  AvatarShelf avatars;
+  AvatarFolder avatars{options.avatars};
   LiveAnswers answers;
   std::atomic<const LiveSession*> ready = nullptr;
   std::atomic<std::int64_t> poses = 0;

@@ -19,10 +19,11 @@ namespace telemime {
 /// What `telemime live` is asked to do.
 struct LiveRequest {
   TrackRequest request;
-  bool ends = false;        ///< the input has an end, which is no failure: a file, also one on a server
-  bool guided = true;       ///< wait for the empty room
-  double page_wait = 60.0;  ///< s without a page to ask for it, until the start goes on without
-  WebServerOptions web;     ///< where the page is served
+  bool ends = false;              ///< the input has an end, which is no failure: a file, also one on a server
+  bool guided = true;             ///< wait for the empty room
+  double page_wait = 60.0;        ///< s without a page to ask for it, until the start goes on without
+  WebServerOptions web;           ///< where the page is served
+  std::filesystem::path avatars;  ///< folder of the page's avatars; empty: none
   SenderKinds sender_kinds = telemime::sender_kinds();
   std::vector<std::string> send;   ///< URLs of senders
   std::filesystem::path settings;  ///< file of what is kept for later runs; empty: nothing is

@@ -15,17 +15,16 @@
 #include <utility>
 #include <vector>
 
-#include "avatars/look.h"
+#include "cli/data_folder.h"
 #include "cli/interrupt.h"
 #include "meeting/commands/room_people_command.h"
 #include "meeting/commands/room_record_command.h"
 #include "meeting/commands/room_replay_command.h"
-#include "meeting/hosting/avatar_folder.h"
 #include "meeting/hosting/room_host.h"
 #include "meeting/hosting/room_secrets.h"
 #include "meeting/protocol/room_topic.h"
 #include "telemime/core/errors.h"
-#include "telemime/live/avatar_shelf.h"
+#include "telemime/live/avatar_folder.h"
 #include "telemime/live/live_files.h"
 
 namespace telemime {
@@ -38,14 +37,11 @@ struct RoomCommand {
   bool quiet = false;
 };
 
-/// Those that people choose from: the project's own, then the user's.
-std::vector<std::string> looks_of(const AvatarFolder& folder) {
-  std::vector<std::string> looks;
-  for (const AvatarLook& look : kAvatarLooks) {
-    looks.emplace_back(look.name);
-  }
-  for (const std::string& look : folder.looks()) {
-    if (!look.ends_with("-light") && std::find(looks.begin(), looks.end(), look) == looks.end()) {
+/// The looks to choose from: those of the program first, then the user's.
+std::vector<std::string> all_looks(const AvatarFolder& shipped, const AvatarFolder& own) {
+  std::vector<std::string> looks = shipped.looks();
+  for (const std::string& look : own.looks()) {
+    if (std::find(looks.begin(), looks.end(), look) == looks.end()) {
       looks.push_back(look);
     }
   }
@@ -74,11 +70,11 @@ void run(RoomCommand command) {
     plan.secrets = default_secrets_file(plan.name, std::getenv("XDG_STATE_HOME"), std::getenv("HOME"));
   }
   const AvatarFolder own(command.avatars);
-  plan.looks = looks_of(own);
-  AvatarShelf shelf;
-  plan.file = [&own, &shelf](const std::string& path) {
+  const AvatarFolder shipped(avatar_folder());
+  plan.looks = all_looks(shipped, own);
+  plan.file = [&own, &shipped](const std::string& path) {
     auto file = own.file(path);
-    return file ? file : room_file(path, shelf);
+    return file ? file : room_file(path, shipped);
   };
   std::mutex mutex;
   const auto tell = [&mutex, quiet = command.quiet](RoomHost::Level level, const std::string& words) {
@@ -104,7 +100,6 @@ void run(RoomCommand command) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  shelf.stop();
 }
 
 }  // namespace

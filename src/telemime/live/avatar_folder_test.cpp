@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meeting/hosting/avatar_folder.h"
+#include "telemime/live/avatar_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 class Avatars : public ::testing::Test {
  protected:
   void put(const std::string& name) const { std::ofstream(folder_.file(name)) << "glTF"; }
-  /// The name of the file that stands at a path; "" when there is none.
+  /// The name of the file for a web path; "" if there is none.
   std::string at(const std::string& path) const {
     const auto content = AvatarFolder(folder_.path()).file(path);
     return content ? content->file.filename().string() : "";
@@ -22,21 +22,21 @@ class Avatars : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(Avatars, TheLightOneIsSentWhereThereIsOne) {
+TEST_F(Avatars, LightVariantIsSentIfPresent) {
   put("x.vrm");
   put("x-light.vrm");
   EXPECT_EQ(at("/avatars/x.vrm"), "x.vrm");
   EXPECT_EQ(at("/avatars/x-light.vrm"), "x-light.vrm");
 }
 
-TEST_F(Avatars, ElseTheOneItselfIsLightEnough) {
+TEST_F(Avatars, MissingLightVariantFallsBack) {
   put("x.vrm");
   EXPECT_EQ(at("/avatars/x-light.vrm"), "x.vrm");
   EXPECT_EQ(at("/avatars/y-light.vrm"), "");
   EXPECT_EQ(at("/avatars/x-light-light.vrm"), "");
 }
 
-TEST_F(Avatars, NothingElseIsServed) {
+TEST_F(Avatars, OtherFilesAreNotServed) {
   put("x.vrm");
   put("X Y.vrm");
   put("notes.txt");
@@ -47,6 +47,13 @@ TEST_F(Avatars, NothingElseIsServed) {
   }
   EXPECT_FALSE(AvatarFolder("").file("/avatars/x.vrm"));
   EXPECT_THROW(AvatarFolder(folder_.path() / "none"), Error);
+}
+
+TEST_F(Avatars, LooksBeginWithThePlainOne) {
+  for (const char* const name : {"robot", "plain", "plain-light", "casual"}) {
+    put(name + std::string(".vrm"));
+  }
+  EXPECT_EQ(AvatarFolder(folder_.path()).looks(), (std::vector<std::string>{"plain", "casual", "robot"}));
 }
 
 }  // namespace

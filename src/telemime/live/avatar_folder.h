@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/streaming/web_server.h"
+
+namespace telemime {
+
+/// The avatars in a folder, one VRM file for each look: LOOK.vrm, and LOOK-light.vrm with fewer triangles for
+/// computers without a graphics card. A look's name consists of 1 to 32 lower-case letters, digits, "_" and
+/// "-"; other files are ignored.
+class AvatarFolder {
+ public:
+  /// Lists the folder once. An empty path: no avatars. Throws Error(usage) when the folder cannot be read.
+  explicit AvatarFolder(std::filesystem::path folder);
+
+  /// The looks to choose from, without the light variants: "plain" first, then by name.
+  const std::vector<std::string>& looks() const { return looks_; }
+
+  /// The file for the web path "/avatars/LOOK.vrm"; nothing if there is none. A light variant that does not
+  /// exist is answered with the avatar itself.
+  std::optional<WebContent> file(const std::string& path) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::string> names_;  ///< of all files without ".vrm", sorted
+  std::vector<std::string> looks_;
+};
+
+}  // namespace telemime
