@@ -71,8 +71,8 @@ TEST(EngineBackends, AreThoseThatRunHereOrThoseNamed) {
   for (const std::string& name : all) {
     EXPECT_EQ(make_backend(name)->name(), name) << "none twice";
   }
-  options.backends = {"parts", "scalar", "parts"};
-  EXPECT_EQ(engine_backends(options), (std::vector<std::string>{"parts", "scalar"}));
+  options.backends = {"simd", "scalar", "simd"};
+  EXPECT_EQ(engine_backends(options), (std::vector<std::string>{"simd", "scalar"}));
   options.backends = {"abacus"};
   EXPECT_THROW(engine_backends(options), Error);
 }

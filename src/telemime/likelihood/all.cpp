@@ -48,8 +48,6 @@ const std::array<BackendKind, kBackendCount> kBackends = {{
     {"auto", "a GPU for batches that it does faster, else simd", fastest, nothing_missing},
     {"scalar", "the definition: one exact z-buffered mesh after the other",
      [](const BackendOptions&) { return make_scalar_backend(); }, nothing_missing},
-    {"parts", "the definition, drawing again only what moved",
-     [](const BackendOptions&) { return make_part_backend(); }, nothing_missing},
 }};
 
 double steady_seconds() {

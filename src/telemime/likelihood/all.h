@@ -29,7 +29,7 @@ struct BackendKind {
 };
 
 /// Every back end, one line each.
-inline constexpr std::size_t kBackendCount = 6;
+inline constexpr std::size_t kBackendCount = 5;
 extern const std::array<BackendKind, kBackendCount> kBackends;
 
 /// "simd, opencl, ...".

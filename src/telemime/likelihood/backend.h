@@ -68,9 +68,4 @@ void prepare(const FrameFeatures& features, const Camera& camera, PreparedFrame&
 /// The definition: exact z-buffered meshes, one pose after the other.
 std::unique_ptr<Backend> make_scalar_backend();
 
-/// The same for searches over one arm: where at most three segments moved since the pose before, only those
-/// are drawn again. Agrees with `scalar` but for pixels where two segments are at exactly one depth; there it
-/// depends on the poses before. One for each thread.
-std::unique_ptr<Backend> make_part_backend();
-
 }  // namespace telemime

@@ -235,53 +235,5 @@ TEST_F(Likelihood, EvaluateRefusesAnotherNumberOfScores) {
   EXPECT_THROW(backend_->evaluate(frame_, model_, poses, Reduction::all, scores), Error);
 }
 
-// Poses as searches make them: one arm, then the other, then the trunk, then all at once.
-std::vector<Pose> searched_poses(Random& random) {
-  const JointLimits limits = anatomical_limits();
-  std::vector<Pose> poses;
-  Pose pose = middle_pose();
-  for (const int which : {0, 0, 1, 2, 0, 1, 1, 3, 0}) {
-    for (int i = 0; i < 15; ++i) {
-      const Pose other = random_pose(limits, random);
-      Pose next = pose;
-      for (std::size_t a = 0; a < kAngleCount; ++a) {
-        const bool trunk = a < static_cast<std::size_t>(Angle::l_shoulder_flexion);
-        const bool left = !trunk && kAngleNames[a].substr(0, 2) == "l_";
-        const bool moves = which == 3 || (which == 2 ? trunk : !trunk && left == (which == 0));
-        next.angles[a] = moves ? other.angles[a] : pose.angles[a];
-      }
-      poses.push_back(next);
-    }
-    pose = poses.back();
-  }
-  return poses;
-}
-
-TEST_F(Likelihood, DrawingOnlyWhatMovedGivesTheSameScores) {
-  const auto parts = make_part_backend();
-  EXPECT_EQ(parts->name(), "parts");
-  Random random(12);
-  Shape longer;
-  longer[Segment::l_forearm].length = 1.1;
-  Shape bare;
-  bare.sleeve = 0.2;
-  const Camera larger = camera_from_field_of_view(320, 240, 60.0);
-  // One model object, as the tracker has: its address says nothing of what it holds.
-  Model model = model_;
-  for (const Shape& shape : {Shape{}, longer, bare, Shape{}}) {
-    model = make_model(shape);
-    for (const Camera& camera : {camera_, larger}) {
-      const PreparedFrame frame = prepare(observe(model, middle_pose(), camera), camera);
-      for (const Pose& pose : searched_poses(random)) {
-        Score whole;
-        Score part;
-        backend_->evaluate(frame, model, {&pose, 1}, Reduction::all, {&whole, 1});
-        parts->evaluate(frame, model, {&pose, 1}, Reduction::all, {&part, 1});
-        expect_same(whole, part);
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace telemime

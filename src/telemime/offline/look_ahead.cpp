@@ -175,8 +175,7 @@ std::optional<LookAhead> look_ahead(Source& source, const Config& config, const 
     return std::nullopt;
   }
   // Single poses on many threads suit no device.
-  const bool own = config.backend == "scalar" || config.backend == "parts";
-  const std::string backend = own ? config.backend : "simd";
+  const std::string backend = config.backend == "scalar" ? "scalar" : "simd";
   const std::vector<Portrait> portraits = portraits_of(config, backend, scout.limits(), std::move(first));
   LookAhead best;
   best.start = portraits.front().start;

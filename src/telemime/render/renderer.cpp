@@ -237,16 +237,6 @@ void draw(Range triangles, const BodyMesh& mesh, Rendering& out) {
   }
 }
 
-void draw_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera,
-                   Rendering& out) {
-  project(which, mesh, kinematics, camera, out);
-  for (std::size_t s = 0; s < kSegmentCount; ++s) {
-    if (which[s]) {
-      draw(mesh.triangle_range[s], mesh, out);
-    }
-  }
-}
-
 }  // namespace
 
 void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera, Rendering& out) {
@@ -258,25 +248,12 @@ void render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& ca
 void render_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
                      const Camera& camera, Rendering& out) {
   clear(out, camera, mesh);
-  draw_segments(which, mesh, kinematics, camera, out);
-}
-
-void render_over(const Rendering& base, SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
-                 const Camera& camera, Rendering& out) {
-  clear(out, camera, mesh);
-  const int span = base.right - base.left;
-  for (int y = base.top; y < base.bottom && span > 0; ++y) {
-    const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(y) * base.width + base.left;
-    std::copy_n(base.surface.begin() + row, span, out.surface.begin() + row);
-    std::copy_n(base.inverse_depth.begin() + row, span, out.inverse_depth.begin() + row);
+  project(which, mesh, kinematics, camera, out);
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    if (which[s]) {
+      draw(mesh.triangle_range[s], mesh, out);
+    }
   }
-  out.left = base.left;
-  out.top = base.top;
-  out.right = base.right;
-  out.bottom = base.bottom;
-  out.projected = base.projected;
-  out.facing = base.facing;
-  draw_segments(which, mesh, kinematics, camera, out);
 }
 
 void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::vector<Eigen::Vector2f>& out) {

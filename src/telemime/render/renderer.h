@@ -37,11 +37,6 @@ using SegmentSet = std::bitset<kSegmentCount>;
 void render_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
                      const Camera& camera, Rendering& out);
 
-/// The same with these segments over all that `base` shows. `base` has the others, with this mesh and camera.
-/// What render() draws with all of them, but for pixels where two segments are at exactly one depth.
-void render_over(const Rendering& base, SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematics,
-                 const Camera& camera, Rendering& out);
-
 /// Points of the visible occluding contour (thesis 3.5.2), about one a pixel, in pixels: edges that join a
 /// front-facing to a back-facing triangle and are not hidden by another segment. Call after render() with the
 /// same arguments. Points outside the image are left out. `out` is cleared first.

@@ -51,7 +51,7 @@ Json other_value(const std::string& pointer, const Json& value) {
     return "reference";
   }
   if (pointer == "/backend") {
-    return "parts";
+    return "scalar";
   }
   if (pointer == "/registration/method") {
     return "regions";

@@ -16,8 +16,8 @@ namespace telemime {
 Evaluators::Evaluators(const std::string& backend, int threads)
     : threads_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
   batch_ = make_backend(backend, {threads_});
-  // Single poses suit no device, and `parts` remembers the pose before.
-  const std::string single = backend == "scalar" || backend == "parts" ? "scalar" : "simd";
+  // Single poses are too few for a device.
+  const std::string single = backend == "scalar" ? "scalar" : "simd";
   for (int i = 0; i < threads_; ++i) {
     singles_.push_back(make_backend(single));
   }
@@ -53,9 +53,9 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   const Body& body = c.model.body;
   const Kinematics k = forward_kinematics(body, pose);
   sum -= c.config.invalid * interpenetration(body, k);
-  sum -= c.config.natural > 0.0 ? c.config.natural * natural_cost(body, pose, k, c.facing) : 0.0;
+  sum -= c.config.natural > 0.0 ? c.config.natural * natural_cost(body, pose, k, c.heading) : 0.0;
   if (c.config.temporal > 0.0) {
-    sum -= c.config.temporal * distance_from_expected(k, c.expected_joints);
+    sum -= c.config.temporal * distance_from_predicted(k, c.predicted_joints);
   }
   return sum;
 }

@@ -5,7 +5,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/backend.h"
 #include "telemime/likelihood/cues/all.h"
-#include "telemime/render/part_renderer.h"
+#include "telemime/render/renderer.h"
 
 namespace telemime {
 namespace {
@@ -66,20 +66,9 @@ void sum_contour(const PreparedFrame& frame, const std::vector<Eigen::Vector2f>&
   r.contour_points = static_cast<std::int32_t>(contour.size());
 }
 
-// Every pose drawn whole.
-struct WholeRenderer {
-  Rendering rendering;
-  const Rendering& render(const BodyMesh& mesh, const Kinematics& kinematics, const Camera& camera) {
-    telemime::render(mesh, kinematics, camera, rendering);
-    return rendering;
-  }
-};
-
-template <typename Renderer>
 class ScalarBackend final : public Backend {
  public:
-  explicit ScalarBackend(std::string_view name) : name_(name) {}
-  std::string_view name() const override { return name_; }
+  std::string_view name() const override { return "scalar"; }
 
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
                 std::span<Score> scores) override {
@@ -87,15 +76,14 @@ class ScalarBackend final : public Backend {
       throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Kinematics kinematics = forward_kinematics(model.body, poses[i]);
-      const Rendering& rendering = renderer_.render(model.mesh, kinematics, frame.camera);
+      render(model.mesh, forward_kinematics(model.body, poses[i]), frame.camera, rendering_);
       Score score;
       if (wants(terms, Reduction::overlap)) {
-        count_overlap(frame, rendering, score.reductions);
+        count_overlap(frame, rendering_, score.reductions);
         score.region = non_overlapping_ratio(score.reductions);
       }
       if (wants(terms, Reduction::contour)) {
-        occluding_contour(model.mesh, rendering, contour_);
+        occluding_contour(model.mesh, rendering_, contour_);
         sum_contour(frame, contour_, score.reductions);
         score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
       }
@@ -104,19 +92,14 @@ class ScalarBackend final : public Backend {
   }
 
  private:
-  std::string_view name_;
-  Renderer renderer_;
+  Rendering rendering_;
   std::vector<Eigen::Vector2f> contour_;
 };
 
 }  // namespace
 
 std::unique_ptr<Backend> make_scalar_backend() {
-  return std::make_unique<ScalarBackend<WholeRenderer>>("scalar");
-}
-
-std::unique_ptr<Backend> make_part_backend() {
-  return std::make_unique<ScalarBackend<PartRenderer>>("parts");
+  return std::make_unique<ScalarBackend>();
 }
 
 }  // namespace telemime
