@@ -23,10 +23,8 @@ class Search {
       : truth_(truth), frame_(prepare(observe(model_, truth, camera_), camera_)) {}
 
   RegistrationResult from(const Pose& start, const RegistrationConfig& config, std::uint64_t seed = 1) {
-    Objective objective(*backend_, frame_, model_, limits_);
-    if (expect_) {
-      objective.expect(start);
-    }
+    Objective objective(*backend_, frame_, model_, limits_,
+                        predict_ ? prior_at(model_.body, start) : Prior{});
     Random random(seed);
     const RegistrationResult result = register_pose(objective, start, config, random);
     evaluations_ = objective.evaluations();
@@ -53,8 +51,8 @@ class Search {
   }
 
   int evaluations() const { return evaluations_; }
-  /// Without this, the start is what is expected.
-  void expect_nothing() { expect_ = false; }
+  /// Without this call the start is also the prediction.
+  void predict_nothing() { predict_ = false; }
   void set_limits(const JointLimits& limits) { limits_ = limits; }
   const JointLimits& limits() const { return limits_; }
 
@@ -66,7 +64,7 @@ class Search {
   PreparedFrame frame_;
   std::unique_ptr<Backend> backend_ = make_backend("simd");
   int evaluations_ = 0;
-  bool expect_ = true;
+  bool predict_ = true;
 };
 
 // A pose some frames of motion away.
@@ -233,7 +231,7 @@ TEST(Registration, FindsAnArmAgainThatIsFarAway) {
   Pose start = truth;
   set_arm_angles(start, Side::left, {-130 * kDegree, 0, 10 * kDegree, -40 * kDegree});
   ASSERT_GT(search.error(start, true), 0.1);
-  search.expect_nothing();
+  search.predict_nothing();
   RegistrationConfig config;
   config.proposals.arms = 200;
   config.iterations = 2000;

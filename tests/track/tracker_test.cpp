@@ -91,7 +91,7 @@ TEST(Tracker, OurFilterSpendsItsParticlesAndWhatItTurnsAndFlips) {
     // Three trunks at most, each from one of two starts.
     const int turned = filter.turn_evaluations + 2 * filter.walk_evaluations + 3 * 2;
     EXPECT_LE(motion[i].evaluations,
-              filter.particles + turned + 15 * filter.alternatives + 2 * filter.mode_least)
+              filter.particles + turned + 15 * filter.flip_candidates + 2 * filter.mode_least)
         << i;
     EXPECT_GE(motion[i].evaluations, filter.particles) << i;
     ASSERT_TRUE(motion[i].spread) << i;

@@ -181,8 +181,8 @@ Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig&
   Recorder recorder(sequence);
   Pose pose = sequence.start;
   for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
-    Objective objective(*evaluator, sequence.frames[t], sequence.model, sequence.limits);
-    objective.expect(pose);
+    Objective objective(*evaluator, sequence.frames[t], sequence.model, sequence.limits,
+                        prior_at(sequence.model.body, pose));
     const RegistrationResult found = register_pose(objective, pose, config, random);
     pose = found.pose;
     recorder.add(t, pose, found.score, found.region_evaluations + found.edge_evaluations);
@@ -207,7 +207,8 @@ Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, s
   std::vector<double> moving;
   filter.start(sequence.start);
   for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
-    const FilterResult found = filter.step(sequence.frames[t], sequence.model, setup.velocity);
+    const FilterResult found =
+        filter.step({.frame = sequence.frames[t], .model = sequence.model, .velocity = setup.velocity});
     recorder.add(t, found.pose, found.score, found.evaluations);
     effective.push_back(found.effective_particles);
     moving.push_back(static_cast<double>(found.moving.count()) / static_cast<double>(found.moving.size()));

@@ -60,8 +60,10 @@ std::size_t GapFiller::fill() {
     Followed frame{waiting_[t].decided.motion, std::nullopt};
     MotionFrame& motion = frame.motion;
     const double steps = steps_between(motion.time, waiting_[t + 1].decided.motion.time);
-    filter.set_time_step(steps);
-    const FilterResult result = filter.step(*waiting_[t].seen, tracker_.model(), config.tracking.velocity);
+    const FilterResult result = filter.step({.frame = *waiting_[t].seen,
+                                             .model = tracker_.model(),
+                                             .velocity = config.tracking.velocity,
+                                             .time_step = steps});
     motion.state = TrackState::tracking;
     motion.pose = result.pose;
     motion.region_score = result.score.region;
@@ -72,7 +74,7 @@ std::size_t GapFiller::fill() {
     if (config.look_back) {
       std::vector<Pose> poses = mode_poses(config.filter, filter, tracker_.model().body, result.pose);
       const std::size_t count = poses.size();
-      frame.stretch = StretchFrame{std::move(*waiting_[t].seen), result.facing, std::move(poses), count};
+      frame.stretch = StretchFrame{std::move(*waiting_[t].seen), result.heading, std::move(poses), count};
     }
     followed.push_back(std::move(frame));
     const bool fits = result.score.region <= config.tracking.lost_region;

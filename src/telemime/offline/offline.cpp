@@ -53,10 +53,13 @@ void OfflineTracker::look_back(std::size_t frames, const Model& model) {
   for (std::size_t t = frames; t-- > 0;) {
     StretchFrame& frame = *waiting_[t].stretch;
     frame.candidates.resize(frame.forward);  // an earlier look back may have reached into this stretch
-    if (t + 1 < frames) {
-      filter.set_time_step(steps_between(waiting_[t].motion.time, waiting_[t + 1].motion.time));
-    }
-    const FilterResult found = filter.step(frame.frame, model, config_.tracking.velocity, frame.facing);
+    const FilterResult found = filter.step(
+        {.frame = frame.frame,
+         .model = model,
+         .velocity = config_.tracking.velocity,
+         .heading = frame.heading,
+         .time_step =
+             t + 1 < frames ? steps_between(waiting_[t].motion.time, waiting_[t + 1].motion.time) : 1.0});
     waiting_[t].motion.evaluations += found.evaluations;
     const std::vector<Pose> poses = mode_poses(config_.filter, filter, model.body, found.pose);
     frame.candidates.insert(frame.candidates.end(), poses.begin(), poses.end());

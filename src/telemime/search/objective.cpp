@@ -22,14 +22,14 @@ double outside_limits(const JointLimits& limits, const Pose& pose) {
   return sum;
 }
 
-// What a joint far from where it was expected costs at most: one that was lost must be able to come back.
-constexpr double kFarthest = 2.0;
+// The most that one joint costs, however far from its prediction: a lost joint must be able to return.
+constexpr double kMostDistance = 2.0;
 
-double trunk_change(const Pose& pose, const Pose& expected) {
-  double sum = (pose.root - expected.root).squaredNorm() / square(0.03);
+double trunk_change(const Pose& pose, const Pose& predicted) {
+  double sum = (pose.root - predicted.root).squaredNorm() / square(0.03);
   for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_torsion,
                         Angle::neck_roll, Angle::neck_tilt}) {
-    sum += square((pose[a] - expected[a]) / 0.1);
+    sum += square((pose[a] - predicted[a]) / 0.1);
   }
   return sum;
 }
@@ -46,23 +46,23 @@ double depth_of_arms(const Kinematics& k) {
 
 }  // namespace
 
-double distance_from_expected(const Kinematics& k, const JointPositions& expected) {
+double distance_from_predicted(const Kinematics& k, const JointPositions& predicted) {
   constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
   double sum = 0.0;
   for (const Joint j : kArms) {
-    const double way = (k.joints[j] - expected[j]).squaredNorm() / square(0.15);
-    sum += way / (1.0 + way / kFarthest);
+    const double way = (k.joints[j] - predicted[j]).squaredNorm() / square(0.15);
+    sum += way / (1.0 + way / kMostDistance);
   }
   return sum / static_cast<double>(kArms.size());
 }
 
-Pose expected_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
+Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
   PoseVector motion = pose.vector() - before.vector();
   motion.head<9>().setZero();
   return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
 }
 
-double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double facing) {
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double heading) {
   const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
   const double arm = body.upper_arm_length[0] + body.forearm_length[0];
   double sum = 0.0;
@@ -73,13 +73,13 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
     const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
     sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
     sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
-    // A forearm that points away from the camera is rare: people gesture toward whom they talk to.
+    // A forearm that points away from the camera is rare: people gesture towards their listener.
     sum +=
         2.0 * square(std::min(0.0, (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1] - 0.1) / 0.3);
     sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
   }
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
-  sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - facing) / 0.5) + bend(Angle::root_roll, 0.25) +
+  sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - heading) / 0.5) + bend(Angle::root_roll, 0.25) +
                 bend(Angle::root_tilt, 0.3));
   sum += bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3);
   sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +
@@ -88,29 +88,34 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
   return sum / 4.0;
 }
 
-void Objective::expect_between(const Pose& before, const Pose& after) {
-  const JointPositions a = forward_kinematics(model_.body, before).joints;
-  const JointPositions b = forward_kinematics(model_.body, after).joints;
-  // Of the pose only the trunk is looked at, whose angles are small: they may be averaged one by one.
-  Expected between{Pose::from_vector(0.5 * (before.vector() + after.vector())), a};
+Prior prior_at(const Body& body, const Pose& pose, double heading) {
+  return {Prior::Prediction{pose, forward_kinematics(body, pose).joints}, heading};
+}
+
+Prior prior_between(const Body& body, const Pose& before, const Pose& after, double heading) {
+  const JointPositions a = forward_kinematics(body, before).joints;
+  const JointPositions b = forward_kinematics(body, after).joints;
+  // The objective uses only the trunk of this pose; its angles are small enough to be averaged one by one.
+  Prior::Prediction between{Pose::from_vector(0.5 * (before.vector() + after.vector())), a};
   for (std::size_t j = 0; j < kJointCount; ++j) {
     between.joints.at[j] = 0.5 * (a.at[j] + b.at[j]);
   }
-  expected_ = between;
+  return {between, heading};
 }
 
 double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) {
   const Kinematics k = forward_kinematics(model_.body, pose);
   double cost = weights.invalid * (interpenetration(model_.body, k) + 0.5 * outside_limits(limits_, pose));
   if (weights.natural > 0.0) {
-    cost += weights.natural * natural_cost(model_.body, pose, k, facing_);
+    cost += weights.natural * natural_cost(model_.body, pose, k, prior_.heading);
   }
   if (weights.fronto_parallel > 0.0) {
     cost += weights.fronto_parallel * depth_of_arms(k);
   }
-  if (expected_) {
-    cost += weights.temporal > 0.0 ? weights.temporal * distance_from_expected(k, expected_->joints) : 0.0;
-    cost += weights.trunk > 0.0 ? weights.trunk * trunk_change(pose, expected_->pose) : 0.0;
+  if (prior_.predicted) {
+    const auto& [predicted, joints] = *prior_.predicted;
+    cost += weights.temporal > 0.0 ? weights.temporal * distance_from_predicted(k, joints) : 0.0;
+    cost += weights.trunk > 0.0 ? weights.trunk * trunk_change(pose, predicted) : 0.0;
   }
   const bool region = weights.region > 0.0;
   const bool contour = weights.contour > 0.0;

@@ -109,7 +109,7 @@ void each_setting(C& c, Visit&& visit) {
   visit("filter/blocks", c.filter.blocks);
   visit("filter/turn_evaluations", c.filter.turn_evaluations);
   visit("filter/walk_evaluations", c.filter.walk_evaluations);
-  visit("filter/alternatives", c.filter.alternatives);
+  visit("filter/alternatives", c.filter.flip_candidates);
   visit("tracking/method", c.tracking.method);
   visit("tracking/lost_region", c.tracking.lost_region);
   visit("tracking/found_region", c.tracking.found_region);

@@ -98,9 +98,6 @@ void Tracker::set_calibration(const TrackerCalibration& calibration, const Image
 
 void Tracker::set_effort(double share) {
   effort_ = share;
-  if (filter_) {
-    filter_->set_effort(share);
-  }
 }
 
 void Tracker::recalibrate() {
@@ -259,16 +256,16 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
 }
 
 void Tracker::follow(const SeenFrame& seen, TrackedFrame& result) {
-  Objective objective(*backend_, seen.prepared, model_, limits_);
+  Objective image(*backend_, seen.prepared, model_, limits_);
   RegistrationConfig search = for_time_step(config_.registration, steps_);
   search.iterations = std::max(1, static_cast<int>(std::lround(effort_ * search.iterations)));
-  const Pose expected =
-      expected_pose(pose_, previous_, config_.tracking.velocity * steps_ / steps_before_, limits_);
-  const bool goes_on = objective(expected, search.region) < objective(pose_, search.region);
-  const Pose start = goes_on ? expected : pose_;
-  objective.expect(start);
+  const Pose predicted =
+      predict_pose(pose_, previous_, config_.tracking.velocity * steps_ / steps_before_, limits_);
+  const bool moves_on = image(predicted, search.region) < image(pose_, search.region);
+  const Pose start = moves_on ? predicted : pose_;
+  Objective objective(*backend_, seen.prepared, model_, limits_, prior_at(model_.body, start));
   const RegistrationResult found = register_pose(objective, start, search, random_);
-  result.motion.evaluations += objective.evaluations();
+  result.motion.evaluations += image.evaluations() + objective.evaluations();
   result.motion.stage_ms.emplace_back("regions", found.region_ms);
   result.motion.stage_ms.emplace_back("edges", found.edge_ms);
   previous_ = pose_;
@@ -280,11 +277,14 @@ void Tracker::follow_with_filter(const SeenFrame& seen, TrackedFrame& result) {
   if (!filter_->started()) {
     filter_->start(pose_);
   }
-  filter_->set_time_step(steps_);
-  const FilterResult found = filter_->step(seen.prepared, model_, config_.tracking.velocity);
+  const FilterResult found = filter_->step({.frame = seen.prepared,
+                                            .model = model_,
+                                            .velocity = config_.tracking.velocity,
+                                            .effort = effort_,
+                                            .time_step = steps_});
   result.motion.evaluations += found.evaluations;
   result.motion.spread = spread(*filter_, found);
-  facing_ = found.facing;
+  facing_ = found.heading;
   previous_ = pose_;
   adopt(found.pose, found.score, result);
   watch(seen, found.score, result);

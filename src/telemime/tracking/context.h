@@ -35,22 +35,22 @@ class Evaluators {
   std::vector<std::unique_ptr<Backend>> singles_;
 };
 
-/// All that a frame's filter step looks at. References: for one frame.
+/// Everything that the filter's step reads in one frame. Keeps references: use it within that frame.
 struct FilterContext {
   const PreparedFrame& frame;
-  const cv::Mat* labels_before = nullptr;  ///< of the frame before; null: there is none
+  const cv::Mat* labels_before = nullptr;  ///< labels of the frame before; null: there is none
   const Model& model;
   const JointLimits& limits;
   const FilterConfig& config;
   const FilterModel& numbers;
-  const RegistrationConfig& search;  ///< of FilterConfig::blocks
-  const Pose& estimate;              ///< of the frame before
-  const Pose& expected;              ///< in this frame
-  double facing = 0.0;               ///< torsion of the root that is expected: people look where they go, rad
+  const RegistrationConfig& search;  ///< local search of FilterConfig::blocks
+  const Pose& estimate;              ///< estimate of the frame before
+  const Pose& predicted;             ///< prediction for this frame
+  double heading = 0.0;  ///< rad, predicted torsion of the root: people who walk look where they go
   Evaluators& evaluators;
-  std::uint64_t seed = 0;  ///< of this frame
-  /// m, camera frame; once a frame, not once a particle.
-  JointPositions expected_joints = forward_kinematics(model.body, expected).joints;
+  std::uint64_t seed = 0;  ///< seed of this frame
+  /// Joints of `predicted`, m, camera frame; computed once a frame rather than once a particle.
+  JointPositions predicted_joints = forward_kinematics(model.body, predicted).joints;
 
   /// A generator of its own for each purpose and particle.
   Random random(std::uint64_t purpose, std::uint64_t index = 0) const;

@@ -57,14 +57,14 @@ TEST(LogLikelihood, TakesOffWhatIsKnownWithoutTheImage) {
   EXPECT_NEAR(log_likelihood(scene.context(), inside, none), -400.0 * depth, 1e-9);
   scene.config.invalid = 0.0;
   scene.config.natural = 3.0;
-  scene.facing = 0.4;
+  scene.heading = 0.4;
   EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
               -3.0 * natural_cost(scene.model.body, inside, k, 0.4), 1e-9);
   scene.config.natural = 0.0;
   scene.config.temporal = 2.0;
   EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
-              -2.0 * distance_from_expected(k, scene.joints(scene.expected)), 1e-9);
-  EXPECT_EQ(log_likelihood(scene.context(), scene.expected, none), 0.0);
+              -2.0 * distance_from_predicted(k, scene.joints(scene.predicted)), 1e-9);
+  EXPECT_EQ(log_likelihood(scene.context(), scene.predicted, none), 0.0);
 }
 
 TEST(Measure, GivesEachItsOwnScoreAndLeavesTheOthers) {
@@ -99,7 +99,7 @@ TEST(FilterContext, EveryPurposeAndParticleDrawsOnItsOwn) {
   Scene scene;
   std::set<std::uint64_t> first;
   for (const std::uint64_t purpose :
-       {purpose::kResampling, purpose::kDiffusion, purpose::kSimplex, purpose::kTurning}) {
+       {purpose::kResampling, purpose::kDiffusion, purpose::kSimplex, purpose::kHeadingSearch}) {
     for (std::uint64_t index = 0; index < 500; ++index) {
       Random random = scene.context(3).random(purpose, index);
       EXPECT_TRUE(first.insert(random.bits()).second) << purpose << " " << index;

@@ -32,7 +32,7 @@ void FilterConfig::validate() const {
           "turn_evaluations must be between 10 and 1000000");
   require(walk_evaluations >= 10 && walk_evaluations <= 1000000,
           "walk_evaluations must be between 10 and 1000000");
-  require(alternatives >= 0 && alternatives <= 1000, "alternatives must be between 0 and 1000");
+  require(flip_candidates >= 0 && flip_candidates <= 1000, "alternatives must be between 0 and 1000");
 }
 
 FilterConfig with_effort(FilterConfig config, double share) {

@@ -43,7 +43,7 @@ struct FilterConfig {
   /// The same where the best trunk is far from upright and facing where expected. No more than half of the
   /// particles, and no fewer than `turn_evaluations`.
   int walk_evaluations = 1000;
-  int alternatives = 2;  ///< families whose best particle is flipped
+  int flip_candidates = 2;  ///< families whose best particle is flipped
 
   /// Throws Error(config) with what to change.
   void validate() const;

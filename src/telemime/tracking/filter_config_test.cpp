@@ -65,14 +65,14 @@ TEST(FilterConfig, WholeNumbersOutOfRangeAreRefusedByName) {
   expect_refused(&FilterConfig::mode_most, "mode_most", {99, -1, 1000001});
   expect_refused(&FilterConfig::turn_evaluations, "turn_evaluations", {9, -1, 1000001});
   expect_refused(&FilterConfig::walk_evaluations, "walk_evaluations", {9, -1, 1000001});
-  expect_refused(&FilterConfig::alternatives, "alternatives", {-1, 1001});
+  expect_refused(&FilterConfig::flip_candidates, "alternatives", {-1, 1001});
   expect_taken(&FilterConfig::particles, {1, 1000000});
   expect_taken(&FilterConfig::modes, {1, 1000});
   expect_taken(&FilterConfig::mode_least, {10, 1200});
   expect_taken(&FilterConfig::mode_most, {100, 1000000});
   expect_taken(&FilterConfig::turn_evaluations, {10, 1000000});
   expect_taken(&FilterConfig::walk_evaluations, {10, 1000000});
-  expect_taken(&FilterConfig::alternatives, {0, 1000});
+  expect_taken(&FilterConfig::flip_candidates, {0, 1000});
 }
 
 TEST(FilterConfig, NumbersOutOfRangeAreRefusedByName) {

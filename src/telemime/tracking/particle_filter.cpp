@@ -14,7 +14,7 @@
 namespace telemime {
 namespace {
 
-// CONDENSATION's own (thesis 4.2.3), where no heuristic resamples.
+// Resampling of CONDENSATION (thesis 4.2.3), used when no heuristic resamples.
 void resample_at_random(const FilterContext& context, Generation& generation) {
   std::vector<double> weights;
   for (const Particle& p : generation.parents) {
@@ -24,7 +24,7 @@ void resample_at_random(const FilterContext& context, Generation& generation) {
   generation.counts = multinomial_counts(weights, context.config.particles, random);
 }
 
-// The children that are left, each diffused from its parent (thesis 4.4.1.3).
+// Makes the children that are left, each diffused from its parent (thesis 4.4.1.3).
 void diffuse(const FilterContext& context, Generation& generation) {
   std::vector<std::pair<std::size_t, std::size_t>> families;  // parent, first child
   std::size_t at = generation.particles.size();
@@ -53,7 +53,7 @@ void diffuse(const FilterContext& context, Generation& generation) {
   });
 }
 
-// As many particles as there were before the alternatives came: the lightest go.
+// Removes the lightest particles until `count` remain.
 void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
   if (particles.size() <= count) {
     return;
@@ -66,14 +66,23 @@ void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
 
 constexpr double kVelocityRate = 0.2;  // of the smoothed velocity, in 1/25 s
 
-// The torsion of the root of somebody who walks so (m in 1/25 s); 0 for somebody who stays.
-double facing_of(const Eigen::Vector3d& velocity) {
+// Torsion of the root (rad) that a walking velocity (m in 1/25 s) suggests; 0 for a person who stands.
+double heading_of(const Eigen::Vector3d& velocity) {
   constexpr double kStands = 0.008;  // 0.2 m/s
   constexpr double kWalks = 0.016;
   const double speed = std::hypot(velocity.x(), velocity.z());
   const double share = std::clamp((speed - kStands) / (kWalks - kStands), 0.0, 1.0);
-  // Who steps back from the camera still looks at it: at most side on.
+  // A person who steps back still looks at the camera: at most side on.
   return share > 0.0 ? share * std::atan2(velocity.x(), std::abs(velocity.z())) : 0.0;
+}
+
+void check(const StepInput& input) {
+  if (!(input.effort > 0.0 && input.effort <= 1.0)) {
+    throw Error(ErrorKind::usage, "the effort of the particle filter must be above 0 and at most 1");
+  }
+  if (!(input.time_step > 0.0 && std::isfinite(input.time_step))) {
+    throw Error(ErrorKind::usage, "the time step of the particle filter must be above 0");
+  }
 }
 
 }  // namespace
@@ -99,21 +108,7 @@ void ParticleFilter::start(const Pose& pose, bool backward) {
   backward_ = backward;
   labels_before_.release();
   velocity_.setZero();
-  frames_ = frames_before_ = 1.0;
-}
-
-void ParticleFilter::set_effort(double share) {
-  if (!(share > 0.0 && share <= 1.0)) {
-    throw Error(ErrorKind::usage, "the effort of the particle filter must be above 0 and at most 1");
-  }
-  effort_ = share;
-}
-
-void ParticleFilter::set_time_step(double frames) {
-  if (!(frames > 0.0 && std::isfinite(frames))) {
-    throw Error(ErrorKind::usage, "the time step of the particle filter must be above 0");
-  }
-  frames_ = frames;
+  time_step_before_ = 1.0;
 }
 
 void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& generation) const {
@@ -124,58 +119,79 @@ void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& 
   }
 }
 
-FilterResult ParticleFilter::step(const PreparedFrame& frame, const Model& model, double velocity,
-                                  std::optional<double> facing) {
+FilterResult ParticleFilter::step(const StepInput& input) {
   if (particles_.empty()) {
     throw Error(ErrorKind::usage, "the particle filter was not started");
   }
-  const FilterConfig config = for_time_step(with_effort(config_, effort_), frames_);
-  const RegistrationConfig search = for_time_step(search_, frames_);
-  const Pose expected = expected_pose(estimate_, before_, velocity * frames_ / frames_before_, limits_);
-  const FilterContext context{frame,       labels_before_.empty() ? nullptr : &labels_before_,
-                              model,       limits_,
-                              config,      numbers_,
-                              search,      estimate_,
-                              expected,    facing.value_or(facing_of(backward_ ? -velocity_ : velocity_)),
-                              evaluators_, seeds_.bits()};
+  check(input);
+  const double frames = input.time_step;
+
+  // Predict: the arms continue their last motion; who walks looks where they go.
+  const FilterConfig config = for_time_step(with_effort(config_, input.effort), frames);
+  const RegistrationConfig search = for_time_step(search_, frames);
+  const Pose predicted =
+      predict_pose(estimate_, before_, input.velocity * frames / time_step_before_, limits_);
+  const FilterContext context{
+      .frame = input.frame,
+      .labels_before = labels_before_.empty() ? nullptr : &labels_before_,
+      .model = input.model,
+      .limits = limits_,
+      .config = config,
+      .numbers = numbers_,
+      .search = search,
+      .estimate = estimate_,
+      .predicted = predicted,
+      .heading = input.heading.value_or(heading_of(backward_ ? -velocity_ : velocity_)),
+      .evaluators = evaluators_,
+      .seed = seeds_.bits()};
   Generation generation;
   generation.parents = std::move(particles_);
+
+  // Resample: how many children each parent has (thesis 4.2.3; equation 4.14 with the heuristic wd).
   run(Stage::merge, context, generation);
   run(Stage::resample, context, generation);
   if (generation.counts.empty()) {
     resample_at_random(context, generation);
   }
+
+  // Propose: children by local search, the others by diffusion (equation 4.13) of the parts that move.
   run(Stage::partition, context, generation);
   run(Stage::optimise, context, generation);
   const std::size_t searched = generation.particles.size();
   diffuse(context, generation);
+
+  // Score: likelihood of each child (equation 4.12); then flipped copies of the best ones replace the
+  // lightest.
   measure(context, generation.particles);
   const std::size_t count = generation.particles.size();
-  run(Stage::alternatives, context, generation);
+  run(Stage::flip_candidates, context, generation);
   measure(context, generation.particles);
-
   FilterResult result;
   result.evaluations = generation.evaluations + static_cast<int>(generation.particles.size() - searched);
   drop_lightest(count, generation.particles);
   weigh(generation.particles);
   particles_ = std::move(generation.particles);
+
+  // Choose: the heaviest particle or the weighted mean.
   const Particle& best = particles_[heaviest(particles_)];
   before_ = estimate_;
   estimate_ = best.pose;
   result.score = best.score;
   if (config_.estimate == "mean") {
     estimate_ = limits_.clamp(mean_pose(particles_));
-    evaluators_.evaluate(frame, model, {&estimate_, 1}, {&result.score, 1});
+    evaluators_.evaluate(input.frame, input.model, {&estimate_, 1}, {&result.score, 1});
     ++result.evaluations;
   }
-  const double rate = frames_ == 1.0 ? kVelocityRate : 1.0 - std::pow(1.0 - kVelocityRate, frames_);
-  velocity_ += rate * ((estimate_.root - before_.root) / frames_ - velocity_);
-  frames_before_ = frames_;
-  frame.labels.copyTo(labels_before_);
+
+  // Remember what the next prediction needs.
+  const double rate = frames == 1.0 ? kVelocityRate : 1.0 - std::pow(1.0 - kVelocityRate, frames);
+  velocity_ += rate * ((estimate_.root - before_.root) / frames - velocity_);
+  time_step_before_ = frames;
+  input.frame.labels.copyTo(labels_before_);
   result.pose = estimate_;
   result.effective_particles = effective_sample_size(particles_);
   result.moving = generation.moving;
-  result.facing = context.facing;
+  result.heading = context.heading;
   return result;
 }
 

@@ -11,14 +11,25 @@
 
 namespace telemime {
 
-/// What one frame gave.
+/// Input of one step of the filter.
+struct StepInput {
+  const PreparedFrame& frame;
+  const Model& model;
+  double velocity = 0.0;  ///< share (0 to 1) of the arms' last motion that is predicted to continue
+  /// rad, predicted torsion of the root; without it the filter derives it from the way the person walks.
+  std::optional<double> heading = std::nullopt;
+  double effort = 1.0;     ///< share (above 0, at most 1) of the configuration's evaluations
+  double time_step = 1.0;  ///< 1/25 s since the frame before
+};
+
+/// Result of one step of the filter.
 struct FilterResult {
   Pose pose;  ///< the estimate
   Score score;
   int evaluations = 0;
   double effective_particles = 0.0;
   PartSet moving;
-  double facing = 0.0;  ///< FilterContext::facing
+  double heading = 0.0;  ///< rad, the predicted torsion of the root that the step used
 };
 
 /// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on one by one. The
@@ -36,18 +47,12 @@ class ParticleFilter {
   void stop() { particles_.clear(); }
   bool started() const { return !particles_.empty(); }
 
-  /// From the next frame on: a share (above 0, at most 1) of the configuration's evaluations.
-  void set_effort(double share);
-  /// The next frame comes so many times 1/25 s after the one before; 1 until it is set, and after start().
-  void set_time_step(double frames);
+  /// Estimates the pose in one frame. Throws Error(usage) before start(), and for an effort or a time step
+  /// out of range.
+  FilterResult step(const StepInput& input);
 
-  /// One frame. Must have been started. `velocity`: share of the last motion that is expected again.
-  /// `facing`: FilterContext::facing, where it is known better than from the root's way.
-  FilterResult step(const PreparedFrame& frame, const Model& model, double velocity,
-                    std::optional<double> facing = std::nullopt);
-
-  /// Of the last frame, weights normalised; `parent` is an index of the generation before, or of the modes
-  /// that it was merged to.
+  /// Particles of the last frame, with normalised weights. `parent` is an index into the generation before,
+  /// or into the modes to which that was merged.
   const std::vector<Particle>& particles() const { return particles_; }
   const FilterModel& numbers() const { return numbers_; }
 
@@ -64,10 +69,8 @@ class ParticleFilter {
   std::vector<Particle> particles_;
   Pose estimate_;
   Pose before_;
-  double effort_ = 1.0;
   bool backward_ = false;
-  double frames_ = 1.0;                                 ///< time step of the next frame
-  double frames_before_ = 1.0;                          ///< from before_ to estimate_
+  double time_step_before_ = 1.0;                       ///< 1/25 s from before_ to estimate_
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed
   cv::Mat labels_before_;
 };

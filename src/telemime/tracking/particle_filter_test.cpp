@@ -31,6 +31,10 @@ ParticleFilter make_filter(Scene& scene, const FilterConfig& config, std::uint64
   return {config, scene.search, scene.limits, scene.evaluators, seed};
 }
 
+StepInput input(const Scene& scene, double velocity) {
+  return {.frame = scene.frame, .model = scene.model, .velocity = velocity};
+}
+
 const Particle& best_of(const ParticleFilter& filter) {
   return filter.particles()[heaviest(filter.particles())];
 }
@@ -61,7 +65,7 @@ TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   for (int i = 0; i < kFrames; ++i) {
     truth[Angle::l_shoulder_abduct] += 1.5 * kDegree;
     scene.show(truth);
-    const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+    const FilterResult found = filter.step(input(scene, 0.0));
     EXPECT_EQ(found.evaluations, 500);
     sum += left_wrist_error(scene, found.pose, truth);
   }
@@ -80,8 +84,8 @@ TEST(ParticleFilter, WhoStepsBackStillFacesTheCamera) {
   for (int i = 0; i < 20; ++i) {
     truth.root.z() += 0.03;  // m a frame
     scene.show(truth);
-    const FilterResult found = filter.step(scene.frame, scene.model, 0.5);
-    EXPECT_LT(std::abs(found.facing), 60 * kDegree) << i;
+    const FilterResult found = filter.step(input(scene, 0.5));
+    EXPECT_LT(std::abs(found.heading), 60 * kDegree) << i;
     EXPECT_LT(std::abs(found.pose[Angle::root_torsion]), 60 * kDegree) << i;
   }
 }
@@ -96,13 +100,13 @@ TEST(ParticleFilter, WhoWalksAcrossFacesWhereTheyGo) {
       ParticleFilter filter = make_filter(scene, config);
       Pose truth = both_arms_seen();
       filter.start(truth, backward);
-      double facing = 0.0;
+      double heading = 0.0;
       for (int i = 0; i < 12; ++i) {
         truth.root.x() += side * 0.03;
         scene.show(truth);
-        facing = filter.step(scene.frame, scene.model, 0.5).facing;
+        heading = filter.step(input(scene, 0.5)).heading;
       }
-      EXPECT_GT((backward ? -side : side) * facing, 30 * kDegree);
+      EXPECT_GT((backward ? -side : side) * heading, 30 * kDegree);
     }
   }
 }
@@ -112,8 +116,7 @@ TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
   const auto spread = [&](double frames) {
     ParticleFilter filter = make_filter(scene, thesis("", 400));
     filter.start(both_arms_seen());
-    filter.set_time_step(frames);
-    filter.step(scene.frame, scene.model, 0.0);
+    filter.step({.frame = scene.frame, .model = scene.model, .time_step = frames});
     double sum = 0.0;
     for (const Particle& p : filter.particles()) {
       const double way = p.pose.root.x() - both_arms_seen().root.x();
@@ -129,17 +132,20 @@ TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   const auto evaluations = [&](double effort, const FilterConfig& config) {
     ParticleFilter filter = make_filter(scene, config);
     filter.start(both_arms_seen());
-    filter.set_effort(effort);
-    return filter.step(scene.frame, scene.model, 0.5).evaluations;
+    return filter.step({.frame = scene.frame, .model = scene.model, .velocity = 0.5, .effort = effort})
+        .evaluations;
   };
   EXPECT_EQ(evaluations(0.5, thesis("", 400)), 200);
   const int whole = evaluations(1.0, FilterConfig());
   EXPECT_LT(evaluations(0.25, FilterConfig()), 0.4 * whole);
   Scene other;
   ParticleFilter filter = make_filter(other, FilterConfig());
+  filter.start(both_arms_seen());
   for (const double bad : {0.0, -1.0, 1.5, std::nan("")}) {
-    EXPECT_THROW(filter.set_effort(bad), Error) << bad;
-    EXPECT_THROW(filter.set_time_step(bad == 1.5 ? 0.0 : bad), Error) << bad;
+    const double bad_step = bad == 1.5 ? 0.0 : bad;
+    EXPECT_THROW(filter.step({.frame = other.frame, .model = other.model, .effort = bad}), Error) << bad;
+    EXPECT_THROW(filter.step({.frame = other.frame, .model = other.model, .time_step = bad_step}), Error)
+        << bad_step;
   }
 }
 
@@ -149,7 +155,7 @@ TEST(ParticleFilter, TheMeanIsScoredItself) {
   config.estimate = "mean";
   ParticleFilter filter = make_filter(scene, config);
   filter.start(both_arms_seen());
-  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  const FilterResult found = filter.step(input(scene, 0.0));
   Score score;
   scene.evaluators.evaluate(scene.frame, scene.model, {&found.pose, 1}, {&score, 1});
   EXPECT_EQ(found.score.region, score.region);
@@ -160,7 +166,7 @@ TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
   Scene scene;
   ParticleFilter filter = make_filter(scene, thesis("", 100));
   filter.start(both_arms_seen());
-  filter.step(scene.frame, scene.model, 0.0);
+  filter.step(input(scene, 0.0));
   std::set<double> roots;
   for (const Particle& p : filter.particles()) {
     EXPECT_EQ(p.parent, 0);
@@ -178,7 +184,7 @@ TEST(ParticleFilter, KeepingTheBestParticleTheEstimateNeverGetsWorse) {
     double before = -std::numeric_limits<double>::infinity();
     bool kept = false;
     for (int i = 0; i < 15; ++i) {
-      filter.step(scene.frame, scene.model, 0.0);
+      filter.step(input(scene, 0.0));
       const Particle& best = best_of(filter);
       EXPECT_GE(best.log_likelihood, before) << i;
       before = best.log_likelihood;
@@ -196,7 +202,7 @@ TEST(ParticleFilter, LocalOptimisationFitsBetterThanDiffusionAlone) {
   const auto fit = [&](const std::string& heuristics, std::uint64_t seed) {
     ParticleFilter filter = make_filter(scene, thesis(heuristics, 400), seed);
     filter.start(start);
-    filter.step(scene.frame, scene.model, 0.0);
+    filter.step(input(scene, 0.0));
     double best = 1.0;
     for (const Particle& p : filter.particles()) {
       best = std::min(best, p.score.region);
@@ -222,7 +228,7 @@ TEST(ParticleFilter, LocalOptimisationEndsWithTheContours) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
       ParticleFilter filter = make_filter(scene, thesis("lo", 400), seed);
       filter.start(start);
-      filter.step(scene.frame, scene.model, 0.0);
+      filter.step(input(scene, 0.0));
       const auto& all = filter.particles();
       EXPECT_EQ(all.size(), 400U);
       sum += std::min_element(all.begin(), all.end(), [](const Particle& a, const Particle& b) {
@@ -252,9 +258,9 @@ TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
       ParticleFilter filter = make_filter(scene, thesis(heuristics, 150));
       filter.start(start);
       for (int i = 0; i < 11; ++i) {
-        filter.step(scene.frame, scene.model, 0.0);
+        filter.step(input(scene, 0.0));
       }
-      return left_wrist_error(scene, filter.step(scene.frame, scene.model, 0.0).pose, truth);
+      return left_wrist_error(scene, filter.step(input(scene, 0.0)).pose, truth);
     };
     EXPECT_LT(after_twelve("wd,kf"), 0.05);
     EXPECT_GT(after_twelve("wd"), 0.2) << "it finds the way alone, so flipping is not needed";
@@ -275,7 +281,8 @@ TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
     ParticleFilter filter = make_filter(scene, config);
     filter.start(both_arms_seen());
     for (int i = 0; i < 4; ++i) {
-      const FilterResult found = filter.step(i == 3 ? scene.frame : nobody, scene.model, 0.5);
+      const FilterResult found =
+          filter.step({.frame = i == 3 ? scene.frame : nobody, .model = scene.model, .velocity = 0.5});
       EXPECT_TRUE(found.pose.vector().allFinite());
       EXPECT_TRUE(std::isfinite(found.score.region) && std::isfinite(found.score.contour));
       EXPECT_TRUE(found.effective_particles >= 1.0 - 1e-9);
@@ -296,7 +303,7 @@ TEST(ParticleFilter, OneParticleIsEnoughToGoOn) {
       ParticleFilter filter = make_filter(scene, config);
       filter.start(both_arms_seen());
       for (int i = 0; i < 3; ++i) {
-        const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+        const FilterResult found = filter.step(input(scene, 0.0));
         EXPECT_TRUE(found.pose.vector().allFinite()) << list;
         EXPECT_GE(filter.particles().size(), 1U) << list;
         EXPECT_GE(found.evaluations, 1) << list;
@@ -309,18 +316,18 @@ TEST(ParticleFilter, StartsStopsAndStartsAgain) {
   Scene scene;
   ParticleFilter filter = make_filter(scene, thesis("", 20));
   EXPECT_FALSE(filter.started());
-  EXPECT_THROW(filter.step(scene.frame, scene.model, 0.0), Error);
+  EXPECT_THROW(filter.step(input(scene, 0.0)), Error);
   Pose outside = both_arms_seen();
   outside[Angle::l_elbow_flexion] = -4.0;
   filter.start(outside);
   ASSERT_TRUE(filter.started());
   ASSERT_EQ(filter.particles().size(), 1U);
   EXPECT_TRUE(scene.limits.contains(filter.particles()[0].pose));
-  filter.step(scene.frame, scene.model, 0.0);
+  filter.step(input(scene, 0.0));
   EXPECT_EQ(filter.particles().size(), 20U);
   filter.stop();
   EXPECT_FALSE(filter.started());
-  EXPECT_THROW(filter.step(scene.frame, scene.model, 0.0), Error);
+  EXPECT_THROW(filter.step(input(scene, 0.0)), Error);
 }
 
 TEST(ParticleFilter, RefusesSettingsThatCannotBe) {
@@ -338,7 +345,7 @@ TEST(ParticleFilter, TheMeanIsTheMeanOfItsParticles) {
   config.estimate = "mean";
   ParticleFilter filter = make_filter(scene, config);
   filter.start(both_arms_seen());
-  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  const FilterResult found = filter.step(input(scene, 0.0));
   EXPECT_EQ(found.pose.vector(), scene.limits.clamp(mean_pose(filter.particles())).vector());
   EXPECT_NE(found.pose.vector(), best_of(filter).pose.vector());
 }
@@ -347,9 +354,9 @@ TEST(ParticleFilter, WithoutMotionThePartitionLetsNothingMove) {
   Scene scene;
   ParticleFilter filter = make_filter(scene, thesis("hpm", 30));
   filter.start(both_arms_seen());
-  EXPECT_EQ(filter.step(scene.frame, scene.model, 0.0).moving, all_parts()) << "there is no frame before";
+  EXPECT_EQ(filter.step(input(scene, 0.0)).moving, all_parts()) << "there is no frame before";
   const Pose before = best_of(filter).pose;
-  const FilterResult found = filter.step(scene.frame, scene.model, 0.0);
+  const FilterResult found = filter.step(input(scene, 0.0));
   EXPECT_LT((scene.joints(found.pose)[Joint::neck] - scene.joints(before)[Joint::neck]).norm(), 0.05);
 }
 

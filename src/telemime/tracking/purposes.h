@@ -10,6 +10,6 @@ namespace telemime::purpose {
 inline constexpr std::uint64_t kResampling = 1;
 inline constexpr std::uint64_t kDiffusion = 2;
 inline constexpr std::uint64_t kSimplex = 3;
-inline constexpr std::uint64_t kTurning = 4;
+inline constexpr std::uint64_t kHeadingSearch = 4;
 
 }  // namespace telemime::purpose

@@ -35,20 +35,26 @@ struct Scene {
   RegistrationConfig search;
   Evaluators evaluators{"scalar", 1};
   Pose estimate = both_arms_seen();
-  Pose expected = both_arms_seen();
-  double facing = 0.0;
+  Pose predicted = both_arms_seen();
+  double heading = 0.0;
   PreparedFrame frame = frame_of_model(model, both_arms_seen(), camera);
   cv::Mat labels_before;
 
   /// What a camera sees of the person in this pose from now on.
   void show(const Pose& pose) { frame = frame_of_model(model, pose, camera); }
   FilterContext context(std::uint64_t seed = 1) {
-    return {frame,      labels_before.empty() ? nullptr : &labels_before,
-            model,      limits,
-            config,     numbers,
-            search,     estimate,
-            expected,   facing,
-            evaluators, seed};
+    return {.frame = frame,
+            .labels_before = labels_before.empty() ? nullptr : &labels_before,
+            .model = model,
+            .limits = limits,
+            .config = config,
+            .numbers = numbers,
+            .search = search,
+            .estimate = estimate,
+            .predicted = predicted,
+            .heading = heading,
+            .evaluators = evaluators,
+            .seed = seed};
   }
   JointPositions joints(const Pose& pose) const { return forward_kinematics(model.body, pose).joints; }
 };

@@ -61,8 +61,7 @@ std::vector<Pose> unlike_arms(const Body& body, const std::vector<Pose>& poses, 
 
 std::vector<ScoredPose> scored(const TrajectoryContext& context, const StretchFrame& frame,
                                const std::vector<Pose>& poses, Backend& backend) {
-  Objective objective(backend, frame.frame, context.model, context.limits);
-  objective.face(frame.facing);
+  Objective objective(backend, frame.frame, context.model, context.limits, Prior{.heading = frame.heading});
   const ObjectiveWeights weights = still_weights(context);
   std::vector<ScoredPose> result;
   result.reserve(poses.size());
@@ -148,7 +147,7 @@ std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vec
       double least = costs_before.empty() ? 0.0 : std::numeric_limits<double>::infinity();
       std::size_t best = 0;
       for (std::size_t i = 0; i < costs_before.size(); ++i) {
-        const double cost = costs_before[i] + motion * distance_from_expected(k, joints_before[i]);
+        const double cost = costs_before[i] + motion * distance_from_predicted(k, joints_before[i]);
         if (cost < least) {
           least = cost;
           best = i;
@@ -202,9 +201,8 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
       const std::size_t t = first + 2 * i;
       const Pose& earlier = t > 0 ? poses[t - 1] : before != nullptr ? *before : poses[t];
       const Pose& later = poses[t + 1 < poses.size() ? t + 1 : t];
-      Objective objective(backend, frames[t]->frame, context.model, context.limits);
-      objective.face(frames[t]->facing);
-      objective.expect_between(earlier, later);
+      Objective objective(backend, frames[t]->frame, context.model, context.limits,
+                          prior_between(body, earlier, later, frames[t]->heading));
       Random own(seed, static_cast<std::size_t>(half) * frames.size() + t);
       poses[t] = register_pose(objective, poses[t], search, own).pose;
     });

@@ -29,7 +29,7 @@ struct TrajectoryConfig {
 /// One frame of a stretch, with what searches that knew only the frames before it, or after it, found.
 struct StretchFrame {
   PreparedFrame frame;
-  double facing = 0.0;           ///< as in FilterContext
+  double heading = 0.0;          ///< as in FilterContext
   std::vector<Pose> candidates;  ///< the first one is the filter's estimate
   std::size_t forward = 1;  ///< so many of them know only the frames before; then the estimate of the others
 };

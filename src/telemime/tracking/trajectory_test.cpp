@@ -49,8 +49,9 @@ double cost_of(const Body& body, const std::vector<std::vector<ScoredPose>>& fra
     const ScoredPose& here = frames[t][way[t]];
     sum += here.cost;
     if (t > 0) {
-      sum += motion * distance_from_expected(forward_kinematics(body, here.pose),
-                                             forward_kinematics(body, frames[t - 1][way[t - 1]].pose).joints);
+      sum +=
+          motion * distance_from_predicted(forward_kinematics(body, here.pose),
+                                           forward_kinematics(body, frames[t - 1][way[t - 1]].pose).joints);
     }
   }
   return sum;

@@ -6,11 +6,11 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/tracking/heuristics/end_effector.h"
+#include "telemime/tracking/heuristics/heading_search.h"
 #include "telemime/tracking/heuristics/kinematic_flipping.h"
 #include "telemime/tracking/heuristics/local_optimisation.h"
 #include "telemime/tracking/heuristics/modes.h"
 #include "telemime/tracking/heuristics/motion_partition.h"
-#include "telemime/tracking/heuristics/turning.h"
 #include "telemime/tracking/heuristics/weight_resampling.h"
 
 namespace telemime {
@@ -27,8 +27,8 @@ const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
     {"lo", "local optimisation of large families", "thesis 4.4.2.2.2", Stage::optimise, Kind::candidates,
      optimise_families},
     {"turn", "the trunk turned to where the person may face", "ours", Stage::optimise, Kind::candidates,
-     turn_trunk},
-    {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::alternatives,
+     search_heading},
+    {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::flip_candidates,
      Kind::candidates, flip_best},
 }};
 

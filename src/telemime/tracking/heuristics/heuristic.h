@@ -10,11 +10,11 @@ namespace telemime {
 
 /// When a heuristic has its turn in a frame, in this order.
 enum class Stage {
-  merge,         ///< changes the parents
-  resample,      ///< sets how many children each parent has (else drawn at random)
-  partition,     ///< sets what moves, and in which space
-  optimise,      ///< makes children by local search
-  alternatives,  ///< adds particles to those that were made and measured
+  merge,            ///< changes the parents
+  resample,         ///< sets how many children each parent has (else drawn at random)
+  partition,        ///< sets what moves, and in which space
+  optimise,         ///< makes children by local search
+  flip_candidates,  ///< adds particles to those that were made and measured
 };
 
 /// What a heuristic does to the posterior.

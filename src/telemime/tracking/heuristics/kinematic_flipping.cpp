@@ -26,7 +26,7 @@ void flip_best(const FilterContext& context, Generation& generation) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return generation.particles[a].log_likelihood > generation.particles[b].log_likelihood;
   });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(context.config.alternatives)));
+  order.resize(std::min(order.size(), static_cast<std::size_t>(context.config.flip_candidates)));
   const double share = 1.0 / context.config.particles;
   for (const std::size_t index : order) {
     const Particle from = generation.particles[index];

@@ -7,7 +7,7 @@
 namespace telemime {
 
 /// The other poses with the same elbows and wrists in the image (thesis 4.4.2.2.3), of the best particles of
-/// the FilterConfig::alternatives heaviest families. They take the place of the lightest particles.
+/// the FilterConfig::flip_candidates heaviest families. They take the place of the lightest particles.
 void flip_best(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

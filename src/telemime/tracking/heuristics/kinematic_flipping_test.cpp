@@ -53,7 +53,7 @@ std::vector<Particle> flipped(Scene& scene) {
 TEST(FlipBest, AddsTheFlipsOfTheBestOfTheBestFamilies) {
   Scene scene;
   scene.config.particles = 50;
-  scene.config.alternatives = 2;
+  scene.config.flip_candidates = 2;
   const std::vector<Pose> of_first = kinematic_flips(scene.model.body, both_arms_seen(), scene.limits);
   const std::vector<Pose> of_second =
       kinematic_flips(scene.model.body, families().particles[1].pose, scene.limits);
@@ -74,13 +74,13 @@ TEST(FlipBest, AddsTheFlipsOfTheBestOfTheBestFamilies) {
 
 TEST(FlipBest, AsManyFamiliesAsAreAskedFor) {
   Scene scene;
-  scene.config.alternatives = 0;
+  scene.config.flip_candidates = 0;
   EXPECT_TRUE(flipped(scene).empty());
-  scene.config.alternatives = 1;
+  scene.config.flip_candidates = 1;
   for (const Particle& p : flipped(scene)) {
     EXPECT_EQ(p.parent, 0);
   }
-  scene.config.alternatives = 1000;
+  scene.config.flip_candidates = 1000;
   const std::vector<Particle> all = flipped(scene);
   EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const Particle& p) { return p.parent == 3; }),
             static_cast<std::ptrdiff_t>(

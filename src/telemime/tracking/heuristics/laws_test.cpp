@@ -74,7 +74,7 @@ std::vector<Step> run(const FilterConfig& config, int threads, std::uint64_t see
   filter.start(start);
   std::vector<Step> steps;
   for (const PreparedFrame& frame : frames()) {
-    const FilterResult result = filter.step(frame, scene.model, 0.5);
+    const FilterResult result = filter.step({.frame = frame, .model = scene.model, .velocity = 0.5});
     steps.push_back({result, filter.particles()});
   }
   return steps;
@@ -169,7 +169,7 @@ TEST(FilterLaws, WeightsAreNormalisedAndParentsExist) {
 TEST(FilterLaws, TheNumberOfParticlesIsKept) {
   for (const Case& c : cases()) {
     // In our filter each family that is searched costs at least mode_least, and each turned trunk its own.
-    const int flips = 15 * c.config.alternatives;
+    const int flips = 15 * c.config.flip_candidates;
     const int searched = c.config.blocks ? c.config.modes * c.config.mode_least : 0;
     const bool turns = c.config.heuristics.find("turn") != std::string::npos;
     // One trunk by chance and two with a long search, each from one of two starts.

@@ -70,7 +70,7 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
   return children;
 }
 
-// Ours: trunk and arms in turn, with the prior, from where the arms are expected or from where they were.
+// Ours: trunk and arms in turn, with the prior, starting at the prediction or at the parent.
 std::vector<Particle> search_blocks(const FilterContext& context, const Generation& generation,
                                     const Job& job, bool best, Backend& backend) {
   const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
@@ -81,14 +81,15 @@ std::vector<Particle> search_blocks(const FilterContext& context, const Generati
   if (!best) {
     search.proposals = no_proposals();
   }
-  Objective objective(backend, context.frame, context.model, context.limits);
+  // The best mode starts once from its prediction and once from where it was, the better of the two first.
   Pose start = parent.pose;
   if (best) {
-    const bool goes_on = objective(context.expected, search.region) < objective(start, search.region);
-    start = goes_on == (job.number == 0) ? context.expected : start;
+    Objective image(backend, context.frame, context.model, context.limits);
+    const bool moves_on = image(context.predicted, search.region) < image(start, search.region);
+    start = moves_on == (job.number == 0) ? context.predicted : start;
   }
-  objective.expect(start);
-  objective.face(context.facing);
+  Objective objective(backend, context.frame, context.model, context.limits,
+                      prior_at(context.model.body, start, context.heading));
   const RegistrationResult found = register_pose(objective, start, search, random);
   Particle child;
   child.pose = found.pose;
@@ -111,7 +112,7 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
       if (generation.parents.size() <= static_cast<std::size_t>(context.config.modes) ||
           count >= context.config.mode_least) {
         const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
-        // The best one from where it is expected, and from where it was: different valleys may be nearest.
+        // The best mode is searched from its prediction and from where it was: the nearest minima may differ.
         for (int number = 0; number < (i == best ? 2 : 1); ++number) {
           jobs.push_back({static_cast<int>(i), evaluations, number});
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/tracking/heuristics/turning.h"
+#include "telemime/tracking/heuristics/heading_search.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
   pose[Angle::root_torsion] = torsion;
   Generation generation;
   generation.parents = {particle(both_arms_seen(), 0.3), particle(pose, 0.7)};
-  turn_trunk(scene.context(seed), generation);
+  search_heading(scene.context(seed), generation);
   return generation;
 }
 
@@ -65,7 +65,7 @@ TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
   bent[Angle::root_roll] = 0.3;
   Generation generation;
   generation.parents = {particle(bent, 1.0)};
-  turn_trunk(scene.context(), generation);
+  search_heading(scene.context(), generation);
   ASSERT_FALSE(generation.particles.empty());
   const Pose& upright = generation.particles[0].pose;
   EXPECT_LT(std::abs(upright[Angle::root_roll]), 0.1);
@@ -82,7 +82,7 @@ TEST(TurnTrunk, ATrunkThatLeansFarIsTriedUprightAsFarAsItsLowerEnd) {
     leaning[Angle::root_tilt] = tilt;
     Generation generation;
     generation.parents = {particle(leaning, 1.0)};
-    turn_trunk(scene.context(), generation);
+    search_heading(scene.context(), generation);
     ASSERT_GE(generation.particles.size(), 2U) << tilt;
     const Pose& upright = generation.particles[1].pose;
     EXPECT_LT(std::abs(upright[Angle::root_tilt]), 0.15) << tilt;
@@ -103,7 +103,7 @@ TEST(TurnTrunk, ArmsStayWhereTheyAreSeenWhenTheTrunkTurnsFromThem) {
   lost = carry_arms(scene.model.body, both_arms_seen(), scene.model.body, lost, scene.limits);
   Generation generation;
   generation.parents = {particle(lost, 1.0)};
-  turn_trunk(scene.context(), generation);
+  search_heading(scene.context(), generation);
   ASSERT_FALSE(generation.particles.empty());
   const JointPositions truth = scene.joints(both_arms_seen());
   const JointPositions found = scene.joints(generation.particles[0].pose);
@@ -115,7 +115,7 @@ TEST(TurnTrunk, ArmsStayWhereTheyAreSeenWhenTheTrunkTurnsFromThem) {
 TEST(TurnTrunk, WhoWalksIsTriedFacingTheirWay) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
-  scene.facing = 0.7;
+  scene.heading = 0.7;
   EXPECT_NEAR(turned(scene, 0.0, 1).particles.at(0).pose[Angle::root_torsion], 0.7, 0.15);
 }
 

@@ -13,6 +13,6 @@ namespace telemime {
 /// leaned far.
 /// Regions and contours hardly say which way a trunk turns, so a turn is seldom found from a pose that has
 /// missed its beginning.
-void turn_trunk(const FilterContext& context, Generation& generation);
+void search_heading(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

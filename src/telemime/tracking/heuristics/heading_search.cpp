@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/tracking/heuristics/turning.h"
+#include "telemime/tracking/heuristics/heading_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,15 +40,15 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
   const int thorough =
       std::max(usual, std::min(context.config.walk_evaluations, context.config.particles / 2));
   std::vector<Trunk> trunks;
-  if (std::max({std::abs(now.torsion - context.facing), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
-    const bool far = std::abs(now.torsion - context.facing) > kNew;
-    trunks.push_back({context.facing, 0.0, 0.0, 1.0, far ? thorough : usual});
+  if (std::max({std::abs(now.torsion - context.heading), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
+    const bool far = std::abs(now.torsion - context.heading) > kNew;
+    trunks.push_back({context.heading, 0.0, 0.0, 1.0, far ? thorough : usual});
   }
   if (std::abs(now.tilt) > kNew) {
     // A trunk that leans looks much like an upright one at the distance of its lower end.
     const double neck = forward_kinematics(context.model.body, from).joints[Joint::neck].z();
     if (std::min(neck, from.root.z()) > kInFront) {
-      trunks.push_back({context.facing, 0.0, 0.0, from.root.z() / neck, thorough});
+      trunks.push_back({context.heading, 0.0, 0.0, from.root.z() / neck, thorough});
     }
   }
   if (random.uniform() < 0.5) {
@@ -61,20 +61,20 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
 
 }  // namespace
 
-void turn_trunk(const FilterContext& context, Generation& generation) {
+void search_heading(const FilterContext& context, Generation& generation) {
   constexpr int kStarts = 2;  // that each search chooses from
   const Pose& from = generation.parents[heaviest(generation.parents)].pose;
   const Body& body = context.model.body;
-  Random random = context.random(purpose::kTurning);
+  Random random = context.random(purpose::kHeadingSearch);
   const std::vector<Trunk> trunks = trunks_to_try(context, from, random);
   std::vector<Particle> made(trunks.size());
   context.evaluators.each(trunks.size(), [&](std::size_t i, Backend& backend) {
-    Objective objective(backend, context.frame, context.model, context.limits);
-    objective.face(context.facing);
+    Objective objective(backend, context.frame, context.model, context.limits,
+                        Prior{.heading = context.heading});
     RegistrationConfig search = context.search;
     search.iterations = trunks[i].evaluations;
     search.proposals = no_proposals();
-    Random own = context.random(purpose::kTurning, 1 + i);
+    Random own = context.random(purpose::kHeadingSearch, 1 + i);
     Pose start = turned(body, from, trunks[i], context.limits);
     // The arms turn with the trunk, or they are where they are seen.
     const Pose seen = carry_arms(body, from, body, start, context.limits);
