@@ -9,7 +9,7 @@
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/testing_poses.h"
-#include "telemime/image/distance_map.h"
+#include "telemime/image/edges.h"
 #include "telemime/likelihood/backend.h"
 #include "telemime/render/renderer.h"
 

@@ -9,26 +9,27 @@
 
 namespace telemime {
 
-/// What the empty scene looks like at every pixel, on the scale of LogColour. Planes (h x w).
+/// Model of the scene without a person: a Gaussian for each pixel over the colours of LogColour. All planes
+/// are h x w.
 struct BackgroundModel {
   LogColour mean;
-  cv::Mat chroma_variance;     ///< CV_32FC1, of u and v together, never below the floor
+  cv::Mat chroma_variance;     ///< CV_32FC1, of u and v together, at least the noise floor
   cv::Mat luminance_variance;  ///< CV_32FC1, of l
-  cv::Mat valid;               ///< CV_8UC1, 255 where the background was seen
-  cv::Mat seen;                ///< CV_8UC1, frames in a row in which a pixel not yet valid looked like scene
+  cv::Mat valid;               ///< CV_8UC1, 255 where the background is known
+  cv::Mat seen;                ///< CV_8UC1, consecutive frames in which an invalid pixel was background
   bool empty() const { return valid.empty(); }
 };
 
-/// Mean and variance of each pixel over pictures (CV_8UC3, one size) without a person; all pixels valid.
-/// Thesis 3.4.1 with colours that a shadow moves along one axis. Throws Error(usage) when there is no
-/// picture or sizes differ.
-BackgroundModel learn_background_model(std::span<const cv::Mat> pictures);
+/// Mean and variance of each pixel over images without a person (CV_8UC3, same size). All pixels are valid.
+/// Thesis 3.4.1, with logarithmic colours. Throws Error(usage) if `images` is empty or sizes differ.
+BackgroundModel learn_background_model(std::span<const cv::Mat> images);
 
-/// Energies (-2 ln density over [u, v, l], without 3 ln 2 pi) of every pixel under the background.
+/// Energy of each pixel under the background model: -2 ln of the density over [u, v, l], without the constant
+/// 3 ln 2 pi.
 struct BackgroundEnergy {
-  cv::Mat energy;         ///< CV_32FC1: the better of unshaded and shaded
-  cv::Mat shaded;         ///< CV_8UC1, 255 where the shadow explains the pixel better
-  bool doubtful = false;  ///< the model may hold parts of the person: holes in him are not to be believed
+  cv::Mat energy;         ///< CV_32FC1, the lower of the energies without and with a shadow
+  cv::Mat shaded;         ///< CV_8UC1, 255 where the energy with a shadow is lower
+  bool doubtful = false;  ///< the model may contain parts of the person, so holes in them are unreliable
 };
 
 /// How a cast shadow may look.
@@ -39,20 +40,19 @@ struct ShadowRange {
   float prior_cost = 1.0F;  ///< -2 ln of the share of shaded pixels
 };
 
-/// `picture` must already have its gain undone (estimate_gain). Pixels that are not valid take theirs from
-/// `unknown` (CV_32FC1; may be empty when all are valid).
-BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& picture,
+/// Energies of all pixels. The gain (estimate_gain) must have been subtracted from `image`. Invalid pixels
+/// get their energy from `unknown` (CV_32FC1; may be empty if all pixels are valid).
+BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& image,
                                    const ShadowRange& shadow, const cv::Mat& unknown);
 
-/// What a lamp, a shadow as wide as the room, or the camera's own gain and white balance added to the
-/// picture: picture - model, one median per cell of a coarse grid over pixels that are valid and where
-/// `believed` (CV_8UC1; empty: everywhere) is not 0, smoothed over the grid and stretched to the picture.
-/// Cells without enough such pixels take from their neighbours, a picture without any gets zeros. Three
-/// planes like LogColour.
-LogColour estimate_gain(const BackgroundModel& model, const LogColour& picture, const cv::Mat& believed);
+/// Estimates what a lamp, a large shadow, or the gain and white balance of the camera added to the image. The
+/// estimate is the median of image - model in each cell of a coarse grid, over the pixels that are valid and
+/// where `background` (CV_8UC1; empty: everywhere) is not 0, smoothed over the grid and interpolated to the
+/// image. Cells with too few such pixels use their neighbours; without any such pixel the gain is 0.
+LogColour estimate_gain(const BackgroundModel& model, const LogColour& image, const cv::Mat& background);
 
-/// Moves the model towards the picture by `rate` in [0, 1] where `where` (CV_8UC1) is not 0. Pixels that were
-/// not valid become so after 12 frames in a row there with a steady colour.
-void adapt_background(BackgroundModel& model, const LogColour& picture, const cv::Mat& where, float rate);
+/// Moves the mean of the model towards the image by `rate` in [0, 1] where `where` (CV_8UC1) is not 0.
+/// Invalid pixels become valid after 12 consecutive frames there with a steady colour.
+void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate);
 
 }  // namespace telemime

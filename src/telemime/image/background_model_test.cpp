@@ -26,19 +26,19 @@ cv::Mat scene(Random& random, double light = 1.0) {
 }
 
 BackgroundModel learned(Random& random) {
-  std::vector<cv::Mat> pictures;
-  pictures.reserve(64);
+  std::vector<cv::Mat> images;
+  images.reserve(64);
   for (int i = 0; i < 20; ++i) {
-    pictures.push_back(scene(random));
+    images.push_back(scene(random));
   }
-  return learn_background_model(pictures);
+  return learn_background_model(images);
 }
 
 /// Energy that a colour nobody knows has: above it a pixel is somebody's.
 constexpr float kAnything = 3.0F;
 
-cv::Mat foreground(const BackgroundModel& model, const cv::Mat& picture) {
-  LogColour colour = log_colour(picture);
+cv::Mat foreground(const BackgroundModel& model, const cv::Mat& image) {
+  LogColour colour = log_colour(image);
   subtract(colour, estimate_gain(model, colour, {}));
   return background_energy(model, colour, ShadowRange{}, {}).energy > kAnything;
 }
@@ -47,42 +47,42 @@ double share(const cv::Mat& mask) {
   return cv::countNonZero(mask) / static_cast<double>(mask.total());
 }
 
-TEST(BackgroundModel, TheEmptySceneIsBackground) {
+TEST(BackgroundModel, EmptySceneIsBackground) {
   Random random(1);
   const BackgroundModel model = learned(random);
   EXPECT_LT(share(foreground(model, scene(random))), 0.001);
 }
 
-TEST(BackgroundModel, ALampIsNotForeground) {
+TEST(BackgroundModel, LampIsNotForeground) {
   Random random(2);
   const BackgroundModel model = learned(random);
   EXPECT_LT(share(foreground(model, scene(random, 1.14))), 0.005);
   EXPECT_LT(share(foreground(model, scene(random, 0.75))), 0.005);
 }
 
-TEST(BackgroundModel, AShadowIsNotForegroundButABlackThingIs) {
+TEST(BackgroundModel, ShadowIsBackgroundBlackObjectIsNot) {
   Random random(3);
   const BackgroundModel model = learned(random);
-  cv::Mat picture = scene(random);
+  cv::Mat image = scene(random);
   const cv::Rect place(60, 5, 25, 25);
-  cv::Mat(picture(place) * 0.75).copyTo(picture(place));
-  EXPECT_LT(share(foreground(model, picture)(place)), 0.02);
-  picture(place).setTo(cv::Scalar(20, 20, 22));
-  EXPECT_GT(share(foreground(model, picture)(place)), 0.99);
+  cv::Mat(image(place) * 0.75).copyTo(image(place));
+  EXPECT_LT(share(foreground(model, image)(place)), 0.02);
+  image(place).setTo(cv::Scalar(20, 20, 22));
+  EXPECT_GT(share(foreground(model, image)(place)), 0.99);
 }
 
-TEST(BackgroundModel, SkinBeforeAGreyWallIsForeground) {
+TEST(BackgroundModel, SkinOnGreyWallIsForeground) {
   Random random(4);
   const BackgroundModel model = learned(random);
-  cv::Mat picture = scene(random);
+  cv::Mat image = scene(random);
   const cv::Rect place(120, 10, 20, 40);
-  picture(place).setTo(cv::Scalar(120, 150, 200));
-  const cv::Mat mask = foreground(model, picture);
+  image(place).setTo(cv::Scalar(120, 150, 200));
+  const cv::Mat mask = foreground(model, image);
   EXPECT_GT(share(mask(place)), 0.99);
   EXPECT_LT(share(mask) - share(mask(place)) * place.area() / mask.total(), 0.002);
 }
 
-TEST(BackgroundModel, GainIsTheMedianDifferenceWhereBelieved) {
+TEST(BackgroundModel, GainIsMedianDifferenceOnBackground) {
   Random random(5);
   const BackgroundModel model = learned(random);
   LogColour colour = log_colour(scene(random, 1.2));
@@ -94,7 +94,7 @@ TEST(BackgroundModel, GainIsTheMedianDifferenceWhereBelieved) {
   EXPECT_EQ(cv::norm(estimate_gain(model, colour, believed).l, cv::NORM_INF), 0.0);
 }
 
-TEST(BackgroundModel, UnknownPixelsTakeTheGivenEnergyAndAreLearnedWhenSteady) {
+TEST(BackgroundModel, UnknownPixelsAreLearnedWhenSteady) {
   Random random(6);
   BackgroundModel model = learned(random);
   model.valid.colRange(0, 80).setTo(0);
@@ -111,7 +111,7 @@ TEST(BackgroundModel, UnknownPixelsTakeTheGivenEnergyAndAreLearnedWhenSteady) {
   EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 255);
 }
 
-TEST(BackgroundModel, AdaptationStaysWhereItMay) {
+TEST(BackgroundModel, AdaptsOnlyInsideTheMask) {
   Random random(7);
   BackgroundModel model = learned(random);
   const float before = model.mean.l.at<float>(5, 5);
@@ -123,7 +123,7 @@ TEST(BackgroundModel, AdaptationStaysWhereItMay) {
   EXPECT_GT(model.mean.l.at<float>(5, 150), other + 0.05F);
 }
 
-TEST(BackgroundModel, RefusesNothingAndUnequalSizes) {
+TEST(BackgroundModel, RefusesNoImagesAndUnequalSizes) {
   EXPECT_THROW(learn_background_model({}), Error);
   const std::vector<cv::Mat> unequal{cv::Mat(4, 4, CV_8UC3, cv::Scalar(1)),
                                      cv::Mat(5, 4, CV_8UC3, cv::Scalar(1))};

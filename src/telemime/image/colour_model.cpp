@@ -12,8 +12,10 @@
 namespace telemime {
 namespace {
 
+/// Energy under an empty mixture.
 constexpr float kNever = 1e4F;
 
+/// A Gaussian prepared for evaluation.
 struct Prepared {
   Eigen::Vector3f mean;
   Eigen::Matrix3f inverse;
@@ -29,30 +31,24 @@ std::vector<Prepared> prepare(const ColourMixture& mixture) {
   return out;
 }
 
-float median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Eigen::Vector3f median_of(std::span<const Eigen::Vector3f> samples) {
-  Eigen::Vector3f median;
+  Eigen::Vector3f result;
   std::vector<float> values(samples.size());
   for (int axis = 0; axis < 3; ++axis) {
     std::transform(samples.begin(), samples.end(), values.begin(), [axis](const auto& s) { return s[axis]; });
-    median[axis] = median_of(values);
+    result[axis] = median(values);
   }
-  return median;
+  return result;
 }
 
-/// Adds the tolerance. The chroma keeps its slope along l, only the spread along that line grows.
+/// Widens a covariance by the tolerance. The chroma keeps its slope along l.
 Eigen::Matrix3f widened(const Eigen::Matrix3f& covariance, const ColourTolerance& tolerance) {
-  // More spread than this in one colour is two colours (a face with its beard).
+  // A larger spread means that the samples are of two colours (a face with its beard).
   constexpr float kMostVariance = 0.3F * 0.3F;
   const float variance_l = covariance(2, 2) + 1e-6F;
   const Eigen::Vector2f with_l = covariance.block<2, 1>(0, 2);
   const Eigen::Vector2f slope = (with_l / variance_l).cwiseMax(-tolerance.slope).cwiseMin(tolerance.slope);
-  // What is left of the chroma's covariance when slope * l is taken away; positive whatever the slope.
+  // The covariance of the chroma without slope * l; positive definite for any slope.
   const Eigen::Matrix2f rest = covariance.block<2, 2>(0, 0) - slope * with_l.transpose() -
                                with_l * slope.transpose() + slope * slope.transpose() * variance_l +
                                Eigen::Matrix2f::Identity() * tolerance.chroma * tolerance.chroma;
@@ -87,24 +83,26 @@ Moments moments_of(std::span<const Eigen::Vector3f> samples) {
 void require_samples(std::size_t count) {
   if (count < 8) {
     throw Error(ErrorKind::usage,
-                "a colour needs at least 8 sample pixels, there are " + std::to_string(count));
+                "a colour model needs at least 8 sample pixels, but there are " + std::to_string(count));
   }
 }
 
-/// Chroma counts double in the distances of k-means: stripes differ in hue before they differ in light.
+/// Chroma counts twice in the distances of k-means: stripes differ in hue more than in luminance.
 const Eigen::Vector3f kMeansScale(2.0F, 2.0F, 1.0F);
 
 }  // namespace
 
 ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const ColourTolerance& tolerance) {
   require_samples(samples.size());
+  // Start from the median and the median absolute deviation.
   Eigen::Vector3f centre = median_of(samples);
   std::vector<Eigen::Vector3f> deviations(samples.size());
   std::transform(samples.begin(), samples.end(), deviations.begin(),
                  [&](const auto& s) { return Eigen::Vector3f((s - centre).cwiseAbs()); });
-  // 1.48 turns a median absolute deviation into a standard deviation.
+  // The factor 1.48 converts it to a standard deviation.
   const Eigen::Vector3f spread = (1.48F * median_of(deviations)).cwiseMax(0.02F);
   Eigen::Matrix3f covariance = spread.cwiseAbs2().asDiagonal();
+  // Fit to the samples near the centre, repeatedly.
   constexpr int kTrims = 4;
   for (int i = 0; i < kTrims; ++i) {
     const Eigen::Matrix3f inverse = covariance.inverse();
@@ -119,7 +117,7 @@ ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const Colour
     }
     const Moments m = moments_of(kept);
     centre = m.mean;
-    // 1.2 makes up for the tails that the trimming cut off.
+    // The factor 1.2 compensates for the tails that were trimmed.
     covariance = 1.2F * m.covariance + 1e-4F * Eigen::Matrix3f::Identity();
   }
   return {centre, widened(covariance, tolerance), 1.0F};
@@ -145,8 +143,9 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
       groups[nearest(s)].push_back(s);
     }
   };
+  // Add centres where samples are far from all others. The start is the 95th percentile of the distances: the
+  // farthest sample is an outlier.
   while (static_cast<int>(centres.size()) < most) {
-    // The next start is the 98th percentile of the distances, not the farthest sample: that is an outlier.
     std::vector<std::pair<float, std::size_t>> far;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       far.emplace_back(distance2(samples[i], centres[nearest(samples[i])]), i);
@@ -166,13 +165,14 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
       }
     }
   }
+  // A Gaussian for each group.
   regroup();
   ColourMixture mixture;
   for (const auto& group : groups) {
     if (group.size() < 8 || group.size() * 25 < samples.size()) {
       continue;
     }
-    // Trimmed, because mixed pixels between two stripes belong to neither.
+    // Trimming removes the mixed pixels between two stripes.
     ColourGaussian g = fit_robust(group, tolerance);
     g.weight = static_cast<float>(group.size()) / static_cast<float>(samples.size());
     mixture.push_back(g);
@@ -189,8 +189,8 @@ float energy(const ColourMixture& mixture, const Eigen::Vector3f& colour) {
   return best;
 }
 
-cv::Mat energy(const ColourMixture& mixture, const LogColour& picture) {
-  cv::Mat out(picture.u.size(), CV_32FC1, cv::Scalar(kNever));
+cv::Mat energy(const ColourMixture& mixture, const LogColour& image) {
+  cv::Mat out(image.u.size(), CV_32FC1, cv::Scalar(kNever));
   for (const Prepared& p : prepare(mixture)) {
     const float mu = p.mean[0];
     const float mv = p.mean[1];
@@ -202,9 +202,9 @@ cv::Mat energy(const ColourMixture& mixture, const LogColour& picture) {
     const float ul = 2 * p.inverse(0, 2);
     const float vl = 2 * p.inverse(1, 2);
     for (int r = 0; r < out.rows; ++r) {
-      const auto* u = picture.u.ptr<float>(r);
-      const auto* v = picture.v.ptr<float>(r);
-      const auto* l = picture.l.ptr<float>(r);
+      const auto* u = image.u.ptr<float>(r);
+      const auto* v = image.v.ptr<float>(r);
+      const auto* l = image.l.ptr<float>(r);
       auto* o = out.ptr<float>(r);
       for (int c = 0; c < out.cols; ++c) {
         const float du = u[c] - mu;

@@ -10,40 +10,42 @@
 
 namespace telemime {
 
-/// A Gaussian of colours [u, v, l] (see LogColour), with a weight among its siblings.
+/// A Gaussian over colours [u, v, l] (see LogColour), with its weight in a mixture.
 struct ColourGaussian {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();
   Eigen::Matrix3f covariance = Eigen::Matrix3f::Identity();
   float weight = 1.0F;
 };
 
-/// A class of colours: one Gaussian or a few. Empty: nothing is known of the class.
+/// The colours of a class as a mixture of a few Gaussians. Empty: the colours are not known.
 using ColourMixture = std::vector<ColourGaussian>;
 
-/// How far a fitted Gaussian is widened.
+/// How much a fitted Gaussian is widened.
 struct ColourTolerance {
   float chroma = 0.04F;     ///< added to the deviation of u and v (root of the sum of squares)
-  float luminance = 0.10F;  ///< the same for l
-  float stretch = 1.5F;  ///< the deviation along l is multiplied by this: limbs lie in other light than faces
-  float slope = 0.5F;    ///< how much chroma may change with l at most (skin is more saturated in the shade)
+  float luminance = 0.10F;  ///< added to the deviation of l in the same way
+  float stretch = 1.5F;     ///< factor of the deviation of l: limbs are lit differently from faces
+  float slope = 0.5F;       ///< largest change of chroma with l (skin is more saturated in the shade)
 };
 
-/// Gaussian of the samples after repeated trimming around the median: outliers (eyes, beard, a mask among
-/// skin) up to nearly half of the samples do not move it. At least 8 samples; throws Error(usage) with fewer.
+/// Fits a Gaussian by repeated trimming around the median. Outliers (eyes, a beard or a mask among skin) do
+/// not affect it, up to nearly half of the samples. Throws Error(usage) for fewer than 8 samples.
 ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const ColourTolerance& tolerance);
 
-/// Up to `most` Gaussians by k-means with starts far apart; no random numbers. Groups that hold less than
-/// 4 % of the samples are dropped, groups nearer than the tolerance merged. At least 8 samples.
+/// Fits up to `most` Gaussians by k-means with starts that are far apart; deterministic. A new group is
+/// started only for samples that are far from all groups; groups with less than 4 % of the samples are
+/// dropped. Throws Error(usage) for fewer than 8 samples.
 ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
                           const ColourTolerance& tolerance);
 
-/// -2 ln of the mixture's density (best component) at one colour, without the 3 ln 2 pi that all share.
+/// Energy of a colour: -2 ln of the density of the best component, without the constant 3 ln 2 pi. A large
+/// constant for an empty mixture.
 float energy(const ColourMixture& mixture, const Eigen::Vector3f& colour);
 
-/// The same at every pixel; CV_32FC1. A large constant where the mixture is empty.
-cv::Mat energy(const ColourMixture& mixture, const LogColour& picture);
+/// Energy of each pixel (CV_32FC1); see above.
+cv::Mat energy(const ColourMixture& mixture, const LogColour& image);
 
-/// Squared Mahalanobis distance of one colour from the nearest component.
+/// Squared Mahalanobis distance of a colour to the nearest component; the largest float for an empty mixture.
 float mahalanobis2(const ColourMixture& mixture, const Eigen::Vector3f& colour);
 
 }  // namespace telemime

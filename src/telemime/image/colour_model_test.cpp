@@ -24,7 +24,7 @@ void add(Samples& samples, const Eigen::Vector3f& mean, float spread, int count,
   }
 }
 
-TEST(LogColour, AShadowMovesOnlyTheLuminance) {
+TEST(LogColour, ShadowChangesOnlyLuminance) {
   // Twice the light on colours far above the offset: u and v stay, l grows by ln 2.
   const Eigen::Vector3f dark = log_colour_of(100, 110, 120);
   const Eigen::Vector3f light = log_colour_of(2 * 100 + 12, 2 * 110 + 12, 2 * 120 + 12);
@@ -33,17 +33,17 @@ TEST(LogColour, AShadowMovesOnlyTheLuminance) {
   EXPECT_NEAR(light[2] - dark[2], std::log(2.0), 1e-4);
 }
 
-TEST(LogColour, PicturesAndSinglePixelsAgree) {
+TEST(LogColour, ImagesAndSinglePixelsAgree) {
   const cv::Mat bgr(2, 3, CV_8UC3, cv::Scalar(10, 200, 90));
-  const LogColour picture = log_colour(bgr);
+  const LogColour image = log_colour(bgr);
   const Eigen::Vector3f one = log_colour_of(10, 200, 90);
-  EXPECT_FLOAT_EQ(picture.u.at<float>(1, 2), one[0]);
-  EXPECT_FLOAT_EQ(picture.v.at<float>(1, 2), one[1]);
-  EXPECT_NEAR(picture.l.at<float>(1, 2), one[2], 1e-6);
+  EXPECT_FLOAT_EQ(image.u.at<float>(1, 2), one[0]);
+  EXPECT_FLOAT_EQ(image.v.at<float>(1, 2), one[1]);
+  EXPECT_NEAR(image.l.at<float>(1, 2), one[2], 1e-6);
   EXPECT_THROW(log_colour(cv::Mat(2, 2, CV_8UC1)), Error);
 }
 
-TEST(ColourModel, AThirdOfOutliersDoesNotMoveTheRobustMean) {
+TEST(ColourModel, RobustMeanIgnoresAThirdOfOutliers) {
   Random random(1);
   Samples samples;
   const Eigen::Vector3f skin(0.25F, -0.15F, 5.0F);
@@ -55,7 +55,7 @@ TEST(ColourModel, AThirdOfOutliersDoesNotMoveTheRobustMean) {
   EXPECT_GT(mahalanobis2({fitted}, {0.0F, 0.0F, 3.0F}), 20.0F);
 }
 
-TEST(ColourModel, CovarianceStaysPositiveForCollinearSamples) {
+TEST(ColourModel, CovarianceIsPositiveForCollinearSamples) {
   Samples samples;
   for (int i = 0; i < 100; ++i) {
     const float t = static_cast<float>(i) / 50.0F;
@@ -81,14 +81,14 @@ TEST(ColourModel, StripesGetOneGaussianEach) {
   EXPECT_EQ(fit_mixture(samples, 1, {}).size(), 1U);
 }
 
-TEST(ColourModel, OnePlainColourGetsOneGaussian) {
+TEST(ColourModel, PlainColourGetsOneGaussian) {
   Random random(3);
   Samples samples;
   add(samples, {0.1F, 0.1F, 4.0F}, 0.02F, 300, random);
   EXPECT_EQ(fit_mixture(samples, 5, {}).size(), 1U);
 }
 
-TEST(ColourModel, EnergyIsMinusTwoLogDensityAndTheSameForPicturesAndPixels) {
+TEST(ColourModel, EnergyIsMinusTwoLogDensity) {
   ColourGaussian g;
   g.mean = {0.2F, -0.1F, 4.5F};
   g.covariance = Eigen::Vector3f(0.01F, 0.02F, 0.09F).asDiagonal();
@@ -96,12 +96,12 @@ TEST(ColourModel, EnergyIsMinusTwoLogDensityAndTheSameForPicturesAndPixels) {
   const float expected = std::log(0.01F * 0.02F * 0.09F) - 2 * std::log(0.5F);
   EXPECT_NEAR(energy({g}, g.mean), expected, 1e-3);
   EXPECT_NEAR(energy({g}, g.mean + Eigen::Vector3f(0.1F, 0, 0)), expected + 1, 1e-3);
-  const LogColour picture = log_colour(cv::Mat(3, 4, CV_8UC3, cv::Scalar(40, 60, 90)));
-  EXPECT_NEAR(energy({g}, picture).at<float>(1, 1), energy({g}, log_colour_of(40, 60, 90)), 1e-2);
-  EXPECT_GT(energy(ColourMixture{}, picture).at<float>(0, 0), 1000.0F);
+  const LogColour image = log_colour(cv::Mat(3, 4, CV_8UC3, cv::Scalar(40, 60, 90)));
+  EXPECT_NEAR(energy({g}, image).at<float>(1, 1), energy({g}, log_colour_of(40, 60, 90)), 1e-2);
+  EXPECT_GT(energy(ColourMixture{}, image).at<float>(0, 0), 1000.0F);
 }
 
-TEST(ColourModel, TooFewSamplesAreRefused) {
+TEST(ColourModel, RefusesTooFewSamples) {
   const Samples few(5, Eigen::Vector3f::Zero());
   EXPECT_THROW(fit_robust(few, {}), Error);
   EXPECT_THROW(fit_mixture(few, 3, {}), Error);

@@ -8,6 +8,7 @@
 namespace telemime {
 namespace {
 
+/// The mean energy of the 3x3 neighbours, each limited so that one pixel cannot outvote all others.
 void smooth(cv::Mat& energy, float limit) {
   cv::min(energy, limit, energy);
   cv::blur(energy, energy, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
@@ -15,17 +16,17 @@ void smooth(cv::Mat& energy, float limit) {
 
 }  // namespace
 
-ColourVotes vote(const LogColour& picture, const PersonColours& colours,
-                 const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
-  cv::Mat skin = energy(colours.skin, picture);
-  cv::Mat clothes = energy(colours.clothes, picture);
-  cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, picture);
-  cv::Mat known = energy(colours.other, picture);
+ColourVotes vote(const LogColour& image, const PersonColours& colours, const std::optional<HeadRegion>& head,
+                 const SegmentationConfig& config) {
+  // Energies of all classes.
+  cv::Mat skin = energy(colours.skin, image);
+  cv::Mat clothes = energy(colours.clothes, image);
+  cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, image);
+  cv::Mat known = energy(colours.other, image);
   cv::Mat other;
   cv::min(known, config.unknown_cost, other);
-  // A far colour must not outvote its neighbours by being very far.
   const float limit = config.unknown_cost + config.vote_limit;
-  const cv::Size size = picture.u.size();
+  const cv::Size size = image.u.size();
   ColourVotes out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_8UC1)};
   for (int r = 0; r < size.height; ++r) {
     const auto* s = skin.ptr<float>(r);
@@ -37,6 +38,7 @@ ColourVotes vote(const LogColour& picture, const PersonColours& colours,
       b[i] = std::min(std::min(s[i], c[i]), std::min(h[i], o[i]));
     }
   }
+  // The best class after the vote.
   smooth(skin, limit);
   smooth(clothes, limit);
   smooth(hair, limit);

@@ -10,22 +10,24 @@
 
 namespace telemime {
 
-/// What colour says of a pixel, before its place is looked at.
+/// The colour class of a pixel, irrespective of its position.
 enum Colour : unsigned char { kSkin = 0, kClothes = 1, kHair = 2, kOther = 3 };
 
+/// The colour classes of all pixels after a vote among neighbours.
 struct ColourVotes {
-  cv::Mat best;     ///< CV_32FC1, energy of the best of the person's colours
-  cv::Mat colour;   ///< CV_8UC1, which
-  cv::Mat learned;  ///< CV_8UC1, which of those that were learned, hair excluded; kOther: trousers or a mask
+  cv::Mat best;     ///< CV_32FC1, lowest energy of the colours of the person, without the vote
+  cv::Mat colour;   ///< CV_8UC1, the Colour after the vote
+  cv::Mat learned;  ///< CV_8UC1, the best Colour that was learned, without hair; kOther: trousers or a mask
 };
 
+/// The ellipse of the head.
 struct Ellipse {
   explicit Ellipse(const HeadRegion& head)
       : x(static_cast<float>(head.centre.x())),
         y(static_cast<float>(head.centre.y())),
         rx(static_cast<float>(head.radii.x())),
         ry(static_cast<float>(head.radii.y())) {}
-  /// Below 1 inside.
+  /// Squared distance from the centre in radii: less than 1 inside.
   float at(int row, int column) const {
     const float dx = (static_cast<float>(column) - x) / rx;
     const float dy = (static_cast<float>(row) - y) / ry;
@@ -34,8 +36,9 @@ struct Ellipse {
   float x, y, rx, ry;
 };
 
-/// Votes of every pixel of the picture; hair only counts around the head.
-ColourVotes vote(const LogColour& picture, const PersonColours& colours,
-                 const std::optional<HeadRegion>& head, const SegmentationConfig& config);
+/// Computes the colour classes of an image. Hair is a candidate only around the head, other classes
+/// everywhere.
+ColourVotes vote(const LogColour& image, const PersonColours& colours, const std::optional<HeadRegion>& head,
+                 const SegmentationConfig& config);
 
 }  // namespace telemime

@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-/// The first column from `from` on that is set, or `columns`.
+/// The first column at or after `from` that is set, or `columns`.
 int next_set(const unsigned char* row, int from, int columns) {
   int c = from;
   for (std::uint64_t eight = 0; c + 8 <= columns; c += 8) {
@@ -27,12 +27,13 @@ int next_set(const unsigned char* row, int from, int columns) {
   return c;
 }
 
+/// The first column at or after `from` that is not set, or `columns`.
 int next_unset(const unsigned char* row, int from, int columns) {
   const void* found = std::memchr(row + from, 0, static_cast<std::size_t>(columns - from));
   return found != nullptr ? static_cast<int>(static_cast<const unsigned char*>(found) - row) : columns;
 }
 
-/// Sets of runs, each known by its first one.
+/// Disjoint sets of runs; the first run represents its set.
 class Sets {
  public:
   void add() { parent_.push_back(parent_.size()); }
@@ -57,12 +58,13 @@ class Sets {
 
 ConnectedComponents::ConnectedComponents(const cv::Mat& mask, Connectivity connectivity) {
   if (mask.type() != CV_8UC1) {
-    throw Error(ErrorKind::usage, "connected components: the mask is not CV_8UC1");
+    throw Error(ErrorKind::usage, "connected components: the type of the mask is not CV_8UC1");
   }
   const int corner = connectivity == Connectivity::eight ? 1 : 0;
+  // Find the runs, and join each with the runs of the row above that it touches.
   std::vector<PixelRun> found;
   Sets sets;
-  std::size_t above = 0;  // the first run of the row above that can still touch
+  std::size_t above = 0;  // first run of the row above that can still touch
   for (int r = 0; r < mask.rows; ++r) {
     const auto* row = mask.ptr<unsigned char>(r);
     const std::size_t below = found.size();
@@ -82,6 +84,7 @@ ConnectedComponents::ConnectedComponents(const cv::Mat& mask, Connectivity conne
     above = below;
   }
 
+  // Number the sets by their first runs and accumulate areas and boxes.
   constexpr std::size_t kNone = SIZE_MAX;
   std::vector<std::size_t> component_of(found.size(), kNone);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -97,6 +100,7 @@ ConnectedComponents::ConnectedComponents(const cv::Mat& mask, Connectivity conne
     component.box |= cv::Rect(run.first, run.row, run.last - run.first, 1);
     ++component.run_count;
   }
+  // Sort the runs by component.
   std::size_t start = 0;
   for (Component& component : components_) {
     component.first_run = std::exchange(start, start + component.run_count);
@@ -110,10 +114,10 @@ ConnectedComponents::ConnectedComponents(const cv::Mat& mask, Connectivity conne
   }
 }
 
-void ConnectedComponents::paint(const Component& component, unsigned char value, cv::Mat& picture,
+void ConnectedComponents::paint(const Component& component, unsigned char value, cv::Mat& image,
                                 const cv::Point& origin) const {
   for (const PixelRun& run : runs(component)) {
-    auto* row = picture.ptr<unsigned char>(run.row - origin.y);
+    auto* row = image.ptr<unsigned char>(run.row - origin.y);
     std::fill(row + (run.first - origin.x), row + (run.last - origin.x), value);
   }
 }

@@ -8,37 +8,39 @@
 
 namespace telemime {
 
-/// Which pixels touch: the four beside each, or those at its corners, too.
+/// Which pixels are neighbours: the four that share an edge, or also those that share a corner.
 enum class Connectivity { four, eight };
 
-/// Pixels [first, last) of one row.
+/// The pixels [first, last) of a row.
 struct PixelRun {
   int row = 0;
   int first = 0;
   int last = 0;
 };
 
+/// A connected set of pixels.
 struct Component {
   int area = 0;  ///< pixels
-  cv::Rect box;  ///< the smallest that holds it
+  cv::Rect box;  ///< bounding box
   std::size_t first_run = 0;
   std::size_t run_count = 0;
 };
 
-/// The connected components of a mask, by runs (A. Rosenfeld and J. L. Pfaltz, Sequential operations in
-/// digital picture processing, 1966): in the order of their first pixels, and their runs from the top down.
-/// A silhouette has few runs: OpenCV's connectedComponentsWithStats, which writes and counts a label for
-/// every pixel, took a third of the whole image side.
+/// The connected components of a mask, ordered by their first pixels, as runs of pixels from top to bottom
+/// (A. Rosenfeld and J. L. Pfaltz, Sequential operations in digital image processing, 1966). A silhouette has
+/// few runs, so this is faster than OpenCV's connectedComponentsWithStats, which labels every pixel.
 class ConnectedComponents {
  public:
-  /// mask: (h x w) CV_8UC1, not zero where it is set. Throws Error(usage) for another type.
+  /// Finds the components of the pixels of `mask` ((h x w) CV_8UC1) that are not 0. Throws Error(usage) for
+  /// another type.
   ConnectedComponents(const cv::Mat& mask, Connectivity connectivity);
 
   std::span<const Component> all() const { return components_; }
+  /// The pixels of a component.
   std::span<const PixelRun> runs(const Component& component) const {
     return std::span(runs_).subspan(component.first_run, component.run_count);
   }
-  /// How many of the component's pixels satisfy `holds(row, column)`.
+  /// The number of pixels of the component that satisfy `holds(row, column)`.
   template <typename Predicate>
   int count(const Component& component, Predicate holds) const {
     int n = 0;
@@ -49,12 +51,12 @@ class ConnectedComponents {
     }
     return n;
   }
-  /// Writes `value` where the component is; picture: CV_8UC1, the mask's `origin` at its first pixel.
-  void paint(const Component& component, unsigned char value, cv::Mat& picture,
+  /// Writes `value` to the pixels of the component. `image` (CV_8UC1) starts at pixel `origin` of the mask.
+  void paint(const Component& component, unsigned char value, cv::Mat& image,
              const cv::Point& origin = {}) const;
 
  private:
-  std::vector<PixelRun> runs_;  ///< those of one component after those of another
+  std::vector<PixelRun> runs_;  ///< sorted by component
   std::vector<Component> components_;
 };
 

@@ -66,7 +66,7 @@ std::vector<cv::Mat> masks() {
   return made;
 }
 
-TEST(ConnectedComponents, AreThoseOfOpenCv) {
+TEST(ConnectedComponents, EqualThoseOfOpenCv) {
   for (const cv::Mat& mask : masks()) {
     for (const auto& [connectivity, number] :
          {std::pair{Connectivity::four, 4}, std::pair{Connectivity::eight, 8}}) {
@@ -88,7 +88,7 @@ TEST(ConnectedComponents, AreThoseOfOpenCv) {
   }
 }
 
-TEST(ConnectedComponents, ComeInTheOrderOfTheirFirstPixelsAndTheirRunsFromTheTopDown) {
+TEST(ConnectedComponents, AreSortedByFirstPixelAndRow) {
   // A U, whose right arm is found to be the left one's only at the bottom, and a point between the two.
   cv::Mat mask = cv::Mat::zeros(4, 7, CV_8UC1);
   mask.col(1).setTo(255);
@@ -105,7 +105,7 @@ TEST(ConnectedComponents, ComeInTheOrderOfTheirFirstPixelsAndTheirRunsFromTheTop
   }));
 }
 
-TEST(ConnectedComponents, ArePaintedWhereThePictureBegins) {
+TEST(ConnectedComponents, ArePaintedRelativeToTheOrigin) {
   cv::Mat mask = cv::Mat::zeros(5, 8, CV_8UC1);
   mask(cv::Rect(3, 2, 4, 2)).setTo(255);
   const ConnectedComponents components(mask, Connectivity::four);
@@ -115,7 +115,7 @@ TEST(ConnectedComponents, ArePaintedWhereThePictureBegins) {
   EXPECT_EQ(cv::countNonZero(part == 7), 8);
 }
 
-TEST(ConnectedComponents, AnEmptyMaskHasNone) {
+TEST(ConnectedComponents, EmptyMaskHasNone) {
   EXPECT_TRUE(ConnectedComponents(cv::Mat::zeros(3, 9, CV_8UC1), Connectivity::four).all().empty());
   EXPECT_THROW(ConnectedComponents(cv::Mat::zeros(3, 9, CV_32SC1), Connectivity::four), Error);
 }

@@ -9,13 +9,14 @@
 namespace telemime {
 namespace {
 
-/// One second-order recursion, run down the image and up again:
+/// A second-order recursive filter as the sum of a pass down and a pass up the image:
 /// down[n] = a0 x[n] + a1 x[n-1] + b1 down[n-1] + b2 down[n-2]
 /// up[n]   =           c1 x[n+1] + c2 x[n+2] + b1 up[n+1] + b2 up[n+2]
 struct Recursion {
   float a0, a1, c1, c2, b1, b2;
 };
 
+/// Smoothing filter with sum 1.
 Recursion smoothing(double alpha) {
   const double q = std::exp(-alpha);
   const double k = (1 - q) * (1 - q) / (1 + 2 * alpha * q - q * q);
@@ -27,16 +28,17 @@ Recursion smoothing(double alpha) {
           static_cast<float>(-q * q)};
 }
 
+/// Derivative filter with gain 1 for a ramp.
 Recursion derivative(double alpha) {
   const double q = std::exp(-alpha);
-  // The sum of n^2 q^n over n >= 1 is q (1 + q) / (1 - q)^3; twice that is the answer to a unit ramp.
+  // The response to a unit ramp is twice the sum of n^2 q^n over n >= 1, which is q (1 + q) / (1 - q)^3.
   const double k = std::pow(1 - q, 3) / (2 * (1 + q));
   return {0.0F, static_cast<float>(-k),    static_cast<float>(k),
           0.0F, static_cast<float>(2 * q), static_cast<float>(-q * q)};
 }
 
-/// Filters every column. Rows are the inner loop, so that neighbouring columns share one vector instruction.
-/// Repeating the border for ever is the same as starting each recursion from its answer to a constant.
+/// Filters each column. The inner loop runs over columns, so it is vectorised. A replicated border is
+/// equivalent to starting each recursion from its response to a constant.
 cv::Mat filter_columns(const cv::Mat& in, const Recursion& f) {
   const int rows = in.rows;
   const int columns = in.cols;
@@ -44,6 +46,7 @@ cv::Mat filter_columns(const cv::Mat& in, const Recursion& f) {
   cv::Mat state(5, columns, CV_32FC1);
   const float feedback = 1 - f.b1 - f.b2;
 
+  // Down: starts from the response to the first row.
   const float down_gain = (f.a0 + f.a1) / feedback;
   auto* before = state.ptr<float>(0);
   const auto* first = in.ptr<float>(0);
@@ -61,6 +64,7 @@ cv::Mat filter_columns(const cv::Mat& in, const Recursion& f) {
     }
   }
 
+  // Up: starts from the response to the last row.
   const float up_gain = (f.c1 + f.c2) / feedback;
   const auto* last = in.ptr<float>(rows - 1);
   for (int s = 0; s < 3; ++s) {
@@ -92,10 +96,10 @@ cv::Mat filter_columns(const cv::Mat& in, const Recursion& f) {
 
 Gradient deriche_gradient(const cv::Mat& grey, double alpha) {
   if (grey.empty() || grey.channels() != 1) {
-    throw Error(ErrorKind::usage, "the edge filter needs a grey picture with at least one pixel");
+    throw Error(ErrorKind::usage, "the edge filter needs a grey image with at least one pixel");
   }
   if (!(alpha > 0 && alpha <= 10)) {
-    throw Error(ErrorKind::usage, "the edge filter's alpha is " + std::to_string(alpha),
+    throw Error(ErrorKind::usage, "alpha of the edge filter is " + std::to_string(alpha),
                 "use a value above 0 and up to 10, for instance 1");
   }
   cv::Mat image;
@@ -108,6 +112,7 @@ Gradient deriche_gradient(const cv::Mat& grey, double alpha) {
     cv::transpose(m, t);
     return t;
   };
+  // Each derivative is smoothed along the other axis. Rows are filtered as columns of the transposed image.
   Gradient gradient;
   gradient.dx = transposed(filter_columns(transposed(filter_columns(image, smooth)), derive));
   gradient.dy = filter_columns(transposed(filter_columns(transposed(image), smooth)), derive);

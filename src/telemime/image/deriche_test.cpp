@@ -23,13 +23,13 @@ cv::Mat ramp(float slope_x, float slope_y) {
 
 class DericheAlpha : public testing::TestWithParam<double> {};
 
-TEST_P(DericheAlpha, ARampAnswersItsSlope) {
+TEST_P(DericheAlpha, RampGivesItsSlope) {
   const Gradient g = deriche_gradient(ramp(2.0F, -3.0F), GetParam());
   EXPECT_NEAR(g.dx.at<float>(30, 40), 2.0, 0.02);
   EXPECT_NEAR(g.dy.at<float>(30, 40), -3.0, 0.03);
 }
 
-TEST_P(DericheAlpha, AConstantAnswersZeroUpToTheBorders) {
+TEST_P(DericheAlpha, ConstantGivesZeroUpToTheBorders) {
   const Gradient g = deriche_gradient(cv::Mat(20, 30, CV_8UC1, cv::Scalar(200)), GetParam());
   EXPECT_LT(cv::norm(g.dx, cv::NORM_INF), 2e-3);
   EXPECT_LT(cv::norm(g.dy, cv::NORM_INF), 2e-3);
@@ -51,7 +51,7 @@ TEST_P(DericheAlpha, EqualsDirectConvolution) {
 
 INSTANTIATE_TEST_SUITE_P(SmoothToSharp, DericheAlpha, testing::Values(0.5, 1.0, 1.2, 3.0));
 
-TEST(Deriche, TransposingThePictureSwapsTheDerivatives) {
+TEST(Deriche, TransposedImageSwapsDerivatives) {
   cv::Mat image(40, 50, CV_32FC1);
   for (int r = 0; r < image.rows; ++r) {
     for (int c = 0; c < image.cols; ++c) {
@@ -67,7 +67,7 @@ TEST(Deriche, TransposingThePictureSwapsTheDerivatives) {
   EXPECT_LT(cv::norm(a.dx, back, cv::NORM_INF), 1e-3);
 }
 
-TEST(Deriche, RefusesWhatItCannotFilter) {
+TEST(Deriche, RefusesEmptyAndColourImages) {
   EXPECT_THROW(deriche_gradient(cv::Mat(), 1.0), Error);
   EXPECT_THROW(deriche_gradient(cv::Mat(4, 4, CV_8UC3), 1.0), Error);
   EXPECT_THROW(deriche_gradient(cv::Mat(4, 4, CV_8UC1), 0.0), Error);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/image/distance_map.h"
+#include "telemime/image/edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,17 @@
 namespace telemime {
 namespace {
 
-// Steps of the chamfer in 1/65536 px: beside, at a corner, and a knight's move.
+// Lengths of the chamfer steps in 1/65536 px: to an edge neighbour, a corner neighbour and by a knight's
+// move.
 constexpr std::int32_t kOne = 1 << 16;
 constexpr std::int32_t kBeside = kOne;
 constexpr std::int32_t kCorner = 91750;
 constexpr std::int32_t kKnight = 143976;
 constexpr std::int32_t kFar = 1 << 29;
-constexpr int kBorder = 2;  // of far pixels, so that no neighbour is missing
+constexpr int kBorder = 2;  // width of the border of far pixels, so that every pixel has all neighbours
 
-/// The distances by way of the two rows before (above on the way down, below on the way up), where they are
-/// smaller. Plain loops over whole rows: compilers make vectors of them.
+/// Lowers the distances of `row` to those by way of the two previous rows: `near` is adjacent, `next` is
+/// beyond it (above on the pass down, below on the pass up). The loop is vectorised by the compiler.
 void from_rows(const std::int32_t* near, const std::int32_t* next, int columns, std::int32_t* row) {
   for (int c = 0; c < columns; ++c) {
     const std::int32_t corner = std::min(near[c - 1], near[c + 1]) + kCorner;
@@ -40,10 +41,11 @@ cv::Mat distance_map(const cv::Mat& edges, double cap) {
   if (edged.empty()) {
     return distance;
   }
-  // A step goes a column or a row at a cost of at least one: farther away all is at the cap.
+  // Pixels farther than `cap` rows or columns from all edges have the distance `cap`: leave them out.
   const int reach = static_cast<int>(std::min(std::ceil(cap), 1.0 * (edges.cols + edges.rows)));
   const cv::Rect near = cv::Rect(edged.tl() - cv::Point(reach, reach), edged.br() + cv::Point(reach, reach)) &
                         cv::Rect(cv::Point(0, 0), edges.size());
+  // Pass down: distances to edges above and to the left.
   const std::ptrdiff_t stride = near.width + 2 * kBorder;
   std::vector<std::int32_t> steps(static_cast<std::size_t>(stride * (near.height + 2 * kBorder)), kFar);
   const auto row_of = [&](int r) { return steps.data() + (r + kBorder) * stride + kBorder; };
@@ -60,6 +62,7 @@ cv::Mat distance_map(const cv::Mat& edges, double cap) {
       row[c] = beside;
     }
   }
+  // Pass up: distances to edges below and to the right.
   const auto most = static_cast<float>(cap);
   for (int r = near.height - 1; r >= 0; --r) {
     std::int32_t* const row = row_of(r);

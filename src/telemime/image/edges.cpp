@@ -9,7 +9,7 @@
 namespace telemime {
 namespace {
 
-/// Is the pixel higher than both points one pixel away along the gradient?
+/// Whether the magnitude at the pixel exceeds that at both points one pixel away along the gradient.
 bool is_ridge(const cv::Mat& squared, int r, int c, float gx, float gy) {
   const float ax = std::fabs(gx);
   const float ay = std::fabs(gy);
@@ -23,7 +23,7 @@ bool is_ridge(const cv::Mat& squared, int r, int c, float gx, float gy) {
   const float ahead = straight_ahead + slant * (at(sy, sx) - straight_ahead);
   const float back = straight_back + slant * (at(-sy, -sx) - straight_back);
   const float here = at(0, 0);
-  // On a plateau of two equal pixels exactly one may win, hence > on one side only.
+  // Of two equal pixels exactly one is a maximum, hence > on one side only.
   return here > back && here >= ahead;
 }
 
@@ -42,6 +42,7 @@ cv::Mat find_edges(const Gradient& gradient, const cv::Mat& mask, double low, do
   const auto low2 = static_cast<float>(low * low);
   const auto high2 = static_cast<float>(high * high);
 
+  // Non-maximum suppression.
   cv::Mat edges = cv::Mat::zeros(rows, columns, CV_8UC1);
   constexpr unsigned char kWeak = 1;
   std::vector<cv::Point> open;
@@ -63,6 +64,7 @@ cv::Mat find_edges(const Gradient& gradient, const cv::Mat& mask, double low, do
       }
     }
   }
+  // Hysteresis: follow weak edges that are connected to strong ones.
   while (!open.empty()) {
     const cv::Point p = open.back();
     open.pop_back();

@@ -9,7 +9,6 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
-#include "telemime/image/distance_map.h"
 
 namespace telemime {
 namespace {
@@ -22,7 +21,7 @@ cv::Mat step_at(int column, int height) {
   return image;
 }
 
-TEST(Edges, AStepIsOneThinLineBesideIt) {
+TEST(Edges, StepGivesOneThinLine) {
   const cv::Mat edges = find_edges(deriche_gradient(step_at(40, 100), 1.2), kEverywhere, 3, 8);
   for (int r = 5; r < 55; ++r) {
     EXPECT_EQ(cv::countNonZero(edges.row(r)), 1);
@@ -30,7 +29,7 @@ TEST(Edges, AStepIsOneThinLineBesideIt) {
   }
 }
 
-TEST(Edges, WeakEdgesAreKeptOnlyWhereTheyTouchStrongOnes) {
+TEST(Edges, WeakEdgesNeedStrongNeighbours) {
   EXPECT_EQ(cv::countNonZero(find_edges(deriche_gradient(step_at(40, 12), 1.2), kEverywhere, 1, 20)), 0);
   // A step that fades from 130 grey levels at the top to 12 at the bottom.
   cv::Mat image(60, 80, CV_8UC1, cv::Scalar(50));
@@ -55,7 +54,7 @@ TEST(Edges, RefusesBadThresholdsAndSizes) {
   EXPECT_THROW(find_edges(g, cv::Mat(3, 3, CV_8UC1), 3, 8), Error);
 }
 
-TEST(DistanceMap, IsTheDistanceWithinTheChamfersError) {
+TEST(DistanceMap, IsWithinTheChamferError) {
   cv::Mat edges = cv::Mat::zeros(61, 81, CV_8UC1);
   edges.at<unsigned char>(30, 40) = 255;
   const cv::Mat distance = distance_map(edges, 1000);
@@ -65,7 +64,7 @@ TEST(DistanceMap, IsTheDistanceWithinTheChamfersError) {
   }
 }
 
-TEST(DistanceMap, IsCappedAndWithoutEdgesTheCapEverywhere) {
+TEST(DistanceMap, IsCappedAndCapWithoutEdges) {
   cv::Mat edges = cv::Mat::zeros(20, 30, CV_8UC1);
   EXPECT_EQ(cv::norm(distance_map(edges, 10) - 10, cv::NORM_INF), 0);
   edges.at<unsigned char>(0, 0) = 255;
@@ -74,7 +73,7 @@ TEST(DistanceMap, IsCappedAndWithoutEdgesTheCapEverywhere) {
   EXPECT_EQ(largest, 10);
 }
 
-TEST(DistanceMap, IsThatOfOpenCvToTheLastBit) {
+TEST(DistanceMap, EqualsOpenCvToTheLastBit) {
   cv::ipp::setUseIPP(false);  // where there is one, it has a chamfer of its own
   Random random(5, 0);
   for (const cv::Size size :

@@ -17,20 +17,9 @@ cv::CascadeClassifier load_cascade(const std::filesystem::path& folder, const st
   cv::CascadeClassifier cascade;
   if (!cascade.load(file.string())) {
     throw Error(ErrorKind::config, "the face detector's file " + file.string() + " cannot be read",
-                "install the package opencv-data again, or name another folder of cascades");
+                "reinstall the package opencv-data, or choose another folder of cascades");
   }
   return cascade;
-}
-
-std::optional<cv::Rect> largest_of(std::vector<cv::Rect> faces, const cv::Point& corner,
-                                   const FaceTest& is_face) {
-  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.width > b.width; });
-  for (const cv::Rect& face : faces) {
-    if (is_face(face + corner)) {
-      return face + corner;
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -54,15 +43,14 @@ std::filesystem::path find_cascade(const std::filesystem::path& folder, const st
     searched += (searched.empty() ? "" : ", ") + place.string();
   }
   throw Error(ErrorKind::config, "the face detector's file " + name + " was not found in " + searched,
-              "install the package opencv-data, or name the folder that holds the cascades");
+              "install the package opencv-data, or choose the folder that contains the cascades");
 }
 
 FaceDetector::FaceDetector(const std::filesystem::path& folder)
-    : frontal_(load_cascade(folder, "haarcascade_frontalface_alt2.xml")),
-      profile_(load_cascade(folder, "haarcascade_profileface.xml")) {}
+    : frontal_(load_cascade(folder, "haarcascade_frontalface_alt2.xml")) {}
 
 std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& region, int smallest,
-                                           int largest, bool profiles, const FaceTest& is_face) {
+                                           int largest, const FaceTest& is_face) {
   const cv::Rect inside = region & cv::Rect(0, 0, grey.cols, grey.rows);
   if (inside.width < 20 || inside.height < 20) {
     return std::nullopt;
@@ -72,19 +60,13 @@ std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& 
   const cv::Size most(largest, largest);
   std::vector<cv::Rect> faces;
   frontal_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
-  if (faces.empty() && profiles) {
-    profile_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
-    if (faces.empty()) {
-      // The cascade knows one side only.
-      cv::Mat mirrored;
-      cv::flip(window, mirrored, 1);
-      profile_.detectMultiScale(mirrored, faces, 1.1, 3, 0, least, most);
-      for (cv::Rect& face : faces) {
-        face.x = window.cols - face.x - face.width;
-      }
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.width > b.width; });
+  for (const cv::Rect& face : faces) {
+    if (is_face(face + inside.tl())) {
+      return face + inside.tl();
     }
   }
-  return largest_of(faces, inside.tl(), is_face);
+  return std::nullopt;
 }
 
 }  // namespace telemime

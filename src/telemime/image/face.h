@@ -9,28 +9,27 @@
 
 namespace telemime {
 
-/// Where the trained face cascades are searched, after `folder` (when not empty).
+/// Path of the cascade file `name` in `folder` or, if that is empty, in the usual folders of OpenCV. Throws
+/// Error(config) that names the folders searched.
 std::filesystem::path find_cascade(const std::filesystem::path& folder, const std::string& name);
 
-/// A second opinion on a face square: colour, place.
+/// Whether a detected square can be a face, for instance by its colour.
 using FaceTest = std::function<bool(const cv::Rect&)>;
 
-/// Viola-Jones face detector of OpenCV (P. Viola, M. Jones, CVPR 2001; thesis 2.4.4.1), frontal and profile.
+/// OpenCV's Viola-Jones detector for frontal faces (P. Viola, M. Jones, CVPR 2001; thesis 2.4.4.1).
 class FaceDetector {
  public:
-  /// Loads haarcascade_frontalface_alt2.xml and haarcascade_profileface.xml from `folder`, or from the places
-  /// where packages of OpenCV put them. Throws Error(config) that names the places searched.
+  /// Loads haarcascade_frontalface_alt2.xml (see find_cascade). Throws Error(config) if it is missing or
+  /// cannot be read.
   explicit FaceDetector(const std::filesystem::path& folder = {});
 
-  /// The largest face in `region` of a grey picture (CV_8UC1), with sides between smallest and largest
-  /// pixels; square, in pixels of the whole picture, and passing `is_face`. `profiles`: also try faces seen
-  /// from the side.
+  /// The largest face in `region` of a grey image (CV_8UC1) that satisfies `is_face`, as a square in pixels
+  /// of the whole image with sides between `smallest` and `largest`. Empty if there is none.
   std::optional<cv::Rect> find(const cv::Mat& grey, const cv::Rect& region, int smallest, int largest,
-                               bool profiles, const FaceTest& is_face);
+                               const FaceTest& is_face);
 
  private:
   cv::CascadeClassifier frontal_;
-  cv::CascadeClassifier profile_;
 };
 
 }  // namespace telemime

@@ -12,55 +12,57 @@ namespace {
 
 constexpr int kColumns = 24;
 constexpr int kRows = 36;
-/// Of half the head's height or width: the part of the picture that the grid covers.
-constexpr double kAside = 1.15;
+/// Extent of the grid in half widths and half heights of the head.
+constexpr double kSide = 1.15;
 constexpr double kUp = 1.05;
 constexpr double kDown = 1.75;
-/// Difference of l that is not a turn of the head or a change of shade.
+/// Difference of l that is larger than those of a turn of the head or a change of shade.
 constexpr float kChanged = 0.18F;
 constexpr int kFramesToTrust = 3;
 
-/// Grid to picture.
-cv::Matx23d map_of(const HeadRegion& head) {
-  const double sx = 2 * kAside * head.radii.x() / kColumns;
+/// Transform from grid to image coordinates.
+cv::Matx23d image_from_grid(const HeadRegion& head) {
+  const double sx = 2 * kSide * head.radii.x() / kColumns;
   const double sy = (kUp + kDown) * head.radii.y() / kRows;
-  return {sx, 0,  head.centre.x() - kAside * head.radii.x() + 0.5 * sx,
+  return {sx, 0,  head.centre.x() - kSide * head.radii.x() + 0.5 * sx,
           0,  sy, head.centre.y() - kUp * head.radii.y() + 0.5 * sy};
 }
 
-cv::Mat look_of(const LogColour& picture, const HeadRegion& head) {
+/// The luminance on the grid.
+cv::Mat sample_face(const LogColour& image, const HeadRegion& head) {
   cv::Mat out;
-  cv::warpAffine(picture.l, out, map_of(head), cv::Size(kColumns, kRows),
+  cv::warpAffine(image.l, out, image_from_grid(head), cv::Size(kColumns, kRows),
                  cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
   return out;
 }
 
-cv::Rect box_of(const HeadRegion& head, const cv::Size& size) {
-  const cv::Rect box(cv::Point(static_cast<int>(std::floor(head.centre.x() - kAside * head.radii.x())),
+/// The bounding box of the grid in the image.
+cv::Rect bounding_box(const HeadRegion& head, const cv::Size& size) {
+  const cv::Rect box(cv::Point(static_cast<int>(std::floor(head.centre.x() - kSide * head.radii.x())),
                                static_cast<int>(std::floor(head.centre.y() - kUp * head.radii.y()))),
-                     cv::Point(static_cast<int>(std::ceil(head.centre.x() + kAside * head.radii.x())) + 1,
+                     cv::Point(static_cast<int>(std::ceil(head.centre.x() + kSide * head.radii.x())) + 1,
                                static_cast<int>(std::ceil(head.centre.y() + kDown * head.radii.y())) + 1));
   return box & cv::Rect(cv::Point(0, 0), size);
 }
 
 }  // namespace
 
-void uncover_hands(FaceMemory& memory, const LogColour& picture, const HeadRegion& head, const cv::Mat& skin,
-                   cv::Mat& labels) {
-  const cv::Rect box = box_of(head, labels.size());
+void label_hands_over_face(FaceMemory& memory, const LogColour& image, const HeadRegion& head,
+                           const cv::Mat& skin, cv::Mat& labels) {
+  const cv::Rect box = bounding_box(head, labels.size());
   if (box.width < 5 || box.height < 7) {
     return;
   }
   constexpr auto kArms = static_cast<unsigned char>(Label::arms);
   constexpr auto kHead = static_cast<unsigned char>(Label::head);
   const cv::Mat arms = labels(box) == kArms;
-  const cv::Mat look = look_of(picture, head);
-  // A sliver beside the neck is no hand.
+  const cv::Mat appearance = sample_face(image, head);
+  // Update the memory if no arm is near the head; a few pixels beside the neck are no hand.
   if (cv::countNonZero(arms) * 25 < box.area()) {
-    if (memory.look.empty()) {
-      memory.look = look;
+    if (memory.appearance.empty()) {
+      memory.appearance = appearance;
     } else {
-      memory.look += 0.15 * (look - memory.look);
+      memory.appearance += 0.15 * (appearance - memory.appearance);
     }
     ++memory.frames;
     return;
@@ -68,20 +70,20 @@ void uncover_hands(FaceMemory& memory, const LogColour& picture, const HeadRegio
   if (memory.frames < kFramesToTrust) {
     return;
   }
-  // A hand shades the face: what all of it has become darker by is not a change.
-  cv::Mat difference = look - memory.look;
+  // Difference from the memory, without the darkening of the whole face in the shadow of a hand.
+  cv::Mat difference = appearance - memory.appearance;
   std::vector<float> values(difference.begin<float>(), difference.end<float>());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  difference = cv::abs(difference - std::clamp(*middle, -0.2F, 0.2F));
+  difference = cv::abs(difference - std::clamp(median(values), -0.2F, 0.2F));
   cv::blur(difference, difference, cv::Size(3, 3));
-  cv::Mat wide;
-  cv::warpAffine(difference, wide, map_of(head), labels.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT, 0);
-  cv::Mat changed = (wide(box) > kChanged) & (labels(box) == kHead) & skin(box);
-  // When nearly all of it is new the head turned away, or the track slid: no ground to accuse a hand.
+  cv::Mat change;
+  cv::warpAffine(difference, change, image_from_grid(head), labels.size(), cv::INTER_LINEAR,
+                 cv::BORDER_CONSTANT, 0);
+  cv::Mat changed = (change(box) > kChanged) & (labels(box) == kHead) & skin(box);
+  // If most of the head differs, it turned away or the track drifted; that is no evidence of a hand.
   if (cv::countNonZero(changed) * 5 > cv::countNonZero(labels(box) == kHead) * 3) {
     return;
   }
+  // Relabel the connected pieces that contain pixels of an arm.
   const int brush = std::max(3, static_cast<int>(0.25 * head.radii.x()) | 1);
   const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(brush, brush));
   cv::Mat hands = changed | arms;

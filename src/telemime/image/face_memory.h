@@ -8,19 +8,18 @@
 
 namespace telemime {
 
-/// What the head and neck look like when no hand is before them, in a frame that moves with the head: the
-/// plane l of LogColour on a fixed grid over the head's ellipse and the neck. A value; empty until first
-/// used.
+/// The appearance of head and neck without hands in front of them: luminance l of LogColour on a grid that
+/// moves with the head. Empty until the first frame.
 struct FaceMemory {
-  cv::Mat look;    ///< CV_32FC1
-  int frames = 0;  ///< that went into it
+  cv::Mat appearance;  ///< CV_32FC1
+  int frames = 0;      ///< number of frames averaged
 };
 
-/// Gives the pixels of hands before head and neck back to the arms: pixels labelled head, of skin colour
-/// (`skin`, CV_8UC1, not 0), that differ from the remembered look and hang together with arms outside. Frames
-/// in which no arm is near the head refresh the memory instead. `labels` as in FrameFeatures, changed in
-/// place.
-void uncover_hands(FaceMemory& memory, const LogColour& picture, const HeadRegion& head, const cv::Mat& skin,
-                   cv::Mat& labels);
+/// Labels the pixels of hands in front of head and neck as arms: pixels labelled head that have the colour of
+/// skin (`skin`, CV_8UC1, not 0), differ from the remembered appearance, and are connected with arms outside
+/// the head. A frame without an arm near the head updates the memory instead. `labels` (as in FrameFeatures)
+/// is modified.
+void label_hands_over_face(FaceMemory& memory, const LogColour& image, const HeadRegion& head,
+                           const cv::Mat& skin, cv::Mat& labels);
 
 }  // namespace telemime

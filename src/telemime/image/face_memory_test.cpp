@@ -41,24 +41,24 @@ Scene hand_before_face() {
   return s;
 }
 
-TEST(FaceMemory, TheHandBeforeTheMouthBecomesArms) {
+TEST(FaceMemory, HandBeforeMouthBecomesArms) {
   FaceMemory memory;
   for (int i = 0; i < 5; ++i) {
     Scene s = face();
-    uncover_hands(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
+    label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
     EXPECT_EQ(cv::countNonZero(s.labels == static_cast<int>(Label::arms)), 0);
   }
   Scene s = hand_before_face();
-  uncover_hands(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
+  label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
   EXPECT_EQ(s.labels.at<unsigned char>(98, 160), static_cast<int>(Label::arms));
   EXPECT_EQ(s.labels.at<unsigned char>(65, 160), static_cast<int>(Label::head)) << "the brow stays";
   EXPECT_EQ(s.labels.at<unsigned char>(150, 160), static_cast<int>(Label::arms));
 }
 
-TEST(FaceMemory, WithoutAMemoryNothingIsTaken) {
+TEST(FaceMemory, WithoutMemoryNothingChanges) {
   FaceMemory memory;
   Scene s = hand_before_face();
-  uncover_hands(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
+  label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
   EXPECT_EQ(s.labels.at<unsigned char>(98, 160), static_cast<int>(Label::head));
 }
 
@@ -66,11 +66,11 @@ TEST(FaceMemory, OnlySkinCanBeAHand) {
   FaceMemory memory;
   for (int i = 0; i < 5; ++i) {
     Scene s = face();
-    uncover_hands(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
+    label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
   }
   Scene s = hand_before_face();
   s.skin.setTo(0);
-  uncover_hands(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
+  label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
   EXPECT_EQ(s.labels.at<unsigned char>(98, 160), static_cast<int>(Label::head));
 }
 

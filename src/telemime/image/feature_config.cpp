@@ -15,7 +15,7 @@ void require(bool holds, const std::string& cause, const std::string& remedy) {
   }
 }
 
-/// Stripes or prints: components of different chroma that each cover a good part of the clothes.
+/// Whether the clothes have stripes or prints: two colours of different chroma with more than 10 % each.
 bool patterned(const ColourMixture& clothes) {
   for (const ColourGaussian& a : clothes) {
     for (const ColourGaussian& b : clothes) {
@@ -38,7 +38,7 @@ ImageConfig fitted_to(ImageConfig config, const Camera& camera) {
   config.segmentation.focal_length = static_cast<float>(camera.fx / camera.width);
   const Camera working = camera.scaled_to(config.width, config.height);
   const double stretched = working.fy / working.fx;
-  // Even sides are up to a pixel off: what was fitted once must stay as it is.
+  // Even sides are up to one pixel off: a configuration that was fitted must not change again.
   const double rounding = 1.1 * (1.0 / config.width + 1.0 / config.height);
   if (std::abs(stretched - 1.0) < std::max(0.01, rounding)) {
     return config;
@@ -77,28 +77,28 @@ std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColo
   const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
   std::vector<std::string> out;
   if (status.brightness < 12) {
-    out.push_back("the picture is black (mean grey " + std::to_string(std::lround(status.brightness)) +
+    out.push_back("the image is black (mean grey level " + std::to_string(std::lround(status.brightness)) +
                   " of 255): is the lens covered?");
   } else if (status.brightness < 40) {
-    out.push_back("the picture is dark (mean grey " + std::to_string(std::lround(status.brightness)) +
-                  " of 255): switch on a light");
+    out.push_back("the image is dark (mean grey level " + std::to_string(std::lround(status.brightness)) +
+                  " of 255): turn on a light");
   }
   if (!status.person) {
-    out.emplace_back("nobody is in the picture");
+    out.emplace_back("no person is visible");
   }
   if (status.camera_motion > 0.7) {
-    out.emplace_back("the camera moves: put it on something firm; the background cannot be used");
+    out.emplace_back("the camera moves, so the background model cannot be used: fix the camera");
   }
   if (std::abs(status.light_change) > 0.06) {
     out.push_back("the light changed by " + percent(std::exp(status.light_change) - 1) +
                   " since the background was learned");
   }
   if (colours.known() && status.person && status.skin_share < 0.13) {
-    out.push_back("little skin of the arms is seen (" + percent(status.skin_share) +
-                  " of arms and clothes): long sleeves or hidden arms make the pose less sure");
+    out.push_back("little skin of the arms is visible (" + percent(status.skin_share) +
+                  " of arms and clothes): long sleeves or hidden arms reduce the accuracy");
   }
   if (patterned(colours.clothes)) {
-    out.emplace_back("the clothes have several colours: plain clothes are told from skin more surely");
+    out.emplace_back("the clothes have several colours: plain clothes are easier to distinguish from skin");
   }
   return out;
 }

@@ -24,7 +24,7 @@ struct ImageConfig {
   int width = 160;                 ///< of the working image, pixels; see fitted_to
   int height = 120;                ///< pixels
   std::filesystem::path cascades;  ///< folder of OpenCV's face cascades; empty: searched
-  int face_width = 320;            ///< the face detector looks at pictures of at most this width
+  int face_width = 320;            ///< the face detector looks at images of at most this width
   HeadTrackerConfig head;
   double head_shape_rate = 0.2;  ///< share of each frame in the head's outline, [0, 1]
   ShadowRange shadow;
@@ -36,33 +36,24 @@ struct ImageConfig {
   void validate() const;
 };
 
-/// The configuration for pictures of this camera: its focal length, and a working image of about as many
-/// pixels whose pixels are square. People are known
-/// by their shape, and a picture of 16:9 that is squeezed into 4:3 makes every head too high. As it is where
-/// they are square within 1 %.
+/// The configuration for images of `camera`: its focal length, and a working image of about the configured
+/// number of pixels with square pixels (within 1 %). Heads are recognised by their shape, which an image of
+/// 16:9 squeezed into 4:3 would distort.
 ImageConfig fitted_to(ImageConfig config, const Camera& camera);
 
-/// What calibration learned; a value that can be saved (calibration_file.h).
-struct ImageCalibration {
-  BackgroundModel background;
-  ColourMixture surroundings;  ///< only when the scene was learned around a person
-  bool doubtful = false;       ///< ... and so may hold parts of that person
-  PersonColours colours;
-};
-
-/// How well the assumptions hold, as of the last frame.
+/// How well the assumptions of the method held in the last frame.
 struct ImageStatus {
-  bool person = false;                ///< somebody is in the picture
-  double silhouette_share = 0.0;      ///< of the picture
-  double known_background = 0.0;      ///< share of the picture whose background was seen
-  double camera_motion = 0.0;         ///< pixels per look at 160 columns, averaged
-  double light_change = 0.0;          ///< ln of the present light over the learned one, mean over the scene
-  double brightness = 0.0;            ///< mean grey level
-  double skin_share = 0.0;            ///< arms over arms and clothes, averaged over frames with a person
-  std::vector<std::string> warnings;  ///< sentences with what to do; empty when all is well
+  bool person = false;            ///< a person is in the image
+  double silhouette_share = 0.0;  ///< of the image
+  double known_background = 0.0;  ///< share of the image whose background is known
+  double camera_motion = 0.0;     ///< pixels per check at 160 columns, averaged
+  double light_change = 0.0;      ///< ln of the current luminance over the learned one, mean over the image
+  double brightness = 0.0;        ///< mean grey level
+  double skin_share = 0.0;        ///< pixels of arms over those of arms and clothes, averaged over time
+  std::vector<std::string> warnings;  ///< messages with a remedy; empty if all assumptions hold
 };
 
-/// The sentences for these numbers.
+/// The warnings for these values, as messages for the user.
 std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours);
 
 }  // namespace telemime

@@ -8,19 +8,17 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
-#include "telemime/image/camera_motion.h"
-#include "telemime/image/distance_map.h"
 #include "telemime/image/edges.h"
 #include "telemime/image/person_shape.h"
 
 namespace telemime {
 namespace {
 
-cv::Rect whole_of(const cv::Mat& picture) {
-  return {0, 0, picture.cols, picture.rows};
+cv::Rect full_rect(const cv::Mat& image) {
+  return {0, 0, image.cols, image.rows};
 }
 
-/// An arm beside or before the head: its outline is not the head's.
+/// Whether an arm is beside or in front of the head, so that the outline there is not the head's.
 bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
   const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(head.centre.x() - 1.6 * head.radii.x()),
                                           static_cast<int>(head.centre.y() - 1.5 * head.radii.y())),
@@ -36,13 +34,15 @@ bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
     : config_((config.validate(), config)), head_(config.head, config.cascades) {}
 
-FeatureExtractor::Pictures FeatureExtractor::pictures_of(const Frame& frame) const {
+FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
-    throw Error(ErrorKind::input, "frame " + std::to_string(frame.index) + " holds no colour picture");
+    throw Error(ErrorKind::input, "frame " + std::to_string(frame.index) + " has no 8-bit colour image");
   }
-  Pictures p;
+  // The working image.
+  WorkingImages p;
   cv::resize(frame.image, p.bgr, cv::Size(config_.width, config_.height), 0, 0, cv::INTER_AREA);
   cv::cvtColor(p.bgr, p.grey, cv::COLOR_BGR2GRAY);
+  // The face detector needs more pixels than the working image has, but not all of a large frame.
   const int face_width = std::min(config_.face_width, frame.image.cols);
   const int face_height = std::max(1, frame.image.rows * face_width / frame.image.cols);
   if (face_width == config_.width && face_height == config_.height) {
@@ -56,8 +56,8 @@ FeatureExtractor::Pictures FeatureExtractor::pictures_of(const Frame& frame) con
   return p;
 }
 
-std::optional<HeadRegion> FeatureExtractor::region_of(const std::optional<TrackedFace>& face,
-                                                      const Pictures& p) const {
+std::optional<HeadRegion> FeatureExtractor::head_region_of(const std::optional<TrackedFace>& face,
+                                                           const WorkingImages& p) const {
   if (!face) {
     return std::nullopt;
   }
@@ -65,11 +65,11 @@ std::optional<HeadRegion> FeatureExtractor::region_of(const std::optional<Tracke
                      static_cast<double>(config_.height) / p.face.rows);
 }
 
-cv::Rect FeatureExtractor::search_area(const Pictures& p) const {
-  if (!all_valid_ || silhouette_.empty()) {
-    return whole_of(p.face);
+cv::Rect FeatureExtractor::face_search_area(const WorkingImages& p) const {
+  if (!background_complete_ || silhouette_.empty()) {
+    return full_rect(p.face);
   }
-  // Where the scene is known a face is nowhere but in the silhouette of the frame before, or near it.
+  // With a complete background, a face can only be in or near the silhouette of the previous frame.
   const cv::Rect box = cv::boundingRect(silhouette_);
   if (box.empty()) {
     return {};
@@ -80,10 +80,10 @@ cv::Rect FeatureExtractor::search_area(const Pictures& p) const {
   return cv::Rect(static_cast<int>(box.x * sx) - margin, static_cast<int>(box.y * sy) - margin,
                   static_cast<int>(box.width * sx) + 2 * margin,
                   static_cast<int>(box.height * sy) + 2 * margin) &
-         whole_of(p.face);
+         full_rect(p.face);
 }
 
-FaceTest FeatureExtractor::face_test(const Pictures& p) const {
+FaceTest FeatureExtractor::skin_test(const WorkingImages& p) const {
   const double sx = static_cast<double>(config_.width) / p.face.cols;
   const double sy = static_cast<double>(config_.height) / p.face.rows;
   return [sx, sy, &colour = p.colour](const cv::Rect& face) {
@@ -94,7 +94,7 @@ FaceTest FeatureExtractor::face_test(const Pictures& p) const {
   };
 }
 
-void FeatureExtractor::follow_outline(const Pictures& p, const cv::Mat& silhouette) {
+void FeatureExtractor::follow_head_outline(const WorkingImages& p, const cv::Mat& silhouette) {
   if (head_.confirmed()) {
     return;
   }
@@ -105,43 +105,47 @@ void FeatureExtractor::follow_outline(const Pictures& p, const cv::Mat& silhouet
     const auto& track = head_.current();
     const cv::Point2d centre(square.x + 0.5 * square.width, square.y + 0.5 * square.height);
     if (track && cv::norm(track->centre - centre) > 0.7 * track->side) {
-      head_.forget();
+      head_.reset();
     }
     head_.adopt(p.face, square, 0.5);
   }
 }
 
-BackgroundEnergy FeatureExtractor::background_of(Pictures& pictures, const std::optional<HeadRegion>& head) {
+BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
+                                                        const std::optional<HeadRegion>& head) {
   const BackgroundModel& model = calibration_.background;
-  const cv::Size size = pictures.grey.size();
+  // Energy of pixels whose background is unknown: colours of the surroundings, position relative to the
+  // head, and the previous silhouette.
+  const cv::Size size = images.grey.size();
   cv::Mat unknown;
-  if (!all_valid_ || model.empty()) {
-    unknown = energy(calibration_.surroundings, pictures.colour);
+  if (!background_complete_ || model.empty()) {
+    unknown = energy(calibration_.surroundings, images.colour);
     cv::min(unknown, config_.segmentation.unknown_background_cost, unknown);
-    // Where the scene was never seen, place and the frame before must help the colours.
-    constexpr float kPlace = 5.0F;
-    constexpr float kBefore = 4.0F;
+    constexpr float kPositionWeight = 5.0F;
+    constexpr float kPreviousWeight = 4.0F;
     if (head) {
-      unknown += kPlace * body_prior(size, *head);
+      unknown += kPositionWeight * body_prior(size, *head);
     }
     if (!silhouette_.empty()) {
-      cv::add(unknown, cv::Scalar(kBefore), unknown, silhouette_);
+      cv::add(unknown, cv::Scalar(kPreviousWeight), unknown, silhouette_);
     }
   }
   if (model.empty()) {
     return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
   }
-  const LogColour gain = estimate_gain(model, pictures.colour, believed_);
+  // Compensate changes of light, exposure and white balance, then compare with the model.
+  const LogColour gain = estimate_gain(model, images.colour, background_mask_);
   status_.light_change = cv::mean(gain.l)[0];
-  subtract(pictures.colour, gain);
-  BackgroundEnergy out = background_energy(model, pictures.colour, config_.shadow, unknown);
+  subtract(images.colour, gain);
+  BackgroundEnergy out = background_energy(model, images.colour, config_.shadow, unknown);
   out.doubtful = calibration_.doubtful;
   return out;
 }
 
-bool FeatureExtractor::stands_out(const BackgroundEnergy& background, const HeadRegion& head) const {
-  // A face on a poster is where the background says; a person's head is not.
-  constexpr float kExplained = -9.0F;
+bool FeatureExtractor::differs_from_background(const BackgroundEnergy& background,
+                                               const HeadRegion& head) const {
+  // The background model explains a face on a poster, but not the head of a person.
+  constexpr float kBackgroundEnergy = -9.0F;
   int inside = 0;
   int explained = 0;
   for (int r = 0; r < background.energy.rows; ++r) {
@@ -150,7 +154,7 @@ bool FeatureExtractor::stands_out(const BackgroundEnergy& background, const Head
       const double y = (r - head.centre.y()) / head.radii.y();
       if (x * x + y * y < 0.8) {
         ++inside;
-        explained += background.energy.at<float>(r, c) < kExplained ? 1 : 0;
+        explained += background.energy.at<float>(r, c) < kBackgroundEnergy ? 1 : 0;
       }
     }
   }
@@ -158,19 +162,19 @@ bool FeatureExtractor::stands_out(const BackgroundEnergy& background, const Head
 }
 
 void FeatureExtractor::learn_background(std::span<const Frame> frames) {
-  std::vector<cv::Mat> pictures;
+  std::vector<cv::Mat> images;
   for (const Frame& frame : frames) {
-    pictures.push_back(pictures_of(frame).bgr);
+    images.push_back(working_images(frame).bgr);
   }
   ImageCalibration fresh;
-  fresh.background = learn_background_model(pictures);
+  fresh.background = learn_background_model(images);
   fresh.colours = calibration_.colours;
   set_calibration(std::move(fresh));
 }
 
 void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   calibration_ = std::move(calibration);
-  // The model follows the light: in planes of its own, not in those of whoever gave them.
+  // The model adapts to the light, so it needs planes that it does not share with the caller.
   BackgroundModel& scene = calibration_.background;
   for (cv::Mat* plane : {&scene.mean.u, &scene.mean.v, &scene.mean.l, &scene.chroma_variance,
                          &scene.luminance_variance, &scene.valid, &scene.seen}) {
@@ -181,50 +185,53 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
     throw Error(ErrorKind::config, "the background was learned at another working size",
                 "calibrate again, with the same --size and a camera of the same shape");
   }
-  believed_.release();
+  background_mask_.release();
   silhouette_.release();
-  motion_grey_.release();
+  motion_image_.release();
   const cv::Mat& valid = calibration_.background.valid;
-  all_valid_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
+  background_complete_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
 }
 
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
-  Pictures p = pictures_of(frame);
+  // Find the face, or the head by its outline if a mask hides the face.
+  WorkingImages p = working_images(frame);
   shape_ = HeadShape{};
-  std::optional<TrackedFace> face = head_.restart(p.face, whole_of(p.face), face_test(p));
-  if (!face && all_valid_share() > 0.3) {
-    // A mask hides a face, but not the outline of a head.
-    Pictures copy = p;
+  std::optional<TrackedFace> face = head_.detect(p.face, full_rect(p.face), skin_test(p));
+  if (!face && known_background_share() > 0.3) {
+    WorkingImages copy = p;
     copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};
-    const BackgroundEnergy scene = background_of(copy, std::nullopt);
-    follow_outline(
+    const BackgroundEnergy scene = background_energy_of(copy, std::nullopt);
+    follow_head_outline(
         p, segment(copy.colour, scene, PersonColours{}, std::nullopt, config_.segmentation).silhouette);
     face = head_.current();
   }
   if (!face) {
-    return {false, "no face was found: look at the camera, in enough light"};
+    return {false, "no face was found: look at the camera, and make sure that there is enough light"};
   }
-  std::optional<HeadRegion> head = region_of(face, p);
-  const BackgroundEnergy background = background_of(p, head);
-  if (!stands_out(background, *head)) {
-    head_.forget();
-    return {false, "the face found belongs to the background (a poster?): sit before the camera"};
+  // Reject faces that are part of the background.
+  std::optional<HeadRegion> head = head_region_of(face, p);
+  const BackgroundEnergy background = background_energy_of(p, head);
+  if (!differs_from_background(background, *head)) {
+    head_.reset();
+    return {false, "the detected face belongs to the background (a poster?): sit in front of the camera"};
   }
+  // Segment without colours and measure the head on the silhouette. The silhouette depends on the head, so
+  // this is done twice.
   Segmentation rough;
-  // The head's outline is measured on a silhouette that the head itself helped to find: twice is enough.
   for (int turn = 0; turn < 2; ++turn) {
     rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
-    if (!all_valid_) {
-      // Without a background, colours that are not known yet cannot tell the person from the scene.
+    if (!background_complete_) {
+      // Neither the background nor the colours are known yet: a graph cut separates the person.
       rough.silhouette = cut_person(p.bgr, *head);
     }
     shape_ = adapted(shape_, *head, rough.silhouette, 1.0);
-    head = region_of(face, p);
+    head = head_region_of(face, p);
   }
   if (!head->detected && !faces_camera(*head, rough.silhouette)) {
-    head_.forget();
-    return {false, "no face was found, and the outline is not that of somebody who faces the camera"};
+    head_.reset();
+    return {false, "no face was found, and the outline is not that of a person facing the camera"};
   }
+  // Learn the colours inside the silhouette.
   PersonReport report = learn_person_colours(p.colour, rough.silhouette, *head, calibration_.colours);
   if (report.accepted) {
     face_memory_ = FaceMemory{};
@@ -234,63 +241,72 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
 }
 
 FrameFeatures FeatureExtractor::extract(const Frame& frame) {
-  Pictures p = pictures_of(frame);
+  WorkingImages p = working_images(frame);
   FrameFeatures out;
-  const std::optional<TrackedFace> face = head_.update(p.face, search_area(p), face_test(p));
-  const HeadShape before = shape_;
+
+  // Head: track the face; a head that the background explains is rejected.
+  const std::optional<TrackedFace> face = head_.update(p.face, face_search_area(p), skin_test(p));
+  const HeadShape previous_shape = shape_;
   if (face && head_.replaced()) {
-    // The outline led so far: the head is as large as it was, around another square.
-    shape_ = carried(shape_, *head_.replaced(), *face);
+    // Until now the outline gave the face square. The head keeps its size around the detected square.
+    shape_ = rebased(shape_, *head_.replaced(), *face);
   }
-  out.head = region_of(face, p);
-  const BackgroundEnergy background = background_of(p, out.head);
-  if (out.head && !stands_out(background, *out.head)) {
-    head_.forget();
+  out.head = head_region_of(face, p);
+  const BackgroundEnergy background = background_energy_of(p, out.head);
+  if (out.head && !differs_from_background(background, *out.head)) {
+    head_.reset();
     out.head.reset();
-    shape_ = before;
+    shape_ = previous_shape;
   }
+
+  // Labels and silhouette.
   Segmentation segmentation =
       segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);
-  // The correlation can slide from the head to something else; colours then tell.
-  hollow_ = out.head && calibration_.colours.known() && segmentation.head_share < 0.25 ? hollow_ + 1 : 0;
-  if (hollow_ > 4) {
-    head_.forget();
-    hollow_ = 0;
+  // The correlation can drift off the head. The colours inside the head region reveal it.
+  frames_without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < 0.25
+                             ? frames_without_skin_ + 1
+                             : 0;
+  if (frames_without_skin_ > 4) {
+    head_.reset();
+    frames_without_skin_ = 0;
   }
-  // Only with the head well in place: a shifted look differs everywhere.
-  constexpr double kInPlace = 0.75;
-  if (out.head && calibration_.colours.known() && (face->detected || face->match > kInPlace)) {
-    uncover_hands(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels);
+  // Hands in front of the face. This needs an accurate head region: a shifted face differs everywhere.
+  constexpr double kReliableMatch = 0.75;
+  if (out.head && calibration_.colours.known() && (face->detected || face->match > kReliableMatch)) {
+    label_hands_over_face(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels);
   }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette;
-  follow_outline(p, out.silhouette);
+
+  // Update the head from the outline of the silhouette.
+  follow_head_outline(p, out.silhouette);
   if (out.head && !arms_near(*out.head, out.labels)) {
     shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
   }
 
+  // Edges inside the silhouette, whose outline may peak one pixel outside it, and their distance map.
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3));
   cv::Mat grown;
   cv::dilate(out.silhouette, grown, square);
-  // The outline may peak one pixel outside the silhouette.
   out.edges =
       find_edges(deriche_gradient(p.grey, config_.edges.alpha), grown, config_.edges.low, config_.edges.high);
   out.distance = distance_map(out.edges, config_.edges.distance_cap * config_.width / 160.0);
 
+  // Adapt the background model outside the person. A camera that was moved invalidates it.
   cv::dilate(grown, grown, square, cv::Point(-1, -1), 2);
-  cv::bitwise_not(grown, believed_);
+  cv::bitwise_not(grown, background_mask_);
   silhouette_ = out.silhouette;
-  // While the camera moves there is nothing to learn; after a knock everything is learned anew.
-  constexpr double kKnocked = 1.5;
-  if (status_.camera_motion > kKnocked && !calibration_.background.empty()) {
+  constexpr double kCameraMoved = 1.5;
+  if (status_.camera_motion > kCameraMoved && !calibration_.background.empty()) {
     calibration_.background.valid.setTo(0);
     calibration_.background.seen.setTo(0);
   } else if (!calibration_.background.empty() && config_.background_rate > 0) {
-    cv::Mat where = believed_.clone();
+    cv::Mat where = background_mask_.clone();
     where.setTo(0, background.shaded);
     adapt_background(calibration_.background, p.colour, where, config_.background_rate);
   }
-  watch_camera(p.grey);
+
+  update_camera_motion(p.grey);
   update_status(p, out);
   return out;
 }

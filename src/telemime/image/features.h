@@ -10,61 +10,68 @@
 #include "telemime/image/frame_features.h"
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
+#include "telemime/image/image_calibration.h"
 #include "telemime/image/scene_bootstrap.h"
 
 namespace telemime {
 
-/// Frame -> FrameFeatures (thesis 2.4.4.1, 3.4, 3.5.1). Holds what it has learned of the scene and the
-/// person; the same frames in the same order always give the same features.
+/// Turns a Frame into FrameFeatures (thesis 2.4.4.1, 3.4, 3.5.1). Holds the models of the scene and the
+/// person. The same frames in the same order always give the same features.
 ///
-///     FeatureExtractor features(config);
-///     features.learn_background(empty_frames);      // or features.bootstrap(clip)
-///     while (!features.learn_person(frame).accepted) frame = next();
-///     FrameFeatures seen = features.extract(frame);   // this and every later frame
+///     FeatureExtractor extractor(config);
+///     extractor.learn_background(empty_frames);  // or extractor.bootstrap(clip)
+///     while (!extractor.learn_person(frame).accepted) frame = next();
+///     FrameFeatures features = extractor.extract(frame);  // this frame and all later ones
 class FeatureExtractor {
  public:
-  /// Throws Error(config) for a bad configuration or missing face cascades.
+  /// Throws Error(config) for an invalid configuration or missing face cascades.
   explicit FeatureExtractor(const ImageConfig& config);
 
-  /// Learns the scene from frames without a person. Throws Error(usage) when there is none.
+  /// Learns the background model from frames without a person. Throws Error(usage) if `frames` is empty.
   void learn_background(std::span<const Frame> frames);
 
-  /// Learns what it can of the scene from frames of the clip itself (all of it, or the first second of a live
-  /// input; one frame is enough): an empty stretch, else around the person, else colours alone. At most 150
-  /// frames are looked at for an empty stretch, 16 spread over the clip for the rest.
+  /// Learns the background from the clip to be tracked: all frames of a file or the first second of a live
+  /// input; one frame is enough. Uses an empty stretch of the clip if there is one, otherwise the area around
+  /// the person, and only colours if the camera moves. At most 150 frames are searched for an empty stretch;
+  /// 20 frames spread over the clip serve for the rest. Throws Error(usage) if `clip` is empty.
   SceneReport bootstrap(std::span<const Frame> clip);
 
-  /// Learns skin, clothes and hair from a frame in which the face is seen. Refuses with a reason; then try
-  /// the next frame. Frames may be extracted before a person has begun: their labels are background and
-  /// ignore.
+  /// Learns the colours of skin, clothes and hair from a frame in which the face is visible. If the frame is
+  /// not suitable, the report gives the reason; try the next frame. Until a person has been learned,
+  /// extract() labels the person `ignore` outside the head.
   PersonReport learn_person(const Frame& frame);
 
-  /// Everything of one frame. Frames in the order of time.
+  /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
+  /// Error(input) if the frame has no 8-bit BGR image.
   FrameFeatures extract(const Frame& frame);
 
+  /// How well the assumptions held in the last extracted frame, with warnings for the user.
   const ImageStatus& status() const { return status_; }
   const ImageCalibration& calibration() const { return calibration_; }
+  /// Replaces the models of scene and person. Throws Error(config) if the background has another working
+  /// size.
   void set_calibration(ImageCalibration calibration);
   const ImageConfig& config() const { return config_; }
 
  private:
-  struct Pictures {
-    cv::Mat bgr;       ///< of the working size
-    cv::Mat grey;      ///< of the working size
-    cv::Mat face;      ///< grey, for the face detector
-    LogColour colour;  ///< of the working size
+  struct WorkingImages {
+    cv::Mat bgr;       ///< working size
+    cv::Mat grey;      ///< working size
+    cv::Mat face;      ///< grey, at the size of the face detector
+    LogColour colour;  ///< working size
   };
-  Pictures pictures_of(const Frame& frame) const;
-  std::optional<HeadRegion> region_of(const std::optional<TrackedFace>& face, const Pictures& p) const;
-  BackgroundEnergy background_of(Pictures& pictures, const std::optional<HeadRegion>& head);
-  bool stands_out(const BackgroundEnergy& background, const HeadRegion& head) const;
-  cv::Rect search_area(const Pictures& p) const;
-  FaceTest face_test(const Pictures& p) const;
-  void follow_outline(const Pictures& p, const cv::Mat& silhouette);
-  std::vector<SceneSample> samples_of(std::span<const Frame> clip);
-  double all_valid_share() const;
-  void watch_camera(const cv::Mat& grey);
-  void update_status(const Pictures& p, const FrameFeatures& seen);
+  WorkingImages working_images(const Frame& frame) const;
+  std::optional<HeadRegion> head_region_of(const std::optional<TrackedFace>& face,
+                                           const WorkingImages& p) const;
+  BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head);
+  bool differs_from_background(const BackgroundEnergy& background, const HeadRegion& head) const;
+  cv::Rect face_search_area(const WorkingImages& p) const;
+  FaceTest skin_test(const WorkingImages& p) const;
+  void follow_head_outline(const WorkingImages& p, const cv::Mat& silhouette);
+  std::vector<SceneSample> scene_samples(std::span<const Frame> clip);
+  double known_background_share() const;
+  void update_camera_motion(const cv::Mat& grey);
+  void update_status(const WorkingImages& p, const FrameFeatures& features);
 
   ImageConfig config_;
   HeadTracker head_;
@@ -72,13 +79,13 @@ class FeatureExtractor {
   FaceMemory face_memory_;
   ImageCalibration calibration_;
   ImageStatus status_;
-  bool all_valid_ = true;  ///< the background of every pixel was seen
-  cv::Mat believed_;       ///< background of the frame before
-  cv::Mat silhouette_;     ///< of the frame before
-  cv::Mat motion_grey_;    ///< picture of the last look at the camera's motion
-  cv::Mat motion_scene_;   ///< what was background at that look
-  int since_motion_ = 0;
-  int hollow_ = 0;  ///< frames in a row in which the head had neither skin nor hair
+  bool background_complete_ = true;  ///< the background is known at every pixel
+  cv::Mat background_mask_;          ///< 255 on the background of the previous frame
+  cv::Mat silhouette_;               ///< of the previous frame
+  cv::Mat motion_image_;             ///< image of the last camera motion check
+  cv::Mat motion_mask_;              ///< background mask of that image
+  int frames_since_motion_ = 0;
+  int frames_without_skin_ = 0;  ///< consecutive frames in which the head region had little skin or hair
 };
 
 }  // namespace telemime

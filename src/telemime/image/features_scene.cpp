@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of FeatureExtractor that look at the scene as a whole: bootstrap, camera motion, status.
+// The parts of FeatureExtractor that concern the whole scene: bootstrap, camera motion, status.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
-#include "telemime/image/camera_motion.h"
 #include "telemime/image/features.h"
 #include "telemime/image/person_shape.h"
 
 namespace telemime {
 namespace {
 
-cv::Mat working_picture(const Frame& frame, const ImageConfig& config) {
+cv::Mat working_image(const Frame& frame, const ImageConfig& config) {
   cv::Mat out;
   cv::resize(frame.image, out, cv::Size(config.width, config.height), 0, 0, cv::INTER_AREA);
   return out;
@@ -31,7 +30,7 @@ cv::Mat grey_at_most(const cv::Mat& image, int width) {
   return grey;
 }
 
-/// Does the scene itself move? Pictures 1 and 8 frames apart, all over the clip, corners far from any head.
+/// Whether the camera moves: motion of the background between frames 8 apart, spread over the clip.
 bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samples,
                   const ImageConfig& config) {
   std::vector<double> motions;
@@ -46,8 +45,8 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
       scene = body_prior(scene.size(), *samples[i].head) < 0;
     }
     const auto moved =
-        scene_motion(grey_at_most(working_picture(clip[at], config), config.width),
-                     grey_at_most(working_picture(clip[at + kApart], config), config.width), scene);
+        scene_motion(grey_at_most(working_image(clip[at], config), config.width),
+                     grey_at_most(working_image(clip[at + kApart], config), config.width), scene);
     if (moved) {
       motions.push_back(*moved * 160.0 / config.width);
     }
@@ -61,74 +60,78 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
 
 }  // namespace
 
-std::vector<SceneSample> FeatureExtractor::samples_of(std::span<const Frame> clip) {
+std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> clip) {
   constexpr std::size_t kSamples = 20;
   std::vector<SceneSample> samples;
   const std::size_t count = std::min(kSamples, clip.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = clip[count == 1 ? 0 : i * (clip.size() - 1) / (count - 1)];
-    const Pictures p = pictures_of(frame);
+    const WorkingImages p = working_images(frame);
     samples.push_back(
-        {p.bgr, region_of(head_.restart(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), face_test(p)), p)});
+        {p.bgr,
+         head_region_of(head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p)), p)});
   }
-  head_.forget();
+  head_.reset();
   return samples;
 }
 
 SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   if (clip.empty()) {
-    throw Error(ErrorKind::usage, "the scene cannot be learned from no frames");
+    throw Error(ErrorKind::usage, "the background cannot be learned: there are no frames");
   }
+  // Find the heads in frames spread over the clip.
   shape_ = HeadShape{};
   ImageCalibration fresh;
   fresh.colours = calibration_.colours;
   SceneReport report;
-  const std::vector<SceneSample> samples = samples_of(clip);
+  const std::vector<SceneSample> samples = scene_samples(clip);
   const auto with_head =
       std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
 
-  constexpr std::size_t kMostPictures = 150;
-  std::vector<cv::Mat> pictures;
-  const std::size_t half = std::min(kMostPictures, clip.size()) / 2;
-  const bool whole = clip.size() <= kMostPictures;
+  // First choice: a stretch at the start or the end of the clip in which nothing moves.
+  constexpr std::size_t kMostImages = 150;
+  std::vector<cv::Mat> images;
+  const std::size_t half = std::min(kMostImages, clip.size()) / 2;
+  const bool whole = clip.size() <= kMostImages;
   for (std::size_t i = 0; i < (whole ? clip.size() : 2 * half); ++i) {
-    pictures.push_back(working_picture(clip[whole || i < half ? i : clip.size() - 2 * half + i], config_));
+    images.push_back(working_image(clip[whole || i < half ? i : clip.size() - 2 * half + i], config_));
   }
-  const auto [first, count] = find_still_stretch(pictures);
+  const auto [first, count] = find_still_stretch(images);
   if (count > 0 && with_head > 0) {
-    const std::span<const cv::Mat> still(pictures.data() + first, count);
+    const std::span<const cv::Mat> still(images.data() + first, count);
     ImageCalibration candidate = fresh;
     candidate.background = learn_background_model(still);
     set_calibration(candidate);
-    // Somebody who sat still all that time is part of such a model, and his head does not stand out from it.
+    // A person who sat still during the stretch is part of the model, so the head does not differ from it.
     const auto head =
         std::find_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
     LogColour colour = log_colour(head->bgr);
     subtract(colour, estimate_gain(candidate.background, colour, {}));
-    const auto has_face = [this](const cv::Mat& picture) {
-      const LogColour colours = log_colour(picture);
-      const bool found =
-          head_
-              .restart(grey_at_most(picture, picture.cols), cv::Rect(0, 0, picture.cols, picture.rows),
-                       [&](const cv::Rect& face) { return possible_skin(colours, face) > 0.2; })
-              .has_value();
-      head_.forget();
+    const auto has_face = [this](const cv::Mat& image) {
+      const LogColour colours = log_colour(image);
+      const bool found = head_
+                             .detect(grey_at_most(image, image.cols), cv::Rect(0, 0, image.cols, image.rows),
+                                     [&](const cv::Rect& face) { return possible_skin(colours, face) > 0.2; })
+                             .has_value();
+      head_.reset();
       return found;
     };
     const bool empty =
-        stands_out(background_energy(candidate.background, colour, config_.shadow, {}), *head->head) &&
+        differs_from_background(background_energy(candidate.background, colour, config_.shadow, {}),
+                                *head->head) &&
         !has_face(still.front()) && !has_face(still[count / 2]);
     if (empty) {
       const std::size_t offset = whole || first < half ? 0 : clip.size() - 2 * half;
       report = {SceneSource::empty_stretch, first + offset, count, 1.0,
                 "the background was learned from " + std::to_string(count) +
-                    " frames without a person, from frame " + std::to_string(first + offset) + " on"};
+                    " frames without a person, starting at frame " + std::to_string(first + offset)};
       return report;
     }
   }
+  // Second choice: learn around the person, as long as the camera does not move.
   if (with_head == 0 && samples.size() < 8) {
     set_calibration(fresh);
-    report.sentence = "no face was found: the scene could not be learned";
+    report.sentence = "no face was found: the background could not be learned";
     return report;
   }
   fresh.background = learn_around_person(samples);
@@ -139,55 +142,56 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     fresh.background.valid.setTo(0);
     status_.camera_motion = 2.0;
     report.source = SceneSource::colours_only;
-    report.sentence = "the camera moves: only colours tell the person from the scene";
+    report.sentence = "the camera moves: the person is separated from the background by colour alone";
   }
   report.known =
       cv::countNonZero(fresh.background.valid) / static_cast<double>(fresh.background.valid.total());
   if (report.source == SceneSource::moving_person) {
     report.sentence =
         "the background was learned around the person: " + std::to_string(std::lround(100 * report.known)) +
-        " % of the picture is known";
+        " % of the image is known";
   }
   set_calibration(std::move(fresh));
   return report;
 }
 
-double FeatureExtractor::all_valid_share() const {
+double FeatureExtractor::known_background_share() const {
   const cv::Mat& valid = calibration_.background.valid;
   return valid.empty() ? 0.0 : cv::countNonZero(valid) / static_cast<double>(valid.total());
 }
 
-void FeatureExtractor::watch_camera(const cv::Mat& grey) {
-  if (config_.motion_every == 0 || ++since_motion_ < config_.motion_every) {
+void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
+  if (config_.motion_every == 0 || ++frames_since_motion_ < config_.motion_every) {
     return;
   }
-  since_motion_ = 0;
-  if (!motion_grey_.empty()) {
-    if (const auto moved = scene_motion(motion_grey_, grey, motion_scene_ & believed_)) {
-      // One lively curtain is not a moving camera: averaged over a few looks, large steps cut.
+  frames_since_motion_ = 0;
+  if (!motion_image_.empty()) {
+    if (const auto moved = scene_motion(motion_image_, grey, motion_mask_ & background_mask_)) {
+      // A moving curtain is not a moving camera: clip large steps and average over several checks.
       const double step = std::min(*moved * 160.0 / config_.width, 5.0);
       status_.camera_motion += 0.3 * (step - status_.camera_motion);
     }
   }
-  motion_grey_ = grey;
-  motion_scene_ = believed_.clone();
+  motion_image_ = grey;
+  motion_mask_ = background_mask_.clone();
 }
 
-void FeatureExtractor::update_status(const Pictures& p, const FrameFeatures& seen) {
-  const auto total = static_cast<double>(seen.labels.total());
+void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures& features) {
+  // Shares of the image.
+  const auto total = static_cast<double>(features.labels.total());
   const auto share = [&](Label label) {
-    return cv::countNonZero(seen.labels == static_cast<unsigned char>(label)) / total;
+    return cv::countNonZero(features.labels == static_cast<unsigned char>(label)) / total;
   };
-  status_.silhouette_share = cv::countNonZero(seen.silhouette) / total;
-  status_.person = seen.head.has_value() || status_.silhouette_share > 0.02;
+  status_.silhouette_share = cv::countNonZero(features.silhouette) / total;
+  status_.person = features.head.has_value() || status_.silhouette_share > 0.02;
   status_.brightness = cv::mean(p.grey)[0];
-  status_.known_background = all_valid_share();
-  all_valid_ = status_.known_background >= 1.0;
+  status_.known_background = known_background_share();
+  background_complete_ = status_.known_background >= 1.0;
+  // Share of skin on the arms: the first frames decide quickly, later ones correct slowly.
   const double arms = share(Label::arms);
   const double clothes = share(Label::clothes);
   if (arms + clothes > 0.02) {
     const double now = arms / (arms + clothes);
-    // The first frames decide quickly, later ones correct slowly.
     status_.skin_share += (status_.skin_share == 0.0 ? 1.0 : 0.03) * (now - status_.skin_share);
   }
   status_.warnings = warnings_of(status_, calibration_.colours);

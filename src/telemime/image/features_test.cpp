@@ -57,7 +57,7 @@ double agreement(const std::vector<FrameFeatures>& seen, const nlohmann::json& t
   return all > 0 ? static_cast<double>(good) / all : 0.0;
 }
 
-TEST(ImageConfig, RefusesValuesThatCannotWorkAndNamesThem) {
+TEST(ImageConfig, RefusesInvalidValues) {
   ImageConfig config;
   EXPECT_NO_THROW(config.validate());
   config.width = 3;
@@ -70,7 +70,7 @@ TEST(ImageConfig, RefusesValuesThatCannotWorkAndNamesThem) {
   EXPECT_THROW(config.validate(), Error);
 }
 
-TEST(ImageConfig, TheWorkingImageHasSquarePixelsAndAboutAsMany) {
+TEST(ImageConfig, WorkingImageKeepsPixelCountAndIsSquare) {
   ImageConfig config;
   config.width = 320;
   config.height = 240;
@@ -92,7 +92,7 @@ TEST(ImageConfig, TheWorkingImageHasSquarePixelsAndAboutAsMany) {
   }
 }
 
-TEST(ImageConfig, AWorkingImageThatWasFittedIsNotFittedAgain) {
+TEST(ImageConfig, FittedWorkingImageIsNotFittedAgain) {
   for (const auto& [columns, rows] : {std::pair(40, 30),
                                       {44, 33},
                                       {60, 45},
@@ -117,7 +117,7 @@ TEST(ImageConfig, AWorkingImageThatWasFittedIsNotFittedAgain) {
   }
 }
 
-TEST(ImageConfig, AWorkingImageWithSquarePixelsStaysAndOddShapesStayValid) {
+TEST(ImageConfig, SquarePixelsStayAndOddShapesStayValid) {
   ImageConfig config;
   config.width = 320;
   config.height = 240;
@@ -132,14 +132,14 @@ TEST(ImageConfig, AWorkingImageWithSquarePixelsStaysAndOddShapesStayValid) {
   }
 }
 
-TEST(ImageConfig, TheFocalLengthIsTheCameras) {
+TEST(ImageConfig, FocalLengthIsThatOfTheCamera) {
   for (const double degrees : {43.6, 60.0, 90.0}) {
     const ImageConfig fitted = fitted_to(ImageConfig(), camera_from_field_of_view(1280, 720, degrees));
     EXPECT_NEAR(fitted.segmentation.focal_length, 0.5 / std::tan(degrees / 2 * M_PI / 180), 1e-3) << degrees;
   }
 }
 
-TEST(ImageConfig, AMissingCascadeIsAnErrorThatNamesTheFolder) {
+TEST(ImageConfig, MissingCascadeIsAnErrorNamingTheFolder) {
   ImageConfig config;
   config.cascades = "/no/such/folder";
   try {
@@ -151,7 +151,7 @@ TEST(ImageConfig, AMissingCascadeIsAnErrorThatNamesTheFolder) {
   }
 }
 
-TEST(ImageStatus, EachBrokenAssumptionHasItsSentence) {
+TEST(ImageStatus, EachViolatedAssumptionHasAWarning) {
   ImageStatus status;
   status.person = true;
   status.brightness = 120;
@@ -173,7 +173,7 @@ TEST(ImageStatus, EachBrokenAssumptionHasItsSentence) {
   status.brightness = 3;
   EXPECT_TRUE(says("lens"));
   status.person = false;
-  EXPECT_TRUE(says("nobody"));
+  EXPECT_TRUE(says("no person"));
   ColourGaussian white;
   ColourGaussian blue;
   white.weight = blue.weight = 0.5F;
@@ -182,7 +182,7 @@ TEST(ImageStatus, EachBrokenAssumptionHasItsSentence) {
   EXPECT_TRUE(says("several colours"));
 }
 
-TEST(FeatureExtractor, ABlackPictureGivesAnEmptyObservationOfTheRightShape) {
+TEST(FeatureExtractor, BlackImageGivesEmptyFeaturesOfRightSize) {
   FeatureExtractor features(ImageConfig{});
   const Frame black{cv::Mat::zeros(480, 640, CV_8UC3), 0, 0.0};
   const std::vector<Frame> empty(3, black);
@@ -201,7 +201,7 @@ TEST(FeatureExtractor, ABlackPictureGivesAnEmptyObservationOfTheRightShape) {
 
 class OnClip : public testing::TestWithParam<const char*> {};
 
-TEST_P(OnClip, LabelsAgreeWithTheTrueJointsAndAreRepeatable) {
+TEST_P(OnClip, LabelsMatchTrueJointsAndRepeat) {
   const std::filesystem::path clip = data_folder() / GetParam();
   if (!std::filesystem::exists(clip / "truth.json")) {
     GTEST_SKIP() << "no test clip at " << clip;
@@ -237,7 +237,7 @@ INSTANTIATE_TEST_SUITE_P(Dev, OnClip,
                          testing::Values("dev/raising_arms", "dev/exclaiming", "dev/asking",
                                          "dev_practical/desk_talk"));
 
-TEST(FeatureExtractor, FindsTheEmptyStartOfAClip) {
+TEST(FeatureExtractor, FindsEmptyStartOfClip) {
   const std::filesystem::path clip = data_folder() / "dev_practical/enter_leave/video.mp4";
   if (!std::filesystem::exists(clip)) {
     GTEST_SKIP() << "no test clip at " << clip;
@@ -256,7 +256,7 @@ TEST(FeatureExtractor, FindsTheEmptyStartOfAClip) {
   EXPECT_TRUE(features.status().person);
 }
 
-TEST(FeatureExtractor, AHeadKeepsItsSizeWhenItsFaceIsFirstSeen) {
+TEST(FeatureExtractor, HeadKeepsItsSizeAtFirstDetection) {
   const std::filesystem::path clip = data_folder() / "dev_practical/enter_leave/video.mp4";
   if (!std::filesystem::exists(clip)) {
     GTEST_SKIP() << "no test clip at " << clip;

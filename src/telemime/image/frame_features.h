@@ -10,29 +10,31 @@
 
 namespace telemime {
 
-/// Class of a pixel of the working image.
+/// Class of a pixel of the working image, as estimated by the segmentation.
 enum class Label : std::uint8_t {
   background = 0,
   head = 1,      ///< face, hair and neck
   arms = 2,      ///< skin outside the head
-  clothes = 3,   ///< shirt, jumper: what covers the torso and the sleeves
-  ignore = 255,  ///< nobody knows, or not modelled (trousers, a chair): counts neither for nor against
+  clothes = 3,   ///< clothes of the torso and the sleeves
+  ignore = 255,  ///< unknown or not modelled (trousers, a chair): no cue counts it
 };
 
-/// The head as an upright ellipse, pixels of the working image.
+/// The head as an upright ellipse, in pixels of the working image.
 struct HeadRegion {
   Eigen::Vector2d centre{0.0, 0.0};
-  Eigen::Vector2d radii{0.0, 0.0};  ///< half width, half height: crown to chin
-  bool detected = false;  ///< true: the face detector fired in this frame; false: carried on by tracking
+  Eigen::Vector2d radii{0.0, 0.0};  ///< half width; half height from crown to chin
+  bool detected =
+      false;  ///< true: by the face detector in this frame; false: by tracking or from the outline
 };
 
-/// What the image says, and all that the search sees of it.
+/// What is extracted from one frame: all that the likelihood and the search see of the image. The planes have
+/// the size of the working image, h x w.
 struct FrameFeatures {
   cv::Mat labels;      ///< (h x w) CV_8UC1, values of Label
-  cv::Mat silhouette;  ///< (h x w) CV_8UC1, 255 where the person is
+  cv::Mat silhouette;  ///< (h x w) CV_8UC1, 255 on the person
   cv::Mat edges;       ///< (h x w) CV_8UC1, 255 on edges inside the silhouette
-  cv::Mat distance;    ///< (h x w) CV_32FC1, pixels to the nearest edge, capped
-  std::optional<HeadRegion> head;
+  cv::Mat distance;    ///< (h x w) CV_32FC1, pixels to the nearest edge, capped (see distance_map)
+  std::optional<HeadRegion> head;  ///< empty: no head was found
 };
 
 }  // namespace telemime

@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-// What a HeadShape may hold.
+/// Range of a value of HeadShape.
 struct Range {
   double least;
   double most;
@@ -21,10 +21,11 @@ constexpr Range kShift{-0.25, 0.25};
 constexpr Range kHalfWidth{0.34, 0.62};
 constexpr Range kCrown{0.5, 1.0};
 
-double within(const Range& range, double value) {
+double clamped(const Range& range, double value) {
   return std::clamp(value, range.least, range.most);
 }
 
+/// The quantile of at least three values; empty for fewer.
 std::optional<double> quantile(std::vector<double> values, double share) {
   if (values.size() < 3) {
     return std::nullopt;
@@ -35,7 +36,7 @@ std::optional<double> quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// Steps from (row, column) along (dr, dc) while inside the silhouette; at most `most`.
+/// Number of steps from (row, column) along (dr, dc) inside the silhouette, at most `most`.
 int run_length(const cv::Mat& silhouette, int row, int column, int dr, int dc, int most) {
   int steps = 0;
   while (steps < most) {
@@ -50,13 +51,14 @@ int run_length(const cv::Mat& silhouette, int row, int column, int dr, int dc, i
   return steps;
 }
 
+/// The silhouette pixels [left, right] of a row.
 struct Run {
   int left = 0;
   int right = -1;
   int width() const { return right - left + 1; }
 };
 
-/// The run of the silhouette in a row that holds the column, or the widest one when the column is outside.
+/// The run in `row` that contains `column`, or the widest run if none does.
 Run run_at(const cv::Mat& person, int row, int column) {
   Run best;
   const auto* p = person.ptr<unsigned char>(row);
@@ -77,14 +79,15 @@ Run run_at(const cv::Mat& person, int row, int column) {
   return best;
 }
 
-/// Follows the person down from the top until the rows widen into shoulders.
+/// Follows the person down from the top until the rows widen to the shoulders. The width of the head must be
+/// between `thinnest` and `widest`.
 std::optional<HeadRegion> head_of_person(const cv::Mat& person, double thinnest, double widest) {
   int top = 0;
   while (top < person.rows && run_at(person, top, -1).width() <= 0) {
     ++top;
   }
   const bool cut_by_picture = top <= 1;
-  // Widths of the rows so far. Shoulders slope, so a row is compared with those well above it.
+  // The runs so far. Shoulders slope, so a row is compared with those well above it.
   std::vector<Run> runs;
   const auto widest_of_upper = [&runs] {
     const auto upper =
@@ -142,17 +145,17 @@ HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double s
   return head;
 }
 
-HeadShape carried(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to) {
+HeadShape rebased(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to) {
   const double larger = from.side / to.side;
   HeadShape out = shape;
-  out.shift = within(kShift, shape.shift * larger + (from.centre.x - to.centre.x) / to.side);
-  out.half_width = within(kHalfWidth, shape.half_width * larger);
-  out.crown = within(kCrown, shape.crown * larger - (from.centre.y - to.centre.y) / to.side);
+  out.shift = clamped(kShift, shape.shift * larger + (from.centre.x - to.centre.x) / to.side);
+  out.half_width = clamped(kHalfWidth, shape.half_width * larger);
+  out.crown = clamped(kCrown, shape.crown * larger - (from.centre.y - to.centre.y) / to.side);
   return out;
 }
 
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate) {
-  // Pixels of a side, from the region that the shape made.
+  // Side of the face square in working pixels.
   const double side_x = head.radii.x() / shape.half_width;
   const double side_y = 2 * head.radii.y() / (shape.crown + shape.chin);
   const auto inside = [&](int r, int c) {
@@ -162,6 +165,7 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
   const int middle_row = static_cast<int>(std::lround(head.centre.y()));
   const int middle_column = static_cast<int>(std::lround(head.centre.x()));
 
+  // Distances from the centre to the crown, in columns near the middle.
   std::vector<double> tops;
   const int reach_up = static_cast<int>(1.5 * head.radii.y());
   const int across = std::max(1, static_cast<int>(0.4 * head.radii.x()));
@@ -174,6 +178,7 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
       tops.push_back(run + 0.5 - (head.centre.y() - middle_row));
     }
   }
+  // Left and right outline, in rows around the centre.
   std::vector<double> lefts;
   std::vector<double> rights;
   const int reach = static_cast<int>(1.6 * head.radii.x());
@@ -191,12 +196,12 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
     }
   }
 
+  // Move the shape towards the measured outline. The centre of the square is in working pixels.
   HeadShape out = shape;
-  // The square's centre, in working pixels.
   const double face_x = head.centre.x() - shape.shift * side_x;
   const double face_y = head.centre.y() - 0.5 * (shape.chin - shape.crown) * side_y;
   const auto move = [rate](double& value, double measured, const Range& range) {
-    value += rate * (within(range, measured) - value);
+    value += rate * (clamped(range, measured) - value);
   };
   if (const auto top = quantile(tops, 0.7)) {
     move(out.crown, (face_y - (head.centre.y() - *top)) / side_y, kCrown);
@@ -211,6 +216,7 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
 }
 
 std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
+  // The largest component must be large enough for a person.
   const ConnectedComponents pieces(silhouette, Connectivity::eight);
   const auto largest =
       std::max_element(pieces.all().begin(), pieces.all().end(),
@@ -220,7 +226,7 @@ std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
       largest->area < kSmallestPerson * static_cast<double>(silhouette.total())) {
     return std::nullopt;
   }
-  // Ragged outlines have spikes: a head is never thinner than this share of the person.
+  // Remove spikes of the outline: the width of a head is at least this share of the person's size.
   const double scale = std::sqrt(static_cast<double>(largest->area));
   const double thinnest = 0.14 * scale;
   const int brush = std::max(3, static_cast<int>(0.5 * thinnest) | 1);

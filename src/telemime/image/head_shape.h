@@ -9,35 +9,37 @@
 
 namespace telemime {
 
-/// How a person's head lies around the square of the face detector, in sides of that square. Hair decides
-/// the crown and the width, so both are measured on the silhouette and carried along.
+/// The head of a person relative to the square of the face detector, in sides of that square. Crown and width
+/// depend on the hair, so they are measured on the silhouette.
 struct HeadShape {
-  double shift = 0.0;        ///< of the head's middle to the right of the square's
-  double half_width = 0.44;  ///< hair included
+  double shift = 0.0;  ///< from the centre of the square to the middle of the head, positive to the right
+  double half_width = 0.44;  ///< including hair
   double crown = 0.74;       ///< above the square's centre
-  double chin = 0.57;        ///< below the square's centre; not measured, the neck hides it
+  double chin = 0.57;        ///< below the square's centre; not measured: the neck hides it in the silhouette
 };
 
-/// The head's ellipse. `scale_x`, `scale_y`: from pixels of the detector's picture to working pixels.
+/// The ellipse of the head in working pixels. `scale_x` and `scale_y` convert pixels of the detector's image
+/// to working pixels.
 HeadRegion head_region(const TrackedFace& face, const HeadShape& shape, double scale_x, double scale_y);
 
-/// The shape moved by `rate` (0 to 1) towards what the silhouette (CV_8UC1, working pixels) shows around
-/// `head`, the region that `shape` gave. Rows and columns where something else touches the head are left out.
+/// `shape` moved by `rate` (0 to 1) towards the outline of the silhouette (CV_8UC1, working size) around
+/// `head`, the region of `shape`. Rows and columns in which something else touches the head are ignored.
 HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat& silhouette, double rate);
 
-/// The shape around the square `to` of the head that `shape` had around the square `from`, within what heads
-/// may have. Only the chin is where the new square says.
-HeadShape carried(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to);
+/// The shape, relative to the square `to`, of the head that has `shape` relative to the square `from`,
+/// limited to the range of human heads. The chin is not converted: it keeps its distance in sides of the
+/// square.
+HeadShape rebased(const HeadShape& shape, const TrackedFace& from, const TrackedFace& to);
 
-/// The head of an upright person whose face is not seen (turned away, a mask, too small), from the outline
-/// alone: the top of the largest piece of the silhouette, down to where it widens into shoulders. Working
-/// pixels, not `detected`. Nothing when no such shape is there.
+/// The head of an upright person whose face cannot be detected (turned away, masked or too small): the top of
+/// the largest component of the silhouette, down to where it widens to the shoulders. In working pixels, not
+/// `detected`. Empty if there is no such shape.
 std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette);
 
-/// Are there shoulders on both sides of the head, alike in width?
+/// Whether there are shoulders of similar width on both sides of the head.
 bool faces_camera(const HeadRegion& head, const cv::Mat& silhouette);
 
-/// The detector's square that `shape` would have turned into `head`; inverse of head_region.
+/// The square of the face detector for which head_region gives `head`; the inverse of head_region.
 cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y);
 
 }  // namespace telemime

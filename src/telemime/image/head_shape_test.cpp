@@ -39,22 +39,22 @@ TEST(HeadShape, SquareAndEllipseAreInverse) {
   EXPECT_TRUE(head.detected);
 }
 
-TEST(HeadShape, CarriedToAnotherSquareItIsTheSameHead) {
+TEST(HeadShape, RebasedShapeIsTheSameHead) {
   const HeadShape shape{-0.05, 0.48, 0.72, 0.57};
   const TrackedFace outline{{100.0, 60.0}, 40.0, false, 1.0};
   const TrackedFace seen{{96.0, 63.0}, 33.0, true, 1.0};
   const HeadRegion before = head_region(outline, shape, 0.5, 0.5);
-  const HeadRegion after = head_region(seen, carried(shape, outline, seen), 0.5, 0.5);
+  const HeadRegion after = head_region(seen, rebased(shape, outline, seen), 0.5, 0.5);
   EXPECT_NEAR(after.centre.x(), before.centre.x(), 1e-9);
   EXPECT_NEAR(after.radii.x(), before.radii.x(), 1e-9);
   EXPECT_NEAR(after.centre.y() - after.radii.y(), before.centre.y() - before.radii.y(), 1e-9) << "the crown";
 }
 
-TEST(HeadShape, CarriedItStaysWithinWhatHeadsHave) {
+TEST(HeadShape, RebasedShapeStaysInRange) {
   const HeadShape shape;
   const TrackedFace outline{{100.0, 60.0}, 40.0, false, 1.0};
-  const HeadShape small = carried(shape, outline, {{200.0, 90.0}, 400.0, true, 1.0});
-  const HeadShape large = carried(shape, outline, {{0.0, 90.0}, 4.0, true, 1.0});
+  const HeadShape small = rebased(shape, outline, {{200.0, 90.0}, 400.0, true, 1.0});
+  const HeadShape large = rebased(shape, outline, {{0.0, 90.0}, 4.0, true, 1.0});
   for (const HeadShape& s : {small, large}) {
     EXPECT_LE(std::abs(s.shift), 0.25);
     EXPECT_GE(s.half_width, 0.34);
@@ -65,7 +65,7 @@ TEST(HeadShape, CarriedItStaysWithinWhatHeadsHave) {
   }
 }
 
-TEST(HeadShape, TheOutlineGivesTheHead) {
+TEST(HeadShape, OutlineGivesTheHead) {
   for (const cv::Point where : {cv::Point(160, 70), cv::Point(90, 100), cv::Point(200, 50)}) {
     const auto head = head_from_silhouette(person(where, {18, 26}));
     ASSERT_TRUE(head.has_value());
@@ -77,7 +77,7 @@ TEST(HeadShape, TheOutlineGivesTheHead) {
   }
 }
 
-TEST(HeadShape, NoHeadInABoxOrInNothing) {
+TEST(HeadShape, NoHeadInBoxOrEmptyMask) {
   cv::Mat box = cv::Mat::zeros(240, 320, CV_8UC1);
   EXPECT_FALSE(head_from_silhouette(box).has_value());
   box(cv::Rect(100, 60, 80, 180)).setTo(kWhite);
@@ -107,7 +107,7 @@ TEST(HeadShape, FacingTheCameraMeansTwoShoulders) {
   EXPECT_FALSE(faces_camera(head, silhouette));
 }
 
-TEST(PersonShape, TheCutFindsAPersonBeforeAPlainWallAndIsTheSameEachTime) {
+TEST(PersonShape, CutFindsPersonAndIsDeterministic) {
   cv::Mat bgr(240, 320, CV_8UC3, cv::Scalar(150, 140, 130));
   const cv::Mat truth = person({160, 70}, {18, 26});
   bgr.setTo(cv::Scalar(40, 40, 160), truth);
@@ -123,7 +123,7 @@ TEST(PersonShape, TheCutFindsAPersonBeforeAPlainWallAndIsTheSameEachTime) {
   EXPECT_EQ(cv::theRNG().state, 12345U);
 }
 
-TEST(PersonShape, ThePriorIsHighInTheHeadAndLowFarAway) {
+TEST(PersonShape, PriorIsHighOnHeadAndLowFarAway) {
   HeadRegion head;
   head.centre = {160, 70};
   head.radii = {18, 26};

@@ -9,11 +9,11 @@
 namespace telemime {
 namespace {
 
-/// Side of the face in the correlation's picture, and how far the face may move in one frame (of its side).
+/// Side of the face image for the correlation in pixels; largest motion between frames in sides of the face.
 constexpr int kPatch = 20;
 constexpr double kReach = 0.5;
 
-/// The square of `side` around `centre`, resampled to `size` pixels.
+/// The square of side `side` around `centre`, resampled to `size` x `size` pixels.
 cv::Mat square_at(const cv::Mat& grey, const cv::Point2d& centre, double side, int size) {
   const double scale = side / size;
   const cv::Matx23d map(scale, 0, centre.x - 0.5 * side + 0.5 * scale, 0, scale,
@@ -24,7 +24,7 @@ cv::Mat square_at(const cv::Mat& grey, const cv::Point2d& centre, double side, i
   return out;
 }
 
-/// Offset of the top of the parabola through three values, in [-0.5, 0.5].
+/// Offset of the vertex of the parabola through three values, in [-0.5, 0.5].
 double peak(double left, double middle, double right) {
   const double curvature = left - 2 * middle + right;
   return curvature < -1e-9 ? std::clamp(0.5 * (left - right) / curvature, -0.5, 0.5) : 0.0;
@@ -35,37 +35,38 @@ double peak(double left, double middle, double right) {
 HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades)
     : config_(config), detector_(cascades) {}
 
-void HeadTracker::anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
+void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
   const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
   const double side = found.width;
-  if (!anchored_ && face_) {
+  if (!detected_before_ && face_) {
     replaced_ = face_;
     if (face_->match < config_.lost_match) {
-      // It was not carried into this picture: only its size is known.
+      // Tracking failed in this image: only the size of the old square is known.
       replaced_->centre = centre;
     }
   }
-  if (fresh || !anchored_ || !face_) {
+  if (fresh || !detected_before_ || !face_) {
     face_ = TrackedFace{centre, side, true, 1.0};
   } else {
-    // The detector's square jitters by several percent: its size is trusted slowly, its place faster.
+    // The detected square jitters by several percent: smooth its size more than its position.
     face_->side += 0.25 * (side - face_->side);
     face_->centre += 0.5 * (centre - face_->centre);
     face_->detected = true;
     face_->match = 1.0;
   }
-  patch_ = square_at(grey, face_->centre, face_->side, kPatch);
-  anchored_ = true;
+  face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
+  detected_before_ = true;
   since_detected_ = 0;
   since_sure_ = 0;
 }
 
-double HeadTracker::carry(const cv::Mat& grey) {
+double HeadTracker::track(const cv::Mat& grey) {
   const double window = face_->side * (1 + 2 * kReach);
   const int size = static_cast<int>(kPatch * (1 + 2 * kReach));
   const cv::Mat around = square_at(grey, face_->centre, window, size);
+  // The best match, with sub-pixel precision by a parabola.
   cv::Mat score;
-  cv::matchTemplate(around, patch_, score, cv::TM_CCOEFF_NORMED);
+  cv::matchTemplate(around, face_image_, score, cv::TM_CCOEFF_NORMED);
   double best = 0;
   cv::Point at;
   cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
@@ -86,25 +87,25 @@ void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double bl
   if (!face_) {
     face_ = TrackedFace{centre, square.width, false, 1.0};
     misses_ = 1;
-    anchored_ = false;
+    detected_before_ = false;
   } else {
     face_->centre += blend * (centre - face_->centre);
     face_->side += 0.3 * blend * (square.width - face_->side);
   }
-  patch_ = square_at(grey, face_->centre, face_->side, kPatch);
+  face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
   since_sure_ = 0;
 }
 
-std::optional<TrackedFace> HeadTracker::restart(const cv::Mat& grey, const cv::Rect& search,
-                                                const FaceTest& is_face) {
+std::optional<TrackedFace> HeadTracker::detect(const cv::Mat& grey, const cv::Rect& search,
+                                               const FaceTest& is_face) {
   const int smallest = std::max(20, static_cast<int>(config_.smallest_face * grey.rows));
-  const auto found = detector_.find(grey, search, smallest, grey.rows, false, is_face);
+  const auto found = detector_.find(grey, search, smallest, grey.rows, is_face);
   since_search_ = 0;
   misses_ = 0;
   face_.reset();
   replaced_.reset();
   if (found) {
-    anchor(grey, *found, true);
+    set_detection(grey, *found, true);
   }
   return face_;
 }
@@ -114,32 +115,35 @@ std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey, const cv::Re
   replaced_.reset();
   if (!face_) {
     ++since_search_;
-    return since_search_ >= config_.search_every ? restart(grey, search, is_face) : std::nullopt;
+    return since_search_ >= config_.search_every ? detect(grey, search, is_face) : std::nullopt;
   }
+  // Track by correlation.
   face_->detected = false;
-  face_->match = carry(grey);
+  face_->match = track(grey);
   ++since_detected_;
   const bool doubtful = face_->match < config_.lost_match + 0.2;
   since_sure_ = face_->match < config_.lost_match ? since_sure_ + 1 : 0;
+  // Detect near the tracked face every few frames, or if the correlation is low.
   if (doubtful || since_detected_ >= config_.detect_every) {
-    // After misses the window grows: the track may have slid off the face, or grown out of its size.
+    // Enlarge the search after failed detections: the track may have drifted or have the wrong size.
     const double growth = 1.0 + 0.25 * std::min(misses_, 4);
     const double reach = face_->side * (doubtful ? 1.1 : 0.8) * growth;
     const cv::Rect window(
         cv::Point(static_cast<int>(face_->centre.x - reach), static_cast<int>(face_->centre.y - reach)),
         cv::Point(static_cast<int>(face_->centre.x + reach), static_cast<int>(face_->centre.y + reach)));
     const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75 / growth),
-                                      static_cast<int>(face_->side * 1.3 * growth), false, is_face);
+                                      static_cast<int>(face_->side * 1.3 * growth), is_face);
     since_detected_ = 0;
     if (found) {
-      anchor(grey, *found, misses_ >= 2);
+      set_detection(grey, *found, misses_ >= 2);
       misses_ = 0;
     } else {
       ++misses_;
     }
   }
+  // Search again if the position has been unreliable for too long.
   if (since_sure_ > config_.lost_after) {
-    return restart(grey, search, is_face);
+    return detect(grey, search, is_face);
   }
   return face_;
 }

@@ -8,65 +8,67 @@
 
 namespace telemime {
 
-/// A head as the tracker carries it: the face square of the detector, pixels of the picture given to it.
+/// The tracked face square, in pixels of the image given to the tracker.
 struct TrackedFace {
   cv::Point2d centre;
   double side = 0.0;
-  bool detected = false;  ///< the detector fired in this frame
-  double match = 1.0;     ///< correlation with the face when last detected, [-1, 1]
+  bool detected = false;  ///< by the face detector in this frame
+  double match = 1.0;     ///< correlation with the face image of the last update, [-1, 1]
 };
 
 struct HeadTrackerConfig {
   int detect_every = 5;         ///< frames between looks of the detector while the track is good
-  int search_every = 3;         ///< frames between searches of the whole picture while there is no track
+  int search_every = 3;         ///< frames between searches of the whole image while there is no track
   double lost_match = 0.45;     ///< below this correlation the face is not where it was
   int lost_after = 12;          ///< frames without a sure position until the track is given up
-  double smallest_face = 0.07;  ///< of the picture's height
+  double smallest_face = 0.07;  ///< of the image's height
 };
 
-/// Follows one face: the detector anchors it, a correlation of the face's picture carries it in between.
+/// Tracks one face: by a face detector every few frames, by correlation of the face image in between.
 class HeadTracker {
  public:
+  /// `cascades`: folder of OpenCV's face cascades, see find_cascade. Throws Error(config) if they are
+  /// missing.
   HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades);
 
-  /// The face in the next picture (CV_8UC1; all pictures of one size), or nothing. Without a track it is
-  /// sought in `search` only.
+  /// The face in the next image (CV_8UC1; all images have the same size); empty if there is none. A face that
+  /// is not tracked yet is searched in `search` only.
   std::optional<TrackedFace> update(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
 
-  /// Searches `search`, for faces that pass the test, at once and starts anew from what is found.
-  std::optional<TrackedFace> restart(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
+  /// Resets the track and detects the largest face in `search` that satisfies `is_face`.
+  std::optional<TrackedFace> detect(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
 
-  /// Takes over a face square that was found by other means (the outline), and follows that. With `blend`
-  /// below 1 a track that exists moves only so far towards it.
+  /// Moves the track by the share `blend` (0 to 1) towards a face square found by other means (the outline of
+  /// the head), or starts a track there.
   void adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend);
 
-  /// The track, as of the last call.
+  /// The tracked face after the last call.
   const std::optional<TrackedFace>& current() const { return face_; }
 
-  /// The detector has seen this face, at its last look or earlier with a good correlation since.
+  /// Whether the face was detected in the last detection, or earlier and the correlation has been good since.
   bool confirmed() const {
-    return face_.has_value() && (misses_ == 0 || (anchored_ && face_->match >= config_.lost_match));
+    return face_.has_value() && (misses_ == 0 || (detected_before_ && face_->match >= config_.lost_match));
   }
 
-  /// The square of a track that the outline began, carried into this picture, when the detector saw its face
-  /// there for the first time and its square was taken instead.
+  /// If the last update detected, for the first time, the face of a track that started from the outline: the
+  /// square of that track in the current image, which the detected square replaced.
   const std::optional<TrackedFace>& replaced() const { return replaced_; }
 
-  /// Forgets the track.
-  void forget() { face_.reset(); }
+  /// Drops the track.
+  void reset() { face_.reset(); }
 
  private:
-  void anchor(const cv::Mat& grey, const cv::Rect& found, bool fresh);
-  double carry(const cv::Mat& grey);
+  void set_detection(const cv::Mat& grey, const cv::Rect& found, bool fresh);
+  double track(const cv::Mat& grey);
 
   HeadTrackerConfig config_;
   FaceDetector detector_;
   std::optional<TrackedFace> face_;
   std::optional<TrackedFace> replaced_;
-  cv::Mat patch_;
-  bool anchored_ = false;  ///< the detector has fired on this track
+  cv::Mat face_image_;
+  bool detected_before_ = false;  ///< the face of this track was detected at least once
   int since_detected_ = 0;
-  int misses_ = 0;  ///< looks of the detector in a row that found nothing
+  int misses_ = 0;  ///< consecutive detections without a result
   int since_sure_ = 0;
   int since_search_ = 1 << 20;
 };

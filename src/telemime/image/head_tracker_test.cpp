@@ -26,7 +26,7 @@ class HeadTrackerTest : public testing::Test {
     ASSERT_TRUE(cv::VideoCapture(clip.string()).read(image)) << clip;
     cv::cvtColor(image, grey_, cv::COLOR_BGR2GRAY);
     HeadTracker fresh = tracker();
-    const auto found = fresh.restart(grey_, whole(), any_face);
+    const auto found = fresh.detect(grey_, whole(), any_face);
     ASSERT_TRUE(found.has_value());
     face_ = *found;
   }
@@ -38,7 +38,7 @@ class HeadTrackerTest : public testing::Test {
   TrackedFace face_;
 };
 
-TEST_F(HeadTrackerTest, TellsTheOutlinesSquareThatTheDetectorsReplaced) {
+TEST_F(HeadTrackerTest, ReportsReplacedOutlineSquare) {
   HeadTracker heads = tracker();
   const double side = 1.2 * face_.side;
   const cv::Rect2d outline(face_.centre.x + 3 - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side,
@@ -59,7 +59,7 @@ TEST_F(HeadTrackerTest, TellsTheOutlinesSquareThatTheDetectorsReplaced) {
   EXPECT_EQ(replaced, 1) << "once: then the detector leads";
 }
 
-TEST_F(HeadTrackerTest, TheDetectorsFirstSquareIsTakenWhole) {
+TEST_F(HeadTrackerTest, FirstDetectionIsNotSmoothed) {
   HeadTracker heads = tracker();
   const double side = 1.2 * face_.side;
   heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
@@ -70,11 +70,11 @@ TEST_F(HeadTrackerTest, TheDetectorsFirstSquareIsTakenWhole) {
   EXPECT_NEAR(heads.current()->side, face_.side, 0.1 * face_.side);
 }
 
-TEST_F(HeadTrackerTest, OfASquareThatWasLostOnlyTheSizeIsReplaced) {
+TEST_F(HeadTrackerTest, LostSquareKeepsOnlyItsSize) {
   HeadTracker heads = tracker();
   const double side = 1.2 * face_.side;
   heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
-  // What was there is gone for a picture, then there again, a little aside.
+  // What was there is gone for a image, then there again, a little aside.
   ASSERT_TRUE(heads.update(cv::Mat(grey_.size(), CV_8UC1, cv::Scalar(90)), whole(), any_face).has_value());
   EXPECT_FALSE(heads.replaced().has_value());
   cv::Mat negative;
@@ -88,9 +88,9 @@ TEST_F(HeadTrackerTest, OfASquareThatWasLostOnlyTheSizeIsReplaced) {
   EXPECT_NEAR(heads.replaced()->side, side, 1e-9);
 }
 
-TEST_F(HeadTrackerTest, AFaceThatTheDetectorFoundReplacesNothing) {
+TEST_F(HeadTrackerTest, DetectedFaceReplacesNothing) {
   HeadTracker heads = tracker();
-  ASSERT_TRUE(heads.restart(grey_, whole(), any_face).has_value());
+  ASSERT_TRUE(heads.detect(grey_, whole(), any_face).has_value());
   EXPECT_FALSE(heads.replaced().has_value());
   for (int i = 0; i < 12; ++i) {
     ASSERT_TRUE(heads.update(grey_, whole(), any_face).has_value());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/image/log_colour.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -22,7 +23,8 @@ std::array<float, 256> logarithms() {
 
 LogColour log_colour(const cv::Mat& bgr) {
   if (bgr.empty() || bgr.type() != CV_8UC3) {
-    throw Error(ErrorKind::usage, "colours are needed from a picture with 8 bits in blue, green and red");
+    throw Error(ErrorKind::usage,
+                "logarithmic colours need an image with 8 bits each of blue, green and red");
   }
   const std::array<float, 256> table = logarithms();
   LogColour out{cv::Mat(bgr.size(), CV_32FC1), cv::Mat(bgr.size(), CV_32FC1), cv::Mat(bgr.size(), CV_32FC1)};
@@ -53,10 +55,16 @@ Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned 
   return {r - g, b - g, (b + g + r) / 3};
 }
 
-void subtract(LogColour& picture, const LogColour& gain) {
-  picture.u -= gain.u;
-  picture.v -= gain.v;
-  picture.l -= gain.l;
+void subtract(LogColour& image, const LogColour& gain) {
+  image.u -= gain.u;
+  image.v -= gain.v;
+  image.l -= gain.l;
+}
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace telemime

@@ -3,13 +3,14 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 namespace telemime {
 
-/// Colours on a logarithmic scale: u = ln(R / G), v = ln(B / G), l = mean of ln R, ln G, ln B, each channel
-/// raised by kLogColourOffset first. All planes (h x w) CV_32FC1. A shadow moves l only, a change of gain or
-/// of white balance adds the same number to a whole plane: both are easy to undo. The offset keeps the noise
-/// of dark pixels finite.
+/// An image in logarithmic colours: u = ln(R / G), v = ln(B / G), l = mean of ln R, ln G and ln B, where
+/// kLogColourOffset is added to each channel first. All planes are (h x w) CV_32FC1. A shadow changes only l,
+/// and a change of gain or white balance adds a constant to a whole plane, so both are easy to compensate.
+/// The offset limits the noise of dark pixels.
 struct LogColour {
   cv::Mat u;
   cv::Mat v;
@@ -19,13 +20,16 @@ struct LogColour {
 /// Grey levels added to every channel before the logarithm.
 inline constexpr float kLogColourOffset = 12.0F;
 
-/// bgr: CV_8UC3. Throws Error(usage) for another type or an empty picture.
+/// Converts an image (CV_8UC3, BGR). Throws Error(usage) for another type or an empty image.
 LogColour log_colour(const cv::Mat& bgr);
 
-/// One colour [u, v, l].
+/// Converts one colour to [u, v, l].
 Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned char red);
 
-/// Takes the planes of `gain` away from those of `picture` (same size).
-void subtract(LogColour& picture, const LogColour& gain);
+/// Subtracts the planes of `gain` from those of `image` (same size).
+void subtract(LogColour& image, const LogColour& gain);
+
+/// Upper median of at least one value; reorders the values.
+float median(std::vector<float>& values);
 
 }  // namespace telemime

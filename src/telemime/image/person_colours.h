@@ -9,30 +9,30 @@
 
 namespace telemime {
 
-/// The colours of one person, learned at a frame with a face. Empty mixtures: not learned.
+/// The colours of a person, learned from a frame with a visible face. An empty mixture was not learned.
 struct PersonColours {
   ColourMixture skin;
   ColourMixture clothes;
   ColourMixture hair;
-  ColourMixture other;  ///< what is neither: trousers or a skirt, a mask, when seen at the start
+  ColourMixture other;  ///< trousers, a skirt or a mask, if visible in that frame
   bool known() const { return !skin.empty(); }
 };
 
-/// What came of an attempt to learn a person's colours.
+/// Result of an attempt to learn the colours of a person.
 struct PersonReport {
   bool accepted = false;
-  std::string reason;  ///< why not, and what to do; empty when accepted
+  std::string reason;  ///< why the frame was refused and what to do; empty if accepted
 };
 
-/// Learns skin inside the face, clothes in a rectangle under the chin and hair above the brow (thesis
-/// 2.4.4.1), each from pixels of `silhouette` (CV_8UC1, not 0: person) only. Skin is what most of the face
-/// is: eyes, glasses, beard, hair and a mask are trimmed away. `head` in pixels of the picture.
-/// On refusal `colours` stays as it was.
-PersonReport learn_person_colours(const LogColour& picture, const cv::Mat& silhouette, const HeadRegion& head,
+/// Learns the colours of skin from the face, of clothes from a rectangle below the chin, and of hair from
+/// above the brow (thesis 2.4.4.1), using only pixels where `silhouette` (CV_8UC1) is not 0. Eyes, glasses, a
+/// beard, hair and a mask are trimmed from the skin. `head` is in pixels of `image`. If the frame is refused,
+/// `colours` does not change.
+PersonReport learn_person_colours(const LogColour& image, const cv::Mat& silhouette, const HeadRegion& head,
                                   PersonColours& colours);
 
-/// Share of the pixels of a box in which the colour of any human skin would be possible. Coloured light can
-/// deceive it: a test against faces in wallpaper, not for skin.
-double possible_skin(const LogColour& picture, const cv::Rect& box);
+/// Share of the pixels of a box whose colour is possible for human skin. Rejects false detections of faces,
+/// for instance in wallpaper. Not a skin detector: coloured light can shift skin out of the range.
+double possible_skin(const LogColour& image, const cv::Rect& box);
 
 }  // namespace telemime

@@ -9,10 +9,12 @@
 namespace telemime {
 namespace {
 
+/// Position relative to the body: core is the head and the middle of the chest, likely are the shoulders and
+/// the rest of the torso, open is where arms can be, far is out of reach.
 enum class Place { core, likely, open, far };
 
-/// x, y: from the head's centre in half widths and half heights of the head. A head is about 1/7.5 of a
-/// stature high and shoulders are about three heads wide: the numbers below are those proportions.
+/// The place of a point given in half widths (x) and half heights (y) of the head from its centre. The bounds
+/// follow from human proportions: a head is about 1/7.5 of the height, shoulders are about three heads wide.
 Place place_of(double x, double y) {
   const double aside = std::abs(x);
   if (x * x / 0.6 + y * y / 0.7 < 1 || (aside < 1.3 && y > 1.9) || (aside < 0.6 && y > 0)) {
@@ -27,7 +29,8 @@ Place place_of(double x, double y) {
   return Place::open;
 }
 
-/// grabCut draws from OpenCV's generator of the calling thread: lend it a fixed state, and give back its own.
+/// Sets OpenCV's random generator of the calling thread, which grabCut uses, to a fixed state; restores it at
+/// the end of the scope.
 class FixedSeed {
  public:
   FixedSeed() : state_(cv::theRNG().state) { cv::theRNG().state = 1; }
@@ -45,6 +48,7 @@ cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
   const double scale = std::min(1.0, 160.0 / bgr.cols);
   cv::Mat small;
   cv::resize(bgr, small, cv::Size(), scale, scale, cv::INTER_AREA);
+  // Initial mask from the position of the head.
   cv::Mat mask(small.size(), CV_8UC1);
   for (int r = 0; r < mask.rows; ++r) {
     for (int c = 0; c < mask.cols; ++c) {
@@ -67,6 +71,7 @@ cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
       mask.at<unsigned char>(r, c) = start;
     }
   }
+  // Graph cut, and the result at the size of the image.
   const FixedSeed seed;
   cv::Mat background_colours;
   cv::Mat person_colours;

@@ -7,13 +7,13 @@
 
 namespace telemime {
 
-/// Person (255) or not (0) in one picture whose scene is not known, by GrabCut (C. Rother et al., SIGGRAPH
-/// 2004) started from where a head with this ellipse has its shoulders and chest. The cut runs on at most 160
-/// columns; the result has the picture's size, CV_8UC1. bgr: CV_8UC3; head in its pixels. Deterministic.
+/// Mask of the person (CV_8UC1, 255 on the person, size of `bgr`) in an image without a known background, by
+/// GrabCut (C. Rother et al., SIGGRAPH 2004) initialised with the body below the head. `bgr` is CV_8UC3,
+/// `head` in its pixels. The segmentation runs on at most 160 columns. Deterministic.
 cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head);
 
-/// How likely a place is the person's, only from where the head is: +1 in head and chest, -1 far from them,
-/// 0 where arms come and go. (height x width) CV_32FC1.
+/// Prior for the person given only the position of the head (size.height x size.width, CV_32FC1): 1 on head
+/// and chest, 0.4 near them, -0.2 where only arms can be, and -1 where no part of the body can be.
 cv::Mat body_prior(const cv::Size& size, const HeadRegion& head);
 
 }  // namespace telemime

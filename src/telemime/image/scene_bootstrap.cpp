@@ -5,41 +5,41 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
 
 #include "telemime/image/person_shape.h"
 
 namespace telemime {
 namespace {
 
-/// Two colours of one thing seen twice by a static camera differ by less than this.
+/// Largest difference between two observations of the same background colour by a static camera.
 constexpr float kSameChroma = 0.09F;
 constexpr float kSameLuminance = 0.12F;
 
-/// Share of pixels that differ by more than noise, a common change of light undone.
+/// Share of pixels that differ by more than noise after compensation of a global change of light.
 double changed_share(const LogColour& a, const LogColour& b) {
   cv::Mat dl = b.l - a.l;
   cv::blur(dl, dl, cv::Size(3, 3));
   std::vector<float> values(dl.begin<float>(), dl.end<float>());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const float common = *middle;
+  const float common = median(values);
   const auto changed = std::count_if(values.begin(), values.end(),
                                      [common](float v) { return std::abs(v - common) > kSameLuminance; });
   return static_cast<double>(changed) / static_cast<double>(values.size());
 }
 
-std::size_t still_run(std::span<const cv::Mat> pictures, bool from_end) {
+/// Number of images at the start (or the end) that do not differ from the first (or the last) one.
+std::size_t still_run(std::span<const cv::Mat> images, bool from_end) {
   constexpr double kMostChange = 0.004;
-  const auto at = [&](std::size_t i) { return pictures[from_end ? pictures.size() - 1 - i : i]; };
+  const auto at = [&](std::size_t i) { return images[from_end ? images.size() - 1 - i : i]; };
   const LogColour first = log_colour(at(0));
   std::size_t run = 1;
-  while (run < pictures.size() && changed_share(first, log_colour(at(run))) < kMostChange) {
+  while (run < images.size() && changed_share(first, log_colour(at(run))) < kMostChange) {
     ++run;
   }
   return run;
 }
 
-/// Person pixels, grown by a margin: blur and the cut's own errors.
+/// The pixels of the person, dilated by a margin for blur and for errors of the segmentation.
 cv::Mat covered_by_person(const SceneSample& sample) {
   cv::Mat covered = cut_person(sample.bgr, *sample.head);
   const int margin = std::max(1, sample.bgr.cols / 80);
@@ -48,14 +48,15 @@ cv::Mat covered_by_person(const SceneSample& sample) {
   return covered;
 }
 
+/// The samples as colours with the trust in each pixel as background.
 struct Series {
   std::vector<LogColour> colours;
-  std::vector<cv::Mat> trust;  ///< CV_32FC1: 1 outside the person, little inside
+  std::vector<cv::Mat> trust;  ///< CV_32FC1: 1 outside the person, near 0 inside
 };
 
 Series series_of(std::span<const SceneSample> samples) {
   constexpr float kInside = 0.05F;
-  // A picture in which no head was found is of use only when that is so in all of them.
+  // An image without a detected head is only used if no head was detected in any image.
   const bool any_head =
       std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
   const float no_head = any_head ? 0.0F : 0.5F;
@@ -74,19 +75,19 @@ Series series_of(std::span<const SceneSample> samples) {
 
 }  // namespace
 
-std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> pictures) {
+std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> images) {
   constexpr std::size_t kMargin = 3;
   constexpr std::size_t kFewest = 8;
-  if (pictures.size() < kFewest + kMargin) {
+  if (images.size() < kFewest + kMargin) {
     return {0, 0};
   }
-  const std::size_t start = still_run(pictures, false);
+  const std::size_t start = still_run(images, false);
   if (start >= kFewest + kMargin) {
-    return {0, start == pictures.size() ? start : start - kMargin};
+    return {0, start == images.size() ? start : start - kMargin};
   }
-  const std::size_t end = still_run(pictures, true);
+  const std::size_t end = still_run(images, true);
   if (end >= kFewest + kMargin) {
-    return {pictures.size() - end + kMargin, end - kMargin};
+    return {images.size() - end + kMargin, end - kMargin};
   }
   return {0, 0};
 }
@@ -94,7 +95,7 @@ std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> 
 BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
   const Series series = series_of(samples);
   std::vector<cv::Mat> one{samples.front().bgr};
-  // Starts from the noise of one picture; means and validity are replaced pixel by pixel.
+  // Start from the noise of one image; means and validity are replaced below, pixel by pixel.
   BackgroundModel model = learn_background_model(one);
   const std::size_t count = samples.size();
   const auto heads =
@@ -112,6 +113,7 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
         l[i] = series.colours[i].l.at<float>(r, c);
         trust[i] = series.trust[i].at<float>(r, c);
       }
+      // The colour with the most support: each image votes for the colours similar to its own.
       float best = -1;
       float outside = 0;
       Eigen::Vector3f mean = Eigen::Vector3f::Zero();
@@ -130,7 +132,8 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
             sum += trust[j] * Eigen::Vector3f(u[j], v[j], l[j]);
           }
         }
-        // The scene is there before, between and after what passes in front of it: a long span counts.
+        // Background is visible before and after anything that passes in front of it: a long span adds
+        // support.
         const float span = static_cast<float>(last - first) * trust[i];
         if (support + 0.6F * span > best) {
           best = support + 0.6F * span;
@@ -148,6 +151,7 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
 }
 
 ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
+  // Sample pixels outside the person in three images.
   std::vector<Eigen::Vector3f> colours;
   constexpr std::size_t kMost = 3;
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kMost);
@@ -155,14 +159,13 @@ ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
     if (!samples[i].head) {
       continue;
     }
-    const LogColour picture = log_colour(samples[i].bgr);
+    const LogColour image = log_colour(samples[i].bgr);
     const cv::Mat covered = covered_by_person(samples[i]);
     const int stride = std::max(1, samples[i].bgr.cols / 80);
     for (int r = 0; r < covered.rows; r += stride) {
       for (int c = 0; c < covered.cols; c += stride) {
         if (covered.at<unsigned char>(r, c) == 0) {
-          colours.emplace_back(picture.u.at<float>(r, c), picture.v.at<float>(r, c),
-                               picture.l.at<float>(r, c));
+          colours.emplace_back(image.u.at<float>(r, c), image.v.at<float>(r, c), image.l.at<float>(r, c));
         }
       }
     }
@@ -170,7 +173,35 @@ ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
   if (colours.size() < 50) {
     return {};
   }
-  return fit_mixture(colours, 6, ColourTolerance{0.05F, 0.12F, 1.2F, 0.3F});
+  return fit_mixture(colours, 6,
+                     ColourTolerance{.chroma = 0.05F, .luminance = 0.12F, .stretch = 1.2F, .slope = 0.3F});
+}
+
+std::optional<double> scene_motion(const cv::Mat& before, const cv::Mat& after, const cv::Mat& scene) {
+  constexpr std::size_t kFewest = 8;
+  std::vector<cv::Point2f> corners;
+  cv::goodFeaturesToTrack(before, corners, 40, 0.02, 6, scene);
+  if (corners.size() < kFewest) {
+    return std::nullopt;
+  }
+  // Follow the corners by optical flow.
+  std::vector<cv::Point2f> moved;
+  std::vector<unsigned char> found;
+  std::vector<float> error;
+  cv::calcOpticalFlowPyrLK(before, after, corners, moved, found, error, cv::Size(11, 11), 2);
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (found[i] != 0) {
+      lengths.push_back(std::hypot(moved[i].x - corners[i].x, moved[i].y - corners[i].y));
+    }
+  }
+  if (lengths.size() < kFewest) {
+    return std::nullopt;
+  }
+  // The lower quartile: objects that move in front of a static camera move some corners only.
+  const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+  std::nth_element(lengths.begin(), quarter, lengths.end());
+  return *quarter;
 }
 
 }  // namespace telemime

@@ -14,39 +14,46 @@
 
 namespace telemime {
 
-/// One picture of a clip, of working size, and the head found in it.
+/// One image of a clip, at the working size, and the head detected in it.
 struct SceneSample {
   cv::Mat bgr;  ///< CV_8UC3
   std::optional<HeadRegion> head;
 };
 
-/// How a scene was learned without a clip of the empty room.
+/// How the background was learned without a background clip.
 enum class SceneSource {
-  nothing,        ///< no face, no empty stretch: nothing could be learned
-  empty_stretch,  ///< the person came later, or left early
-  moving_person,  ///< around a person who is in every picture
-  colours_only,   ///< the camera moves: only the colours of person and surroundings
+  nothing,        ///< neither a face nor an empty stretch: nothing was learned
+  empty_stretch,  ///< from frames before the person enters or after the person leaves
+  moving_person,  ///< around a person who is in every image
+  colours_only,   ///< the camera moves: only colours of person and surroundings are known
 };
 
+/// Result of FeatureExtractor::bootstrap.
 struct SceneReport {
   SceneSource source = SceneSource::nothing;
-  std::size_t first = 0;  ///< of the empty stretch, pictures
-  std::size_t count = 0;
-  double known = 0.0;    ///< share of the picture whose background is known
-  std::string sentence;  ///< the same in words
+  std::size_t first = 0;  ///< index of the first frame of the empty stretch
+  std::size_t count = 0;  ///< frames in the empty stretch
+  double known = 0.0;     ///< share of the image whose background is known
+  std::string sentence;   ///< the same as a message for the user
 };
 
-/// The longest run of pictures at the start (or, failing that, at the end) in which nothing but noise
-/// changes: [first, count]. Count 0 when it is shorter than 8 pictures. A person who sits still looks the
-/// same: the caller must check that nobody is in it. The last 3 pictures next to the change are left out.
-std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> pictures);
+/// Start and length [first, count] of the run of images at the start (or, failing that, at the end) of
+/// `images` in which only noise changes, without the 3 images next to the change. Count 0 if fewer than 8
+/// remain. The caller must check that no person is in these images: one who sits still changes nothing.
+std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> images);
 
-/// Background of a static camera from pictures with a person who may never leave: every picture's person is
-/// cut out, and each pixel takes the colour that recurs most outside the cut. Pixels always covered stay not
-/// valid.
+/// Background of a static camera from images with a person who may never leave. The person is segmented in
+/// each image, and each pixel gets the colour that recurs most outside the person. Pixels that are always
+/// covered stay invalid.
 BackgroundModel learn_around_person(std::span<const SceneSample> samples);
 
-/// Colours of the surroundings, up to 6 Gaussians, from all pixels of the pictures outside the cut person.
+/// Colours of the surroundings of the person, up to 6 Gaussians, from the pixels outside the person.
 ColourMixture learn_surroundings(std::span<const SceneSample> samples);
+
+/// Motion of the scene between two images (CV_8UC1, same size), in pixels: the lower quartile of the
+/// displacements of corners where `scene` (CV_8UC1) is not 0, by pyramidal Lucas-Kanade optical flow. A
+/// moving camera moves all corners, a passing arm only some. Empty if fewer than 8 corners can be followed,
+/// as on a bare wall.
+std::optional<double> scene_motion(const cv::Mat& before, const cv::Mat& after, const cv::Mat& scene);
 
 }  // namespace telemime

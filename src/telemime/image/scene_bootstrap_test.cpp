@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "telemime/core/random.h"
-#include "telemime/image/camera_motion.h"
 
 namespace telemime {
 namespace {
@@ -40,7 +39,7 @@ cv::Mat with_person(cv::Mat image, int x) {
   return image;
 }
 
-TEST(StillStretch, IsTheEmptyStartWithoutItsLastFrames) {
+TEST(StillStretch, IsEmptyStartWithoutLastFrames) {
   Random random(1);
   std::vector<cv::Mat> clip;
   clip.reserve(64);
@@ -55,7 +54,7 @@ TEST(StillStretch, IsTheEmptyStartWithoutItsLastFrames) {
   EXPECT_EQ(count, 17U);
 }
 
-TEST(StillStretch, IsFoundAtTheEndToo) {
+TEST(StillStretch, IsFoundAtTheEnd) {
   Random random(2);
   std::vector<cv::Mat> clip;
   clip.reserve(64);
@@ -80,7 +79,7 @@ TEST(StillStretch, NoneInAMovingClip) {
   EXPECT_EQ(find_still_stretch(clip).second, 0U);
 }
 
-TEST(AroundPerson, APersonWhoMovesUncoversTheRoom) {
+TEST(AroundPerson, MovingPersonUncoversBackground) {
   Random random(4);
   std::vector<SceneSample> samples;
   samples.reserve(64);
@@ -95,7 +94,7 @@ TEST(AroundPerson, APersonWhoMovesUncoversTheRoom) {
   EXPECT_LT(cv::countNonZero(wrong), 0.02 * wrong.total());
 }
 
-TEST(AroundPerson, WhatIsAlwaysCoveredStaysUnknown) {
+TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
   Random random(5);
   std::vector<SceneSample> samples;
   samples.reserve(64);
@@ -112,7 +111,7 @@ TEST(AroundPerson, WhatIsAlwaysCoveredStaysUnknown) {
   EXPECT_GT(mahalanobis2(surroundings, log_colour_of(40, 30, 120)), 25);
 }
 
-TEST(SceneMotion, MeasuresAShiftAndIsZeroAtRest) {
+TEST(SceneMotion, MeasuresShiftAndIsZeroAtRest) {
   Random random(6);
   cv::Mat grey;
   cv::cvtColor(room(random), grey, cv::COLOR_BGR2GRAY);

@@ -12,6 +12,7 @@
 namespace telemime {
 namespace {
 
+/// The pixels where the colours of the person explain the image better than the background, after a vote.
 cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& votes,
                       const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
   cv::Mat margin = background.energy - votes.best - config.person_cost;
@@ -32,13 +33,14 @@ cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& vot
   return silhouette;
 }
 
-/// Drops pieces that are small or that have neither the head nor mostly skin (a hand beside the picture's
-/// edge).
-void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
-                    bool colours_known, const SegmentationConfig& config) {
+/// Removes components that are too small or do not belong to the person: those that neither contain the head,
+/// nor are mostly skin (a hand at the image border), nor have the person's colours at the place of the body.
+void remove_foreign_components(cv::Mat& silhouette, const ColourVotes& votes,
+                               const std::optional<HeadRegion>& head, bool colours_known,
+                               const SegmentationConfig& config) {
   const double least = config.least_part * static_cast<double>(silhouette.total());
   const ConnectedComponents pieces(silhouette, Connectivity::eight);
-  const auto ours = [&](const Component& piece) {
+  const auto is_person = [&](const Component& piece) {
     if (!head && piece.area > 10 * least) {
       return true;
     }
@@ -70,20 +72,20 @@ void drop_strangers(cv::Mat& silhouette, const ColourVotes& votes, const std::op
     return in_body * 3 > piece.area;
   };
   for (const Component& piece : pieces.all()) {
-    if (piece.area < least || !ours(piece)) {
+    if (piece.area < least || !is_person(piece)) {
       pieces.paint(piece, 0, silhouette);
     }
   }
 }
 
-/// Fills holes of the silhouette of up to `most` pixels, and up to 30 times larger ones that only a shadow
-/// would explain, or - when the scene is doubtful - that have the person's own colours: between arm and body
-/// the scene itself is seen.
+/// Fills holes of the silhouette. Holes of up to `most` pixels are always filled; larger ones, up to 30
+/// times, only if most of their pixels would have to be a shadow or, with a doubtful background, have colours
+/// of the person. Other holes show the background between arm and body.
 void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const cv::Mat& colour, double most) {
   cv::Mat outside;
   cv::bitwise_not(silhouette, outside);
   const ConnectedComponents holes(outside, Connectivity::four);
-  const auto filled = [&](const Component& hole) {
+  const auto is_filled = [&](const Component& hole) {
     if (hole.area <= most) {
       return true;
     }
@@ -98,16 +100,16 @@ void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const c
     return (background.doubtful || hole.area <= 3 * most) && holes.count(hole, shaded) * 10 > hole.area * 6;
   };
   for (const Component& hole : holes.all()) {
-    if (filled(hole)) {
+    if (is_filled(hole)) {
       holes.paint(hole, 255, silhouette);
     }
   }
 }
 
-/// Unknown colours in strips of one or two pixels are the mixed pixels between two known ones, and small
-/// patches of them are folds and deep shade: both go to the likeliest of the colours that were learned. What
-/// reaches the bottom of the picture stays: trousers begin there.
-void give_scraps_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette, double most) {
+/// Relabels pixels of unknown colours with the best learned colour if they form strips of one or two pixels
+/// (mixed pixels between two colours) or small patches (folds, deep shade). Patches that reach the bottom of
+/// the image remain: trousers begin there.
+void relabel_unknown_scraps(ColourVotes& votes, const cv::Mat& silhouette, double most) {
   const cv::Mat other = (votes.colour == kOther) & silhouette;
   cv::Mat thick;
   cv::morphologyEx(other, thick, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
@@ -120,9 +122,9 @@ void give_scraps_to_neighbours(ColourVotes& votes, const cv::Mat& silhouette, do
   votes.learned.copyTo(votes.colour, other & ~thick);
 }
 
-/// The neck: skin (and the shade under the chin, which has no colour of its own) from the chin down, column
-/// by column until the clothes begin.
-void name_the_neck(cv::Mat& labels, const Ellipse& ellipse) {
+/// Labels the neck as head: in each column, skin and the unknown colours of the shade below the chin, from
+/// the chin down to the clothes.
+void label_neck(cv::Mat& labels, const Ellipse& ellipse) {
   const auto code = [](Label l) { return static_cast<unsigned char>(l); };
   const int first = std::max(0, static_cast<int>(ellipse.x - 1.05F * ellipse.rx));
   const int last = std::min(labels.cols - 1, static_cast<int>(ellipse.x + 1.05F * ellipse.rx));
@@ -143,15 +145,15 @@ void name_the_neck(cv::Mat& labels, const Ellipse& ellipse) {
   }
 }
 
-/// Small islands of one of skin and clothes that lie in the other: a highlight on an arm, a pattern on a
-/// shirt.
-void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
+/// Relabels small components of `island` that are surrounded by `surroundings`: a highlight on an arm, a
+/// pattern on a shirt.
+void relabel_islands(cv::Mat& labels, Label island, Label surroundings, double most) {
   const ConnectedComponents islands(labels == static_cast<unsigned char>(island), Connectivity::eight);
   for (const Component& component : islands.all()) {
     if (component.area > most) {
       continue;
     }
-    // With its shore.
+    // The pixels around the component.
     const cv::Rect box =
         cv::Rect(component.box.tl() - cv::Point(1, 1), component.box.br() + cv::Point(1, 1)) &
         cv::Rect(cv::Point(0, 0), labels.size());
@@ -161,22 +163,22 @@ void drown_islands(cv::Mat& labels, Label island, Label sea, double most) {
     cv::dilate(self, ring, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3)));
     ring &= ~self;
     const int around = cv::countNonZero(ring);
-    const int wet = cv::countNonZero((labels(box) == static_cast<unsigned char>(sea)) & ring);
-    if (wet * 10 > around * 7) {
-      islands.paint(component, static_cast<unsigned char>(sea), labels);
+    const int matching = cv::countNonZero((labels(box) == static_cast<unsigned char>(surroundings)) & ring);
+    if (matching * 10 > around * 7) {
+      islands.paint(component, static_cast<unsigned char>(surroundings), labels);
     }
   }
 }
 
-/// Half heads from the head's centre down to the hips (a trunk is 3.2 heads long): what has the shirt's
-/// colour below is trousers.
+/// Distance from the centre of the head to the hips in half heights of the head (a trunk is 3.2 heads long).
+/// Pixels with the colour of clothes below belong to the trousers.
 constexpr float kHips = 6.6F;
 
-/// What has the skin's colour but is farther from the head than hands come - bare legs, feet, wood - is
-/// ignored. Hands that reach out to a near camera are seen anywhere.
+/// Ignores skin that is farther from the head than hands can be: bare legs, feet, wood. Near the camera, an
+/// outstretched hand can appear anywhere, so nothing is ignored.
 void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head, const SegmentationConfig& config) {
-  constexpr float kHalfHead = 0.12F;  // m, hair included
-  constexpr float kReach = 1.15F;  // m: neck and shoulder 0.3, arm and hand 0.7; and a head that seems small
+  constexpr float kHalfHead = 0.12F;  // m, including hair
+  constexpr float kReach = 1.15F;     // m: neck and shoulder 0.3, arm and hand 0.7, and a margin
   const float focal_length = config.focal_length * static_cast<float>(labels.cols);
   const float sine = kReach * head.ry / (kHalfHead * focal_length);
   if (sine > 0.9F) {
@@ -195,6 +197,7 @@ void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head, const Segmentatio
   }
 }
 
+/// Labels of the silhouette pixels by colour and position.
 cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::optional<HeadRegion>& head,
               bool colours_known, const SegmentationConfig& config) {
   cv::Mat labels = cv::Mat::zeros(silhouette.size(), CV_8UC1);
@@ -208,10 +211,12 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
       if (s[c] == 0) {
         continue;
       }
+      // By colour.
       Label chosen = Label::ignore;
       if (colours_known) {
         chosen = colour[c] == kSkin ? Label::arms : colour[c] == kClothes ? Label::clothes : Label::ignore;
       }
+      // By position relative to the head: face, hair and ears near it, trousers.
       if (ellipse) {
         const float t = ellipse->at(r, c);
         const float dy = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
@@ -227,12 +232,13 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
     }
   }
   if (ellipse && colours_known) {
-    name_the_neck(labels, *ellipse);
+    label_neck(labels, *ellipse);
     ignore_out_of_reach(labels, *ellipse, config);
   }
   return labels;
 }
 
+/// Share of the ellipse of the head with the colour of skin or hair.
 double share_of_skin_and_hair(const ColourVotes& votes, const HeadRegion& head) {
   const Ellipse ellipse(head);
   int inside = 0;
@@ -251,23 +257,24 @@ double share_of_skin_and_hair(const ColourVotes& votes, const HeadRegion& head) 
 
 }  // namespace
 
-Segmentation segment(const LogColour& picture, const BackgroundEnergy& background,
-                     const PersonColours& colours, const std::optional<HeadRegion>& head,
-                     const SegmentationConfig& config) {
-  ColourVotes votes = vote(picture, colours, head, config);
+Segmentation segment(const LogColour& image, const BackgroundEnergy& background, const PersonColours& colours,
+                     const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
+  // Silhouette.
+  ColourVotes votes = vote(image, colours, head, config);
   Segmentation out;
   out.head_share = head ? share_of_skin_and_hair(votes, *head) : 0.0;
   out.silhouette = silhouette_of(background, votes, head, config);
-  drop_strangers(out.silhouette, votes, head, colours.known(), config);
+  remove_foreign_components(out.silhouette, votes, head, colours.known(), config);
   fill_holes(out.silhouette, background, votes.colour,
              config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
-  give_scraps_to_neighbours(votes, out.silhouette,
-                            4 * config.least_part * static_cast<double>(out.silhouette.total()));
+  relabel_unknown_scraps(votes, out.silhouette,
+                         4 * config.least_part * static_cast<double>(out.silhouette.total()));
+  // Labels.
   cv::compare(votes.colour, static_cast<int>(kSkin), out.skin, cv::CMP_EQ);
   out.labels = label(out.silhouette, votes, head, colours.known(), config);
   const double island = 0.5 * config.least_part * static_cast<double>(out.silhouette.total());
-  drown_islands(out.labels, Label::clothes, Label::arms, 2 * island);
-  drown_islands(out.labels, Label::arms, Label::clothes, island);
+  relabel_islands(out.labels, Label::clothes, Label::arms, 2 * island);
+  relabel_islands(out.labels, Label::arms, Label::clothes, island);
   return out;
 }
 

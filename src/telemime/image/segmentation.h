@@ -16,24 +16,23 @@ struct SegmentationConfig {
   float person_cost = 1.5F;              ///< -2 ln of the prior odds of person against scene
   float vote_limit = 14.0F;              ///< one pixel's say in the 3x3 vote on person or background
   float head_bonus = 8.0F;               ///< in favour of the person inside the head's ellipse
-  double least_part = 0.0015;            ///< of the picture: smaller pieces of silhouette are dropped
-  float focal_length = 0.866F;           ///< in widths of the picture; of a field of view of 60 degrees
+  double least_part = 0.0015;            ///< of the image: smaller pieces of silhouette are dropped
+  float focal_length = 0.866F;           ///< in widths of the image; of a field of view of 60 degrees
 };
 
-/// Labels and silhouette of one frame (see FrameFeatures).
+/// Labels and silhouette of one frame, as in FrameFeatures.
 struct Segmentation {
   cv::Mat labels;
   cv::Mat silhouette;
-  cv::Mat skin;             ///< CV_8UC1, 255 where the colour is skin's
-  double head_share = 0.0;  ///< of the head's ellipse that has the colour of skin or hair
+  cv::Mat skin;             ///< CV_8UC1, 255 on pixels with the colour of skin
+  double head_share = 0.0;  ///< share of the ellipse of the head with the colour of skin or hair
 };
 
-/// Every pixel to background, head, arms, clothes or ignore by the least energy among the background (plain
-/// or shaded) and the person's colours, after a 3x3 vote; then pieces that belong to nobody are dropped and
-/// the head, neck and hanging hair are told by their place (thesis 2.4.4.1, 3.4.2). Without learned colours
-/// every person pixel outside the head is `ignore`.
-Segmentation segment(const LogColour& picture, const BackgroundEnergy& background,
-                     const PersonColours& colours, const std::optional<HeadRegion>& head,
-                     const SegmentationConfig& config);
+/// Labels each pixel as background, head, arms, clothes or ignore: the lowest energy among the background
+/// (with or without a shadow) and the colours of the person wins a 3x3 vote. Components that do not belong to
+/// the person are then removed, and head, neck and hair are recognised by their position (thesis 2.4.4.1,
+/// 3.4.2). Without learned colours, all pixels of the person outside the head are `ignore`.
+Segmentation segment(const LogColour& image, const BackgroundEnergy& background, const PersonColours& colours,
+                     const std::optional<HeadRegion>& head, const SegmentationConfig& config);
 
 }  // namespace telemime

@@ -16,7 +16,7 @@ const cv::Scalar kShirt(150, 60, 40);
 const cv::Scalar kTrousers(40, 36, 33);
 
 /// Somebody with both forearms beside the trunk, trousers below.
-cv::Mat picture() {
+cv::Mat test_image() {
   cv::Mat image(120, 160, CV_8UC3, kWall);
   cv::rectangle(image, cv::Rect(58, 50, 44, 50), kShirt, cv::FILLED);
   cv::rectangle(image, cv::Rect(50, 100, 60, 20), kTrousers, cv::FILLED);
@@ -38,7 +38,7 @@ Scene scene() {
   Scene s;
   const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
   const BackgroundModel model = learn_background_model(empty);
-  s.colour = log_colour(picture());
+  s.colour = log_colour(test_image());
   s.background = background_energy(model, s.colour, ShadowRange{}, {});
   s.head.centre = {80, 30};
   s.head.radii = {10.5, 14.5};
@@ -53,7 +53,7 @@ Label at(const cv::Mat& labels, int x, int y) {
   return static_cast<Label>(labels.at<unsigned char>(y, x));
 }
 
-TEST(Segmentation, EveryPartGetsItsLabel) {
+TEST(Segmentation, EachPartGetsItsLabel) {
   const Scene s = scene();
   const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
   EXPECT_EQ(at(out.labels, 80, 30), Label::head);
@@ -66,7 +66,7 @@ TEST(Segmentation, EveryPartGetsItsLabel) {
   EXPECT_EQ(at(out.labels, 130, 90), Label::background);
 }
 
-// Somebody who is seen whole, in a picture of twice the size, with an arm that hangs down so many pixels.
+// Somebody who is seen whole, in a image of twice the size, with an arm that hangs down so many pixels.
 Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& config = {}) {
   const cv::Mat empty(240, 320, CV_8UC3, kWall);
   cv::Mat image = empty.clone();
@@ -88,33 +88,33 @@ Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& c
   return segment(colour, background, colours, head, config);
 }
 
-TEST(Segmentation, BareAnklesAreNoArms) {
+TEST(Segmentation, BareAnklesAreNotArms) {
   const Segmentation out = seen_whole(48, 13.5);
   EXPECT_EQ(at(out.labels, 136, 106), Label::arms) << "a hand that hangs down";
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore);
   EXPECT_EQ(out.silhouette.at<unsigned char>(194, 160), 255) << "of the person they are";
 }
 
-TEST(Segmentation, FingersOfALongArmAreSeenThoughTheHeadIsBowed) {
+TEST(Segmentation, FingersAreFoundWithBowedHead) {
   // A metre from the head's centre, with a head that seems 10 % too low.
   const Segmentation out = seen_whole(76, 12.15);
   EXPECT_EQ(at(out.labels, 136, 138), Label::arms);
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore) << "ankles";
 }
 
-TEST(Segmentation, AWideLensSeesHandsThatReachOutFartherFromTheHead) {
+TEST(Segmentation, WideLensAllowsHandsFartherAway) {
   SegmentationConfig wide;
   wide.focal_length = 0.5F;  // 90 degrees: who looks as big is nearer
   EXPECT_EQ(at(seen_whole(76, 12.15, wide).labels, 160, 194), Label::arms);
 }
 
-TEST(Segmentation, BackgroundIsWhereTheSilhouetteIsNot) {
+TEST(Segmentation, BackgroundIsOutsideTheSilhouette) {
   const Scene s = scene();
   const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
   EXPECT_EQ(cv::countNonZero((out.labels == 0) != (out.silhouette == 0)), 0);
 }
 
-TEST(Segmentation, WithoutColoursOnlyTheHeadIsNamed) {
+TEST(Segmentation, WithoutColoursOnlyHeadIsLabelled) {
   const Scene s = scene();
   const Segmentation out = segment(s.colour, s.background, {}, s.head, {});
   EXPECT_EQ(cv::countNonZero(out.labels == static_cast<unsigned char>(Label::arms)), 0);
@@ -122,9 +122,9 @@ TEST(Segmentation, WithoutColoursOnlyTheHeadIsNamed) {
   EXPECT_EQ(at(out.labels, 80, 70), Label::ignore);
 }
 
-TEST(Segmentation, ABoxThatIsNobodysIsDropped) {
+TEST(Segmentation, ForeignBoxIsRemoved) {
   Scene s = scene();
-  cv::Mat image = picture();
+  cv::Mat image = test_image();
   cv::rectangle(image, cv::Rect(125, 20, 25, 25), cv::Scalar(30, 160, 60), cv::FILLED);
   const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
   s.colour = log_colour(image);
@@ -134,7 +134,7 @@ TEST(Segmentation, ABoxThatIsNobodysIsDropped) {
   EXPECT_EQ(at(out.labels, 48, 64), Label::arms);
 }
 
-TEST(PersonColours, RefusesATinyFaceAndAHiddenChestWithAReason) {
+TEST(PersonColours, RefusesTinyFaceAndHiddenChest) {
   const Scene s = scene();
   PersonColours colours;
   HeadRegion tiny = s.head;
@@ -150,8 +150,8 @@ TEST(PersonColours, RefusesATinyFaceAndAHiddenChestWithAReason) {
   EXPECT_FALSE(colours.known());
 }
 
-TEST(PersonColours, AMaskOnHalfTheFaceDoesNotBecomeSkin) {
-  cv::Mat image = picture();
+TEST(PersonColours, MaskOnHalfTheFaceIsNotSkin) {
+  cv::Mat image = test_image();
   cv::rectangle(image, cv::Rect(70, 33, 20, 9), cv::Scalar(225, 222, 220), cv::FILLED);
   PersonColours colours;
   const Scene s = scene();
@@ -161,9 +161,9 @@ TEST(PersonColours, AMaskOnHalfTheFaceDoesNotBecomeSkin) {
   EXPECT_GT(mahalanobis2(colours.skin, log_colour_of(225, 222, 220)), 9);
 }
 
-TEST(PersonColours, WhatHasTheColourOfAMaskIsNotAnArm) {
+TEST(PersonColours, ObjectOfMaskColourIsNotAnArm) {
   const cv::Scalar white(225, 222, 220);
-  cv::Mat image = picture();
+  cv::Mat image = test_image();
   const cv::Rect shoe(102, 84, 10, 8);
   cv::rectangle(image, shoe, white, cv::FILLED);
   const auto label_of_the_shoe = [&](bool masked) {
@@ -187,9 +187,9 @@ TEST(PersonColours, WhatHasTheColourOfAMaskIsNotAnArm) {
   EXPECT_NE(label_of_the_shoe(false), Label::ignore) << "an unknown scrap goes to its neighbours";
 }
 
-TEST(PersonColours, AShirtInsideTheHeadsEllipseIsNoMask) {
+TEST(PersonColours, ShirtInsideHeadEllipseIsNoMask) {
   // A head that was found too low holds some of the shirt: the shirt must stay clothes.
-  cv::Mat image = picture();
+  cv::Mat image = test_image();
   cv::rectangle(image, cv::Rect(70, 38, 20, 12), kShirt, cv::FILLED);
   PersonColours colours;
   const Scene s = scene();

@@ -9,7 +9,7 @@
 
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
-#include "telemime/image/distance_map.h"
+#include "telemime/image/edges.h"
 #include "telemime/likelihood/cues/contour.h"
 #include "telemime/likelihood/cues/region.h"
 #include "telemime/render/renderer.h"

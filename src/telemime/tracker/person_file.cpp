@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/errors.h"
-#include "telemime/image/calibration_file.h"
+#include "telemime/image/image_calibration.h"
 #include "telemime/offline/run_outputs.h"
 
 namespace telemime {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/image/calibration_file.h"
+#include "telemime/image/image_calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,12 @@ class CalibrationFile : public testing::Test {
 
 ImageCalibration some_calibration() {
   ImageCalibration c;
-  cv::Mat picture(30, 40, CV_8UC3);
+  cv::Mat image(30, 40, CV_8UC3);
   for (int i = 0; i < 30 * 40 * 3; ++i) {
-    picture.data[i] = static_cast<unsigned char>(i * 7 % 251);
+    image.data[i] = static_cast<unsigned char>(i * 7 % 251);
   }
-  const std::vector<cv::Mat> pictures{picture};
-  c.background = learn_background_model(pictures);
+  const std::vector<cv::Mat> images{image};
+  c.background = learn_background_model(images);
   c.background.valid.at<unsigned char>(3, 4) = 0;
   ColourGaussian g;
   g.mean = {0.1F, -0.25F, 5.125F};
@@ -63,7 +63,7 @@ TEST_F(CalibrationFile, ReadsWhatWasWritten) {
   }
 }
 
-TEST_F(CalibrationFile, SaysWhichFileCannotBeUsed) {
+TEST_F(CalibrationFile, ErrorNamesTheFile) {
   const auto message_of = [](const std::filesystem::path& file) {
     try {
       load_calibration(file);

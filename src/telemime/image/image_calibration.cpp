@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/image/calibration_file.h"
+#include "telemime/image/image_calibration.h"
 
 #include <array>
 #include <opencv2/core.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kVersion = 2;
 
-/// One row per Gaussian: weight, mean (3), covariance (9).
+/// One row for each Gaussian: weight, mean (3), covariance (9).
 cv::Mat table_of(const ColourMixture& mixture) {
   cv::Mat table(static_cast<int>(mixture.size()), 13, CV_32FC1);
   for (int i = 0; i < table.rows; ++i) {
@@ -37,10 +37,10 @@ ColourMixture mixture_of(const cv::Mat& table, const std::string& name, const st
     return mixture;
   }
   if (table.cols != 13 || table.type() != CV_32FC1 || !cv::checkRange(table)) {
-    throw Error(ErrorKind::config,
-                "the calibration " + file + " is damaged: its colours '" + name +
-                    "' are not a table of 13 numbers a row",
-                "calibrate again");
+    throw Error(
+        ErrorKind::config,
+        "the calibration " + file + " is damaged: the colours '" + name + "' are not a table with 13 columns",
+        "calibrate again");
   }
   for (int i = 0; i < table.rows; ++i) {
     const auto* row = table.ptr<float>(i);
@@ -57,7 +57,7 @@ ColourMixture mixture_of(const cv::Mat& table, const std::string& name, const st
   return mixture;
 }
 
-/// Every plane of a background by name: one list for writing and for reading.
+/// The planes of a background by name, for writing and reading.
 std::array<std::pair<const char*, cv::Mat*>, 7> planes_of(BackgroundModel& model) {
   return {{{"mean_u", &model.mean.u},
            {"mean_v", &model.mean.v},
@@ -76,7 +76,7 @@ std::array<std::pair<const char*, ColourMixture*>, 5> mixtures_of(ImageCalibrati
            {"other", &calibration.colours.other}}};
 }
 
-/// Not opened when there is no such file or folder: OpenCV would say so on the terminal.
+/// Opens the storage unless the file or its folder does not exist: OpenCV would print an error message.
 cv::FileStorage open(const std::filesystem::path& file, int mode) {
   std::error_code ignored;
   const bool writes = (mode & cv::FileStorage::WRITE) != 0;
@@ -99,10 +99,10 @@ void save_calibration(const ImageCalibration& calibration, const std::filesystem
   cv::FileStorage storage = open(file, cv::FileStorage::WRITE | cv::FileStorage::BASE64);
   if (!storage.isOpened()) {
     throw Error(ErrorKind::output, "the calibration cannot be written to " + file.string(),
-                "name a folder that exists and may be written, and a file that ends in .yml.gz");
+                "choose an existing, writable folder and a file name that ends in .yml.gz");
   }
   storage << "telemime_image_calibration" << kVersion;
-  ImageCalibration copy = calibration;  // shares the pictures; the lists below want non-const pointers
+  ImageCalibration copy = calibration;  // shares the planes; the lists below need non-const pointers
   storage << "doubtful" << (calibration.doubtful ? 1 : 0);
   for (const auto& [name, plane] : planes_of(copy.background)) {
     storage << name << *plane;
@@ -117,13 +117,13 @@ ImageCalibration load_calibration(const std::filesystem::path& file) {
   cv::FileStorage storage = open(file, cv::FileStorage::READ);
   if (!storage.isOpened()) {
     throw Error(ErrorKind::config, "the calibration " + file.string() + " cannot be read",
-                "check the name, or calibrate again");
+                "check the file name, or calibrate again");
   }
   int version = 0;
   storage["telemime_image_calibration"] >> version;
   if (version != kVersion) {
-    throw Error(ErrorKind::config, file.string() + " is not an image calibration of this version",
-                "calibrate again with this program");
+    throw Error(ErrorKind::config, file.string() + " is not an image calibration of this program version",
+                "calibrate again with this version");
   }
   ImageCalibration out;
   int doubtful = 0;
@@ -136,9 +136,10 @@ ImageCalibration load_calibration(const std::filesystem::path& file) {
   for (const auto& [name, plane] : planes_of(out.background)) {
     const int wanted = plane == &out.background.valid || plane == &out.background.seen ? CV_8UC1 : CV_32FC1;
     if (plane->size() != size || (!plane->empty() && plane->type() != wanted)) {
-      throw Error(ErrorKind::config,
-                  "the calibration " + file.string() + " is damaged: '" + name + "' has a wrong size or type",
-                  "calibrate again");
+      throw Error(
+          ErrorKind::config,
+          "the calibration " + file.string() + " is damaged: '" + name + "' has the wrong size or type",
+          "calibrate again");
     }
   }
   for (const auto& [name, mixture] : mixtures_of(out)) {
