@@ -34,7 +34,7 @@ BackgroundModel learned(Random& random) {
   return learn_background_model(images);
 }
 
-/// Energy that a colour nobody knows has: above it a pixel is somebody's.
+/// Energy of an unknown colour: a pixel above it belongs to the person.
 constexpr float kAnything = 3.0F;
 
 cv::Mat foreground(const BackgroundModel& model, const cv::Mat& image) {

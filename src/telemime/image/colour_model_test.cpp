@@ -25,7 +25,7 @@ void add(Samples& samples, const Eigen::Vector3f& mean, float spread, int count,
 }
 
 TEST(LogColour, ShadowChangesOnlyLuminance) {
-  // Twice the light on colours far above the offset: u and v stay, l grows by ln 2.
+  // Doubling the light on colours far above the offset changes only l, by ln 2.
   const Eigen::Vector3f dark = log_colour_of(100, 110, 120);
   const Eigen::Vector3f light = log_colour_of(2 * 100 + 12, 2 * 110 + 12, 2 * 120 + 12);
   EXPECT_NEAR(dark[0], light[0], 1e-4);

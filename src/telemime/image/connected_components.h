@@ -27,8 +27,8 @@ struct Component {
 };
 
 /// The connected components of a mask, ordered by their first pixels, as runs of pixels from top to bottom
-/// (A. Rosenfeld and J. L. Pfaltz, Sequential operations in digital image processing, 1966). A silhouette has
-/// few runs, so this is faster than OpenCV's connectedComponentsWithStats, which labels every pixel.
+/// (A. Rosenfeld and J. L. Pfaltz, Sequential operations in digital picture processing, 1966). A silhouette
+/// has few runs, so this is faster than OpenCV's connectedComponentsWithStats, which labels every pixel.
 class ConnectedComponents {
  public:
   /// Finds the components of the pixels of `mask` ((h x w) CV_8UC1) that are not 0. Throws Error(usage) for

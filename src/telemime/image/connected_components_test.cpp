@@ -35,7 +35,7 @@ std::vector<Found> by_opencv(const cv::Mat& mask, int connectivity, cv::Mat& lab
   return sorted(found);
 }
 
-std::vector<Found> ours(const ConnectedComponents& components) {
+std::vector<Found> pixels_of(const ConnectedComponents& components) {
   std::vector<Found> found;
   for (const Component& c : components.all()) {
     found.emplace_back(c.area, c.box.x, c.box.y, c.box.width, c.box.height);
@@ -43,7 +43,7 @@ std::vector<Found> ours(const ConnectedComponents& components) {
   return sorted(found);
 }
 
-// Noise of many densities, plain and in lumps, at sizes that are no multiple of anything.
+// Noise of many densities, fine and coarse, at odd sizes.
 std::vector<cv::Mat> masks() {
   Random random(3, 0);
   std::vector<cv::Mat> made;
@@ -73,8 +73,8 @@ TEST(ConnectedComponents, EqualThoseOfOpenCv) {
       cv::Mat labels;
       const std::vector<Found> expected = by_opencv(mask, number, labels);
       const ConnectedComponents components(mask, connectivity);
-      ASSERT_EQ(ours(components), expected) << mask.size() << ", " << number << " neighbours";
-      // Each is the set of pixels of one label, whole.
+      ASSERT_EQ(pixels_of(components), expected) << mask.size() << ", " << number << " neighbours";
+      // Each component is the complete set of pixels of one label.
       cv::Mat rest = mask.clone();
       for (const Component& component : components.all()) {
         const PixelRun first = components.runs(component).front();
@@ -89,7 +89,7 @@ TEST(ConnectedComponents, EqualThoseOfOpenCv) {
 }
 
 TEST(ConnectedComponents, AreSortedByFirstPixelAndRow) {
-  // A U, whose right arm is found to be the left one's only at the bottom, and a point between the two.
+  // A U, whose two arms are connected only at the bottom, and a point between them.
   cv::Mat mask = cv::Mat::zeros(4, 7, CV_8UC1);
   mask.col(1).setTo(255);
   mask.col(5).setTo(255);

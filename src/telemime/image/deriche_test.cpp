@@ -41,7 +41,7 @@ TEST_P(DericheAlpha, EqualsDirectConvolution) {
   cv::Mat image(1, 81, CV_32FC1, cv::Scalar(0));
   image.at<float>(0, 40) = 100.0F;
   const Gradient g = deriche_gradient(image, alpha);
-  // One row: smoothing along y changes nothing, so dx is the impulse answer of the derivative.
+  // One row: smoothing along y changes nothing, so dx is the impulse response of the derivative.
   const double k = std::pow(1 - q, 3) / (2 * q * (1 + q));
   for (int n = -10; n <= 10; ++n) {
     const double expected = -100.0 * k * n * std::pow(q, std::abs(n));

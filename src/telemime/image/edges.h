@@ -15,10 +15,9 @@ namespace telemime {
 cv::Mat find_edges(const Gradient& gradient, const cv::Mat& mask, double low, double high);
 
 /// Distance in pixels from each pixel to the nearest edge pixel (edges: CV_8UC1, not 0 on edges), at most
-/// `cap`
-/// (> 0); `cap` everywhere if there is no edge. CV_32FC1. The 5x5 chamfer distance (G. Borgefors, Distance
-/// transformations in digital images, 1986) is within 2.5 % of the Euclidean distance. The values equal those
-/// of OpenCV's distanceTransform (without IPP) to the last bit, in less time. Thesis 3.5.1.
+/// `cap` (> 0); `cap` everywhere if there is no edge. CV_32FC1. The 5x5 chamfer distance (G. Borgefors,
+/// Distance transformations in digital images, 1986) is within 2.5 % of the Euclidean distance. The values
+/// equal those of OpenCV's distanceTransform (without IPP) to the last bit, in less time. Thesis 3.5.1.
 cv::Mat distance_map(const cv::Mat& edges, double cap);
 
 }  // namespace telemime

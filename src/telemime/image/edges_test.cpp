@@ -74,7 +74,7 @@ TEST(DistanceMap, IsCappedAndCapWithoutEdges) {
 }
 
 TEST(DistanceMap, EqualsOpenCvToTheLastBit) {
-  cv::ipp::setUseIPP(false);  // where there is one, it has a chamfer of its own
+  cv::ipp::setUseIPP(false);  // IPP has its own chamfer distance
   Random random(5, 0);
   for (const cv::Size size :
        {cv::Size(90, 70), cv::Size(1, 1), cv::Size(3, 40), cv::Size(41, 2), cv::Size(160, 120)}) {

@@ -29,7 +29,8 @@ Scene face() {
   return s;
 }
 
-/// The same with a brighter arm from below up to the mouth: outside the head the labels call it arms already.
+/// The same face with a brighter arm from below up to the mouth, which is already labelled arms outside the
+/// head.
 Scene hand_before_face() {
   Scene s = face();
   const cv::Rect arm(148, 86, 24, 100);
@@ -51,7 +52,7 @@ TEST(FaceMemory, HandBeforeMouthBecomesArms) {
   Scene s = hand_before_face();
   label_hands_over_face(memory, log_colour(s.bgr), s.head, s.skin, s.labels);
   EXPECT_EQ(s.labels.at<unsigned char>(98, 160), static_cast<int>(Label::arms));
-  EXPECT_EQ(s.labels.at<unsigned char>(65, 160), static_cast<int>(Label::head)) << "the brow stays";
+  EXPECT_EQ(s.labels.at<unsigned char>(65, 160), static_cast<int>(Label::head)) << "the brow keeps its label";
   EXPECT_EQ(s.labels.at<unsigned char>(150, 160), static_cast<int>(Label::arms));
 }
 

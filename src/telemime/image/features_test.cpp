@@ -33,7 +33,7 @@ std::vector<Frame> frames_of(const std::filesystem::path& file, int most) {
   return frames;
 }
 
-/// Share of (frame, joint) whose label at the joint's true pixel is `wanted`.
+/// Share of (frame, joint) pairs whose label at the true pixel of the joint is `wanted`.
 double agreement(const std::vector<FrameFeatures>& seen, const nlohmann::json& truth,
                  const std::vector<std::string>& joints, Label wanted) {
   const auto names = truth["joints"].get<std::vector<std::string>>();
@@ -267,7 +267,7 @@ TEST(FeatureExtractor, HeadKeepsItsSizeAtFirstDetection) {
   config.height = 240;
   FeatureExtractor features(config);
   features.bootstrap(frames);
-  // Walking in, seen from the side: the outline leads until the detector knows the face.
+  // The person walks in, seen from the side: the outline gives the head until the face is detected.
   std::size_t f = 35;
   while (f < frames.size() && !features.learn_person(frames[f]).accepted) {
     ++f;

@@ -56,7 +56,7 @@ TEST_F(HeadTrackerTest, ReportsReplacedOutlineSquare) {
       EXPECT_LT(face->side, side);
     }
   }
-  EXPECT_EQ(replaced, 1) << "once: then the detector leads";
+  EXPECT_EQ(replaced, 1) << "once: then the detector gives the square";
 }
 
 TEST_F(HeadTrackerTest, FirstDetectionIsNotSmoothed) {
@@ -74,7 +74,7 @@ TEST_F(HeadTrackerTest, LostSquareKeepsOnlyItsSize) {
   HeadTracker heads = tracker();
   const double side = 1.2 * face_.side;
   heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
-  // What was there is gone for a image, then there again, a little aside.
+  // The face is absent in one image and then visible again, slightly shifted.
   ASSERT_TRUE(heads.update(cv::Mat(grey_.size(), CV_8UC1, cv::Scalar(90)), whole(), any_face).has_value());
   EXPECT_FALSE(heads.replaced().has_value());
   cv::Mat negative;

@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-cv::Mat room(Random& random) {
+cv::Mat empty_scene(Random& random) {
   cv::Mat image(120, 160, CV_8UC3, cv::Scalar(150, 150, 140));
   image(cv::Rect(0, 0, 160, 30)).setTo(cv::Scalar(90, 120, 60));
   for (int i = 0; i < 12; ++i) {
@@ -44,10 +44,10 @@ TEST(StillStretch, IsEmptyStartWithoutLastFrames) {
   std::vector<cv::Mat> clip;
   clip.reserve(64);
   for (int i = 0; i < 20; ++i) {
-    clip.push_back(room(random));
+    clip.push_back(empty_scene(random));
   }
   for (int i = 0; i < 20; ++i) {
-    clip.push_back(with_person(room(random), 150 - 4 * i));
+    clip.push_back(with_person(empty_scene(random), 150 - 4 * i));
   }
   const auto [first, count] = find_still_stretch(clip);
   EXPECT_EQ(first, 0U);
@@ -59,10 +59,10 @@ TEST(StillStretch, IsFoundAtTheEnd) {
   std::vector<cv::Mat> clip;
   clip.reserve(64);
   for (int i = 0; i < 15; ++i) {
-    clip.push_back(with_person(room(random), 40 + 5 * i));
+    clip.push_back(with_person(empty_scene(random), 40 + 5 * i));
   }
   for (int i = 0; i < 15; ++i) {
-    clip.push_back(room(random));
+    clip.push_back(empty_scene(random));
   }
   const auto [first, count] = find_still_stretch(clip);
   EXPECT_EQ(first, 18U);
@@ -74,7 +74,7 @@ TEST(StillStretch, NoneInAMovingClip) {
   std::vector<cv::Mat> clip;
   clip.reserve(64);
   for (int i = 0; i < 30; ++i) {
-    clip.push_back(with_person(room(random), 20 + 4 * i));
+    clip.push_back(with_person(empty_scene(random), 20 + 4 * i));
   }
   EXPECT_EQ(find_still_stretch(clip).second, 0U);
 }
@@ -85,10 +85,10 @@ TEST(AroundPerson, MovingPersonUncoversBackground) {
   samples.reserve(64);
   for (int i = 0; i < 12; ++i) {
     const int x = 30 + 9 * i;
-    samples.push_back({with_person(room(random), x), head_at(x)});
+    samples.push_back({with_person(empty_scene(random), x), head_at(x)});
   }
   const BackgroundModel model = learn_around_person(samples);
-  const LogColour empty = log_colour(room(random));
+  const LogColour empty = log_colour(empty_scene(random));
   EXPECT_GT(cv::countNonZero(model.valid), 0.9 * model.valid.total());
   const cv::Mat wrong = (cv::abs(model.mean.l - empty.l) > 0.15) & model.valid;
   EXPECT_LT(cv::countNonZero(wrong), 0.02 * wrong.total());
@@ -99,7 +99,7 @@ TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
   std::vector<SceneSample> samples;
   samples.reserve(64);
   for (int i = 0; i < 8; ++i) {
-    samples.push_back({with_person(room(random), 80), head_at(80)});
+    samples.push_back({with_person(empty_scene(random), 80), head_at(80)});
   }
   const BackgroundModel model = learn_around_person(samples);
   EXPECT_EQ(model.valid.at<unsigned char>(100, 80), 0);
@@ -114,7 +114,7 @@ TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
 TEST(SceneMotion, MeasuresShiftAndIsZeroAtRest) {
   Random random(6);
   cv::Mat grey;
-  cv::cvtColor(room(random), grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(empty_scene(random), grey, cv::COLOR_BGR2GRAY);
   const cv::Mat everywhere(grey.size(), CV_8UC1, cv::Scalar(255));
   cv::Mat moved;
   const cv::Matx23d by(1, 0, 3, 0, 1, 0);

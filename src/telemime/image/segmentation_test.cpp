@@ -15,7 +15,7 @@ const cv::Scalar kSkinColour(125, 155, 205);
 const cv::Scalar kShirt(150, 60, 40);
 const cv::Scalar kTrousers(40, 36, 33);
 
-/// Somebody with both forearms beside the trunk, trousers below.
+/// A person with one forearm beside and one in front of the trunk, and trousers below.
 cv::Mat test_image() {
   cv::Mat image(120, 160, CV_8UC3, kWall);
   cv::rectangle(image, cv::Rect(58, 50, 44, 50), kShirt, cv::FILLED);
@@ -60,13 +60,13 @@ TEST(Segmentation, EachPartGetsItsLabel) {
   EXPECT_EQ(at(out.labels, 80, 46), Label::head) << "the neck";
   EXPECT_EQ(at(out.labels, 80, 60), Label::clothes);
   EXPECT_EQ(at(out.labels, 48, 64), Label::arms) << "beside the trunk";
-  EXPECT_EQ(at(out.labels, 80, 80), Label::arms) << "before the trunk";
+  EXPECT_EQ(at(out.labels, 80, 80), Label::arms) << "in front of the trunk";
   EXPECT_EQ(at(out.labels, 60, 112), Label::ignore) << "trousers";
   EXPECT_EQ(at(out.labels, 10, 10), Label::background);
   EXPECT_EQ(at(out.labels, 130, 90), Label::background);
 }
 
-// Somebody who is seen whole, in a image of twice the size, with an arm that hangs down so many pixels.
+// A person visible from head to foot, in an image of twice the size, with a hanging arm of the given length.
 Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& config = {}) {
   const cv::Mat empty(240, 320, CV_8UC3, kWall);
   cv::Mat image = empty.clone();
@@ -90,13 +90,13 @@ Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& c
 
 TEST(Segmentation, BareAnklesAreNotArms) {
   const Segmentation out = seen_whole(48, 13.5);
-  EXPECT_EQ(at(out.labels, 136, 106), Label::arms) << "a hand that hangs down";
+  EXPECT_EQ(at(out.labels, 136, 106), Label::arms) << "a hanging hand";
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore);
-  EXPECT_EQ(out.silhouette.at<unsigned char>(194, 160), 255) << "of the person they are";
+  EXPECT_EQ(out.silhouette.at<unsigned char>(194, 160), 255) << "they belong to the person";
 }
 
 TEST(Segmentation, FingersAreFoundWithBowedHead) {
-  // A metre from the head's centre, with a head that seems 10 % too low.
+  // One metre from the centre of the head, with a head that seems 10 % too low.
   const Segmentation out = seen_whole(76, 12.15);
   EXPECT_EQ(at(out.labels, 136, 138), Label::arms);
   EXPECT_EQ(at(out.labels, 160, 194), Label::ignore) << "ankles";
@@ -104,7 +104,7 @@ TEST(Segmentation, FingersAreFoundWithBowedHead) {
 
 TEST(Segmentation, WideLensAllowsHandsFartherAway) {
   SegmentationConfig wide;
-  wide.focal_length = 0.5F;  // 90 degrees: who looks as big is nearer
+  wide.focal_length = 0.5F;  // 90 degrees: a person of the same size in the image is nearer
   EXPECT_EQ(at(seen_whole(76, 12.15, wide).labels, 160, 194), Label::arms);
 }
 
@@ -184,11 +184,11 @@ TEST(PersonColours, ObjectOfMaskColourIsNotAnArm) {
     return at(out.labels, shoe.x + 5, shoe.y + 4);
   };
   EXPECT_EQ(label_of_the_shoe(true), Label::ignore);
-  EXPECT_NE(label_of_the_shoe(false), Label::ignore) << "an unknown scrap goes to its neighbours";
+  EXPECT_NE(label_of_the_shoe(false), Label::ignore) << "unknown scraps get the label of their neighbours";
 }
 
 TEST(PersonColours, ShirtInsideHeadEllipseIsNoMask) {
-  // A head that was found too low holds some of the shirt: the shirt must stay clothes.
+  // If the head is found too low, it contains part of the shirt, which must remain clothes.
   cv::Mat image = test_image();
   cv::rectangle(image, cv::Rect(70, 38, 20, 12), kShirt, cv::FILLED);
   PersonColours colours;
