@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pose, one picture: what the tracker's model looks like to the camera, and how well two poses agree.
+// One pose and one frame: render the model as the camera sees it, and score two poses against the result.
 // Usage: 01_one_frame
 #include <cstdio>
 
@@ -16,7 +16,7 @@ int main() {
   truth[Angle::l_shoulder_abduct] = 0.9;
   truth[Angle::l_elbow_flexion] = -0.7;
 
-  // The model's own class planes stand for a segmented picture here.
+  // The rendered classes take the place of a segmented image.
   Rendering seen;
   render(model.mesh, forward_kinematics(model.body, truth), camera, seen);
   FrameFeatures features;
