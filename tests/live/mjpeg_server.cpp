@@ -16,7 +16,7 @@ namespace telemime::live_testing {
 namespace {
 
 using Steady = std::chrono::steady_clock;
-constexpr auto kLook = std::chrono::milliseconds(3);  // between looks for a new connection
+constexpr auto kPoll = std::chrono::milliseconds(3);  // interval of checks for a new connection
 
 bool send_all(int socket, const std::string& bytes) {
   std::size_t sent = 0;
@@ -70,7 +70,7 @@ void MjpegServer::hang_up() {
 void MjpegServer::unplug() {
   std::unique_lock lock(mutex_);
   plugged_ = false;
-  changed_.wait(lock, [this] { return listener_ < 0; });  // from here on connections are refused
+  changed_.wait(lock, [this] { return listener_ < 0; });  // from now on connections are refused
 }
 
 void MjpegServer::plug_in() {
@@ -100,7 +100,7 @@ void MjpegServer::listen() {
   auto* const general = reinterpret_cast<sockaddr*>(&address);
   if (::bind(listener_, general, size) != 0 || ::listen(listener_, 8) != 0 ||
       ::getsockname(listener_, general, &size) != 0) {
-    throw std::runtime_error("no port for the test's camera");
+    throw std::runtime_error("no free port for the test camera");
   }
   port_ = ntohs(address.sin_port);
 }
@@ -160,7 +160,7 @@ void MjpegServer::serve() {
     bool plugged = true;
     {
       std::unique_lock lock(mutex_);
-      if (changed_.wait_for(lock, kLook, [this] { return stop_; })) {
+      if (changed_.wait_for(lock, kPoll, [this] { return stop_; })) {
         return;
       }
       plugged = plugged_;

@@ -11,8 +11,8 @@
 
 namespace telemime::live_testing {
 
-/// A camera in the network for tests, as many of them are: Motion JPEG over HTTP (multipart/x-mixed-replace)
-/// on this machine, at a port of its own. All changes act on the connection that is open, too.
+/// A network camera for tests: Motion JPEG over HTTP (multipart/x-mixed-replace) at a free port of this
+/// computer. All changes also apply to the open connection.
 class MjpegServer {
  public:
   MjpegServer();
@@ -21,17 +21,17 @@ class MjpegServer {
   ~MjpegServer();
 
   std::string url() const;
-  /// Sends these parts again and again, `rate` of them a second. They need not be pictures.
+  /// Sends these parts repeatedly, `rate` per second. They need not be images.
   void show(std::vector<std::string> parts, double rate);
-  /// Keeps the connection and sends nothing more, until show().
+  /// Keeps the connection open but sends nothing until show().
   void fall_silent();
-  /// Closes the connection; the next one is taken again.
+  /// Closes the connection and accepts the next one.
   void hang_up();
-  /// As if its plug was pulled: closes the connection and refuses others until plug_in().
+  /// Closes the connection and refuses others until plug_in().
   void unplug();
   void plug_in();
-  int connections() const;  ///< taken so far
-  /// Until so many were taken.
+  int connections() const;  ///< accepted so far
+  /// Waits until this number of connections was accepted.
   void wait_for_connection(int number);
 
  private:
@@ -50,7 +50,7 @@ class MjpegServer {
   bool stop_ = false;
   int connections_ = 0;
 
-  // Of the server's thread.
+  // Used by the server's thread only.
   std::uint16_t port_ = 0;
   int listener_ = -1;
   int client_ = -1;

@@ -13,9 +13,9 @@ namespace telemime::live_testing {
 
 using Json = nlohmann::json;
 
-/// The next message of a type for which `wanted` holds; fails the test when there is none in a minute.
+/// The next message of this type for which `wanted` holds. Fails the test if there is none within a minute.
 template <typename Wanted>
-Json hear(SocketClient& page, const std::string& type, const Wanted& wanted) {
+Json receive(SocketClient& page, const std::string& type, const Wanted& wanted) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (std::chrono::steady_clock::now() < deadline) {
     const auto message = page.message();
@@ -33,8 +33,8 @@ Json hear(SocketClient& page, const std::string& type, const Wanted& wanted) {
   return {};
 }
 
-inline Json hear(SocketClient& page, const std::string& type) {
-  return hear(page, type, [](const Json&) { return true; });
+inline Json receive(SocketClient& page, const std::string& type) {
+  return receive(page, type, [](const Json&) { return true; });
 }
 
 }  // namespace telemime::live_testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole live program with a camera in the network that has whims: what the page hears.
+// The whole live program with a faulty network camera: the messages that a page receives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 namespace telemime {
 namespace {
 
-using live_testing::hear;
 using live_testing::jpegs;
 using live_testing::Json;
 using live_testing::MjpegServer;
 using live_testing::person;
+using live_testing::receive;
 
-std::vector<std::string> somebody(cv::Size size = {}) {
+std::vector<std::string> person_frames(cv::Size size = {}) {
   std::vector<cv::Mat> pictures;
   for (const Frame& frame : person()) {
     pictures.push_back(frame.image);
@@ -34,7 +34,7 @@ std::vector<std::string> somebody(cv::Size size = {}) {
 class ProgramStream : public ::testing::Test {
  protected:
   ProgramStream() {
-    camera_.show(somebody(), kRate);
+    camera_.show(person_frames(), kRate);
     LiveRequest request;
     request.request = live_testing::quick_request(folder_);
     request.web.port = 0;
@@ -47,14 +47,16 @@ class ProgramStream : public ::testing::Test {
     program_ =
         std::make_unique<LiveProgram>(request, open_source(camera_.url(), options), LiveProgram::Message());
     page_ = std::make_unique<SocketClient>(program_->port());
-    hear_phase("tracking");
+    expect_phase("tracking");
   }
-  Json hear_phase(const std::string& phase) {
-    return hear(*page_, "status", [&](const Json& j) { return j.at("phase") == phase; });
+  Json expect_phase(const std::string& phase) {
+    return receive(*page_, "status", [&](const Json& j) { return j.at("phase") == phase; });
   }
-  void hear_words(const std::string& level, const std::string& words) { hear_words(*page_, level, words); }
-  void hear_words(SocketClient& page, const std::string& level, const std::string& words) {
-    hear(page, "message", [&](const Json& j) {
+  void expect_message(const std::string& level, const std::string& words) {
+    expect_message(*page_, level, words);
+  }
+  void expect_message(SocketClient& page, const std::string& level, const std::string& words) {
+    receive(page, "message", [&](const Json& j) {
       return j.at("level") == level && j.at("words").get<std::string>().find(words) != std::string::npos;
     });
   }
@@ -63,8 +65,8 @@ class ProgramStream : public ::testing::Test {
     return std::any_of(all.begin(), all.end(),
                        [&](const std::string& one) { return one.find(words) != std::string::npos; });
   }
-  void hear_state(const std::string& state) {
-    hear(*page_, "pose", [&](const Json& j) { return j.at("state") == state; });
+  void expect_state(const std::string& state) {
+    receive(*page_, "pose", [&](const Json& j) { return j.at("state") == state; });
   }
 
   static constexpr double kRate = 25.0;
@@ -74,63 +76,63 @@ class ProgramStream : public ::testing::Test {
   std::unique_ptr<SocketClient> page_;
 };
 
-TEST_F(ProgramStream, ACameraThatGoesAndComesBack) {
+TEST_F(ProgramStream, CameraGoesAndReturns) {
   camera_.unplug();
-  hear_words("warning", "stopped");
-  hear_state("lost");
-  EXPECT_NE(hear_phase("stopped").at("words"), "");
+  expect_message("warning", "stopped");
+  expect_state("lost");
+  EXPECT_NE(expect_phase("stopped").at("words"), "");
   camera_.plug_in();
-  hear_words("info", "is back");
-  hear_phase("tracking");
-  hear_state("tracking");
+  expect_message("info", "is back");
+  expect_phase("tracking");
+  expect_state("tracking");
 }
 
-TEST_F(ProgramStream, ACameraThatFallsSilent) {
+TEST_F(ProgramStream, CameraFallsSilent) {
   camera_.fall_silent();
-  hear_words("warning", "no pictures");
-  hear_phase("stopped");
-  camera_.show(somebody(), kRate);
-  hear_words("info", "is back");
-  hear_state("tracking");
+  expect_message("warning", "no pictures");
+  expect_phase("stopped");
+  camera_.show(person_frames(), kRate);
+  expect_message("info", "is back");
+  expect_state("tracking");
 }
 
-TEST_F(ProgramStream, AnotherPictureSize) {
-  camera_.show(somebody({640, 480}), kRate);
-  hear_words("warning", "640x480");
+TEST_F(ProgramStream, ImageSizeChanges) {
+  camera_.show(person_frames({640, 480}), kRate);
+  expect_message("warning", "640x480");
   for (int i = 0; i < 5; ++i) {
-    hear_state("tracking");
+    expect_state("tracking");
   }
   EXPECT_NE(program_->report().state.phase, LivePhase::ended);
 }
 
-TEST_F(ProgramStream, FivePicturesASecond) {
-  camera_.show(somebody(), 5.0);
-  hear_words("warning", "only 5 pictures a second");
+TEST_F(ProgramStream, FiveFramesPerSecond) {
+  camera_.show(person_frames(), 5.0);
+  expect_message("warning", "only 5 pictures a second");
   for (int i = 0; i < 3; ++i) {
-    hear_state("tracking");
+    expect_state("tracking");
   }
   SocketClient late(program_->port());
-  hear_words(late, "warning", "only 5 pictures a second");  // it is still so
+  expect_message(late, "warning", "only 5 pictures a second");  // it still applies
   EXPECT_TRUE(warned_of("pictures a second"));
-  camera_.show(somebody(), kRate);
-  hear_words("info", "again");
+  camera_.show(person_frames(), kRate);
+  expect_message("info", "again");
   EXPECT_FALSE(warned_of("pictures a second"));
 }
 
-TEST_F(ProgramStream, Garbage) {
-  auto parts = somebody();
+TEST_F(ProgramStream, DamagedImages) {
+  auto parts = person_frames();
   parts[1] = std::string(5000, 'x');
   parts[3].resize(parts[3].size() / 2);
   camera_.show(parts, kRate);
-  hear_words("warning", "damaged");
-  hear_state("tracking");
-  camera_.show(somebody(), kRate);
-  hear_words("info", "whole again");
+  expect_message("warning", "damaged");
+  expect_state("tracking");
+  camera_.show(person_frames(), kRate);
+  expect_message("info", "whole again");
 }
 
-TEST_F(ProgramStream, EndsWhileTheCameraIsGone) {
+TEST_F(ProgramStream, EndsWhileCameraIsGone) {
   camera_.unplug();
-  hear_phase("stopped");
+  expect_phase("stopped");
   program_.reset();
 }
 

@@ -19,9 +19,9 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::empty_room;
-using live_testing::hear;
 using live_testing::person;
 using live_testing::quick_request;
+using live_testing::receive;
 using live_testing::Scene;
 using Json = nlohmann::json;
 
@@ -36,7 +36,7 @@ class Program : public ::testing::Test {
     options.version = "1.2.3";
     return options;
   }
-  static std::shared_ptr<Scene> somebody() {
+  static std::shared_ptr<Scene> person_frames() {
     auto scene = std::make_shared<Scene>();
     scene->show(person());
     return scene;
@@ -53,34 +53,34 @@ std::string get(std::uint16_t port, const std::string& path, int status) {
   return reply.body;
 }
 
-TEST_F(Program, APageSeesThePersonAndThePicture) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, PageGetsPersonAndImages) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
-  const Json hello = hear(page, "hello");
+  const Json hello = receive(page, "hello");
   EXPECT_EQ(hello.at("version"), "1.2.3");
   EXPECT_EQ(hello.at("camera").at("width"), person().front().image.cols);
-  EXPECT_TRUE(hear(page, "body").at("bones").contains("leftHand"));
-  const Json pose = hear(page, "pose", [](const Json& j) { return j.at("state") == "tracking"; });
+  EXPECT_TRUE(receive(page, "body").at("bones").contains("leftHand"));
+  const Json pose = receive(page, "pose", [](const Json& j) { return j.at("state") == "tracking"; });
   EXPECT_EQ(pose.at("bones").at("head").size(), 4U);
   EXPECT_EQ(pose.at("pixels").at("l_wrist").size(), 2U);
-  // A rate is known from the second pose on.
-  hear(page, "status", [](const Json& j) {
+  // The rate is known after the second pose.
+  receive(page, "status", [](const Json& j) {
     return j.at("phase") == "tracking" && j.at("fps").at("tracked").get<double>() > 0.0;
   });
 
-  std::optional<SocketClient::Frame> picture;
-  while ((picture = page.message()) && picture->opcode != SocketClient::binary) {
+  std::optional<SocketClient::Frame> image;
+  while ((image = page.message()) && image->opcode != SocketClient::binary) {
   }
-  ASSERT_TRUE(picture);
-  ASSERT_GT(picture->payload.size(), 100U);
-  EXPECT_EQ(picture->payload.substr(0, 4), std::string("\x01\0\0\0", 4));
-  EXPECT_EQ(picture->payload.substr(16, 2), "\xFF\xD8") << "a JPEG";
+  ASSERT_TRUE(image);
+  ASSERT_GT(image->payload.size(), 100U);
+  EXPECT_EQ(image->payload.substr(0, 4), std::string("\x01\0\0\0", 4));
+  EXPECT_EQ(image->payload.substr(16, 2), "\xFF\xD8") << "a JPEG";
 }
 
-TEST_F(Program, WhoComesLaterIsToldWhoTheBodyIs) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, LatePageGetsTheBody) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient first(program.port());
-  hear(first, "pose");
+  receive(first, "pose");
   SocketClient later(program.port());
   EXPECT_EQ(Json::parse(later.heard()).at("type"), "hello");
   EXPECT_EQ(Json::parse(later.heard()).at("type"), "body");
@@ -88,23 +88,23 @@ TEST_F(Program, WhoComesLaterIsToldWhoTheBodyIs) {
 }
 
 TEST_F(Program, LatencyIsWhatPagesReport) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
-  const Json pose = hear(page, "pose");
+  const Json pose = receive(page, "pose");
   page.say(Json{{"type", "drawn"}, {"frame", pose.at("frame")}, {"stamp", pose.at("stamp")}}.dump());
-  const Json status = hear(page, "status", [](const Json& j) { return !j.at("latency").is_null(); });
+  const Json status = receive(page, "status", [](const Json& j) { return !j.at("latency").is_null(); });
   EXPECT_GT(status.at("latency").at("median").get<double>(), 0.0);
   EXPECT_TRUE(program.report().latency);
 }
 
-TEST_F(Program, RecordsAndHandsOutTheFiles) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, RecordsAndServesTheFiles) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
   page.say(R"({"type":"record","on":true})");
-  hear(page, "status",
-       [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 10; });
+  receive(page, "status",
+          [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 10; });
   page.say(R"({"type":"record","on":false})");
-  const Json status = hear(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
+  const Json status = receive(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
   const Json& recording = status.at("recordings").at(0);
   EXPECT_EQ(recording.at("number"), 1);
   ASSERT_EQ(recording.at("files").size(), kOutputFormats.size());
@@ -117,17 +117,17 @@ TEST_F(Program, RecordsAndHandsOutTheFiles) {
   get(program.port(), "/recordings/2/motion.bvh", 404);
   get(program.port(), "/recordings/1/../../live.json", 400);
   page.say(R"({"type":"forget","recording":1})");
-  hear(page, "status", [](const Json& j) { return j.at("recordings").empty(); });
+  receive(page, "status", [](const Json& j) { return j.at("recordings").empty(); });
   get(program.port(), "/recordings/1/motion.bvh", 404);
 }
 
-TEST_F(Program, EveryLookIsAnAvatar) {
+TEST_F(Program, EachLookIsAnAvatar) {
   for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
     std::ofstream(folder_.file(name)) << "glTF " << name;
   }
-  const LiveProgram program(options(), camera_of(somebody()), {});
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
-  const Json hello = hear(page, "hello");
+  const Json hello = receive(page, "hello");
   EXPECT_EQ(hello.at("looks"), Json({"plain", "robot"}));
   for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
     EXPECT_EQ(get(program.port(), "/avatars/" + name, 200), "glTF " + name);
@@ -135,66 +135,66 @@ TEST_F(Program, EveryLookIsAnAvatar) {
   get(program.port(), "/avatars/nobody.vrm", 404);
 }
 
-TEST_F(Program, OutputsComeAndGo) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, OutputsAreAddedAndRemoved) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
   page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
-  hear(page, "status", [](const Json& j) {
+  receive(page, "status", [](const Json& j) {
     return j.at("outputs").size() == 1 && j.at("outputs").at(0).at("url") == "vmc://localhost:39539";
   });
   page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
-  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; })
+  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; })
                     .at("words")
                     .get<std::string>()
                     .find("already") == std::string::npos,
             false);
   page.say(R"({"type":"output","add":"carrier-pigeon://coop"})");
-  hear(page, "message", [](const Json& j) { return j.at("level") == "error"; });
+  receive(page, "message", [](const Json& j) { return j.at("level") == "error"; });
   page.say(R"({"type":"output","remove":"vmc://localhost:39539"})");
-  hear(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
+  receive(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
 }
 
-TEST_F(Program, NonsenseIsAnsweredAndThePageGoesOn) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, AnswersInvalidMessages) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
   page.say("{{{");
-  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; })
+  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; })
                 .at("words")
                 .get<std::string>()
                 .empty(),
             false);
   page.say(R"({"type":"ping","id":7})");
-  EXPECT_EQ(hear(page, "pong").at("id"), 7);
+  EXPECT_EQ(receive(page, "pong").at("id"), 7);
 }
 
-TEST_F(Program, AHiddenPageGetsNoPictures) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, HiddenPageGetsNoImages) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
   std::optional<SocketClient::Frame> seen;
   while ((seen = page.message()) && seen->opcode != SocketClient::binary) {
   }
-  ASSERT_TRUE(seen) << "at first it gets them";
+  ASSERT_TRUE(seen) << "at first the page gets images";
   page.say(R"({"type":"pictures","on":false})");
   page.say(R"({"type":"ping","id":1})");
-  hear(page, "pong");
+  receive(page, "pong");
   for (int i = 0; i < 50; ++i) {
     const auto message = page.message();
     ASSERT_TRUE(message);
-    // What was under way when the page asked may still come.
+    // Images that were already on their way may still arrive.
     if (i > 10) {
       EXPECT_EQ(message->opcode, SocketClient::text);
     }
   }
 }
 
-// Frame numbers of the pictures that come with the next 60 poses; without those that were under way.
-std::vector<std::uint32_t> next_pictures(SocketClient& page) {
+// Frame numbers of the images between the next 60 poses, without those that were already on their way.
+std::vector<std::uint32_t> next_images(SocketClient& page) {
   std::vector<std::uint32_t> frames;
   int poses = 0;
   for (int i = 0; poses < 60; ++i) {
     const auto message = page.message();
     if (!message) {
-      ADD_FAILURE() << "the page was left";
+      ADD_FAILURE() << "the connection of the page was closed";
       break;
     }
     if (i > 10) {
@@ -208,15 +208,15 @@ std::vector<std::uint32_t> next_pictures(SocketClient& page) {
   return frames;
 }
 
-TEST_F(Program, APageMayDoWithHalfOfThePictures) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, PageCanRequestHalfOfTheImages) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   SocketClient page(program.port());
-  hear(page, "pose");
-  const std::vector<std::uint32_t> all = next_pictures(page);
+  receive(page, "pose");
+  const std::vector<std::uint32_t> all = next_images(page);
   page.say(R"({"type":"pictures","on":true,"half":true})");
-  const std::vector<std::uint32_t> half = next_pictures(page);
+  const std::vector<std::uint32_t> half = next_images(page);
   page.say(R"({"type":"pictures","on":true})");
-  const std::vector<std::uint32_t> again = next_pictures(page);
+  const std::vector<std::uint32_t> again = next_images(page);
   for (const auto& frames : {all, half, again}) {
     EXPECT_GT(frames.size(), 5U);
     EXPECT_TRUE(std::is_sorted(frames.begin(), frames.end())) << "none overtakes another";
@@ -225,22 +225,22 @@ TEST_F(Program, APageMayDoWithHalfOfThePictures) {
   EXPECT_LT(half.size() * 10, again.size() * 7);
 }
 
-TEST_F(Program, APortThatIsTakenIsAnError) {
-  const LiveProgram program(options(), camera_of(somebody()), {});
+TEST_F(Program, PortInUseIsAnError) {
+  const LiveProgram program(options(), camera_of(person_frames()), {});
   LiveRequest second = options();
   second.web.port = program.port();
   try {
-    const LiveProgram refused(second, camera_of(somebody()), {});
+    const LiveProgram refused(second, camera_of(person_frames()), {});
     FAIL() << "two programs at one port";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find(std::to_string(program.port())), std::string::npos) << e.what();
   }
 }
 
-TEST_F(Program, AnOutputThatCannotBeIsAnErrorAtTheStart) {
+TEST_F(Program, InvalidOutputIsAnErrorAtStart) {
   LiveRequest wrong = options();
   wrong.send = {"vmc://"};
-  EXPECT_THROW(LiveProgram(wrong, camera_of(somebody()), {}), Error);
+  EXPECT_THROW(LiveProgram(wrong, camera_of(person_frames()), {}), Error);
 }
 
 }  // namespace

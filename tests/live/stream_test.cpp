@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras in the network with their whims: a real Motion JPEG stream over HTTP, opened by its URL.
+// Faults of network cameras: a real Motion JPEG stream over HTTP, opened by its URL.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -18,7 +18,7 @@ using live_testing::MjpegServer;
 using Kind = SourceNews::Kind;
 using Steady = std::chrono::steady_clock;
 
-// Its grey level tells the picture's number apart; the dot keeps codecs honest.
+// An image whose grey level identifies its number; the dot makes the JPEG non-trivial.
 cv::Mat numbered(int number, cv::Size size = {160, 120}) {
   cv::Mat made(size, CV_8UC3, cv::Scalar::all(40 + 30 * number));
   cv::circle(made, {size.width / 2, size.height / 2}, size.height / 8, {30, 60, 90}, cv::FILLED);
@@ -39,28 +39,28 @@ int level(const cv::Mat& image) {
 
 class Stream : public ::testing::Test {
  protected:
-  // Waits are short, so that the tests are.
+  // With short time-outs, so that the tests are quick.
   void open(std::vector<std::string> parts = six(), double rate = 100.0) {
     LiveOptions options;
     options.pauses = {0.01};
     options.longest_pause = 0.01;
-    options.silence = 0.5;  // longer than between two of five pictures a second
+    options.silence = 0.5;  // longer than the interval at five frames per second
     options.patience = 1.0;
     server_.show(std::move(parts), rate);
     source_ = open_source(server_.url(), options);
     source_->attend([this](const SourceNews& news) {
-      told_.push_back(news);
+      news_.push_back(news);
       if (on_news_) {
         on_news_(news);
       }
     });
   }
-  bool heard(Kind kind, const std::string& words) const {
-    return std::any_of(told_.begin(), told_.end(), [&](const SourceNews& n) {
+  bool reported(Kind kind, const std::string& words) const {
+    return std::any_of(news_.begin(), news_.end(), [&](const SourceNews& n) {
       return n.kind == kind && n.words.find(words) != std::string::npos;
     });
   }
-  // Reads frames until `done` of a frame holds; false at the end of the source, or after a minute.
+  // Reads frames until `done(frame)`; false at the end of the source or after a minute.
   template <typename Done>
   bool read_until(const Done& done) {
     const auto deadline = Steady::now() + std::chrono::minutes(1);
@@ -76,12 +76,12 @@ class Stream : public ::testing::Test {
     }
     return false;
   }
-  ::testing::AssertionResult read_until_heard(Kind kind, const std::string& words) {
-    if (read_until([&](const Frame&) { return heard(kind, words); })) {
+  ::testing::AssertionResult read_until_reported(Kind kind, const std::string& words) {
+    if (read_until([&](const Frame&) { return reported(kind, words); })) {
       return ::testing::AssertionSuccess();
     }
-    auto failure = ::testing::AssertionFailure() << "\"" << words << "\" was not said, but:";
-    for (const SourceNews& news : told_) {
+    auto failure = ::testing::AssertionFailure() << "\"" << words << "\" was not reported, but:";
+    for (const SourceNews& news : news_) {
       failure << "\n" << news.words;
     }
     return failure;
@@ -89,11 +89,11 @@ class Stream : public ::testing::Test {
 
   MjpegServer server_;
   std::unique_ptr<Source> source_;
-  std::vector<SourceNews> told_;
+  std::vector<SourceNews> news_;
   std::function<void(const SourceNews&)> on_news_;
 };
 
-TEST_F(Stream, PicturesComeInTheirOrderWithTheTimeOfThisComputer) {
+TEST_F(Stream, FramesAreInOrderWithLocalTime) {
   const auto seconds = [] { return std::chrono::duration<double>(Steady::now().time_since_epoch()).count(); };
   const double before = seconds();
   open();
@@ -107,40 +107,40 @@ TEST_F(Stream, PicturesComeInTheirOrderWithTheTimeOfThisComputer) {
     last = frame.taken;
     index = frame.index;
     const int grey = level(frame.image);
-    EXPECT_NEAR(grey, 40 + 30 * ((grey - 25) / 30), 4) << "none of the six pictures";
+    EXPECT_NEAR(grey, 40 + 30 * ((grey - 25) / 30), 4) << "none of the six images";
     return ++count == 30;
   }));
   EXPECT_LE(last, seconds());
   EXPECT_EQ(source_->complaint(), "");
 }
 
-TEST_F(Stream, AServerThatHangsUpIsCalledAgain) {
+TEST_F(Stream, ReconnectsAfterServerHangsUp) {
   open();
   for (int time = 0; time < 3; ++time) {
     ASSERT_TRUE(read_until([](const Frame&) { return true; }));
-    told_.clear();
+    news_.clear();
     server_.hang_up();
-    ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
-    EXPECT_TRUE(heard(Kind::worse, "stopped"));
+    ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+    EXPECT_TRUE(reported(Kind::worse, "stopped"));
   }
   EXPECT_NE(source_->complaint().find("stopped 3 times"), std::string::npos) << source_->complaint();
 }
 
-TEST_F(Stream, ASilentServerIsWaitedForAndCalledAgain) {
+TEST_F(Stream, ReconnectsToSilentServer) {
   open();
   ASSERT_TRUE(read_until([](const Frame&) { return true; }));
   const int connections = server_.connections();
   server_.fall_silent();
-  // Silent for longer than the patience with a connection.
+  // Silent for longer than the time-out of a connection.
   auto resumed = std::async(std::launch::async, [&] {
     server_.wait_for_connection(connections + 1);
     server_.show(six(), 100.0);
   });
-  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
-  EXPECT_TRUE(heard(Kind::gone, "no pictures"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+  EXPECT_TRUE(reported(Kind::gone, "no pictures"));
 }
 
-TEST_F(Stream, ACameraWithoutPowerIsTriedUntilItComesBack) {
+TEST_F(Stream, RetriesUntilCameraIsBack) {
   open();
   ASSERT_TRUE(read_until([](const Frame&) { return true; }));
   server_.unplug();
@@ -149,11 +149,11 @@ TEST_F(Stream, ACameraWithoutPowerIsTriedUntilItComesBack) {
       server_.plug_in();
     }
   };
-  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
-  EXPECT_TRUE(heard(Kind::gone, "no pictures"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+  EXPECT_TRUE(reported(Kind::gone, "no pictures"));
 }
 
-TEST_F(Stream, StopsAtOnceWhileNobodyAnswers) {
+TEST_F(Stream, StopsAtOnceWithoutAnswer) {
   open();
   ASSERT_TRUE(read_until([](const Frame&) { return true; }));
   server_.unplug();
@@ -163,30 +163,30 @@ TEST_F(Stream, StopsAtOnceWhileNobodyAnswers) {
   EXPECT_FALSE(source_->next());
 }
 
-TEST_F(Stream, AnotherSizeIsSeenAndTold) {
+TEST_F(Stream, ReportsAnotherImageSize) {
   open();
   server_.show(six({320, 240}), 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::worse, "320x240"));
+  ASSERT_TRUE(read_until_reported(Kind::worse, "320x240"));
   server_.show(jpegs({numbered(4, {320, 180})}), 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::worse, "another shape"));
-  // The picture is what the camera shows, with bars; not a part of it, not an old one.
+  ASSERT_TRUE(read_until_reported(Kind::worse, "another shape"));
+  // The image is the camera's, complete and current, with bars.
   ASSERT_TRUE(read_until([](const Frame& f) {
     return std::abs(level(f.image) - 160) < 5 && f.image.at<cv::Vec3b>(2, 80)[1] < 5 &&
            f.image.at<cv::Vec3b>(117, 80)[1] < 5;
   }));
   server_.show(six(), 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::better, "160x120"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "160x120"));
 }
 
-TEST_F(Stream, FivePicturesASecondAreTold) {
+TEST_F(Stream, ReportsFiveFramesPerSecond) {
   open();
   server_.show(six(), 5.0);
-  ASSERT_TRUE(read_until_heard(Kind::worse, "only 5 pictures a second"));
+  ASSERT_TRUE(read_until_reported(Kind::worse, "only 5 pictures a second"));
   server_.show(six(), 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::better, "a second again"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "a second again"));
 }
 
-TEST_F(Stream, GarbageIsLeftOutAndTold) {
+TEST_F(Stream, DropsAndReportsDamagedImages) {
   open();
   auto parts = six();
   std::mt19937 random(1);
@@ -197,7 +197,7 @@ TEST_F(Stream, GarbageIsLeftOutAndTold) {
   parts[4].resize(parts[4].size() / 2);
   parts[5].clear();
   server_.show(parts, 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::worse, "damaged"));
+  ASSERT_TRUE(read_until_reported(Kind::worse, "damaged"));
   int count = 0;
   ASSERT_TRUE(read_until([&](const Frame& frame) {
     const int grey = level(frame.image);
@@ -205,11 +205,11 @@ TEST_F(Stream, GarbageIsLeftOutAndTold) {
     return ++count == 50;
   }));
   server_.show(six(), 100.0);
-  ASSERT_TRUE(read_until_heard(Kind::better, "whole again"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "whole again"));
   EXPECT_NE(source_->complaint().find("damaged pictures were left out"), std::string::npos);
 }
 
-TEST_F(Stream, NothingButGarbageIsACameraThatIsGone) {
+TEST_F(Stream, OnlyDamagedImagesMeanCameraIsGone) {
   open();
   ASSERT_TRUE(read_until([](const Frame&) { return true; }));
   const int connections = server_.connections();
@@ -218,8 +218,8 @@ TEST_F(Stream, NothingButGarbageIsACameraThatIsGone) {
     server_.wait_for_connection(connections + 1);
     server_.show(six(), 100.0);
   });
-  ASSERT_TRUE(read_until_heard(Kind::better, "is back"));
-  EXPECT_TRUE(heard(Kind::worse, "damaged"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+  EXPECT_TRUE(reported(Kind::worse, "damaged"));
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The session's threads when the camera ends, falls silent, or has odd stamps: quick, for the sanitizers as
-// well.
+// The threads of a session when the camera ends, falls silent or has odd time stamps: quick enough for the
+// sanitizers.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,12 +36,12 @@ TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
     ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
     scene->show(person());
     ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
-        << "it goes on by itself";
+        << "it continues by itself";
     scene->show({});
   }
 }
 
-TEST(LiveThreads, TheEndOfTheCameraIsTold) {
+TEST(LiveThreads, ReportsTheEndOfTheCamera) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
@@ -53,8 +53,8 @@ TEST(LiveThreads, TheEndOfTheCameraIsTold) {
   EXPECT_EQ(session.state().words, "the cable is out");
 }
 
-TEST(LiveThreads, IsOpeningUntilThereIsAPicture) {
-  EXPECT_EQ(LiveState().phase, LivePhase::opening) << "before there is a session";
+TEST(LiveThreads, PhaseIsOpeningUntilFirstFrame) {
+  EXPECT_EQ(LiveState().phase, LivePhase::opening) << "before a session exists";
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
@@ -67,7 +67,7 @@ TEST(LiveThreads, IsOpeningUntilThereIsAPicture) {
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }));
 }
 
-// Gives its frames, all of them, and then nothing until it is stopped: a camera that is gone.
+// Delivers all its frames and then nothing until it is stopped, like a camera that is gone.
 class ThenGone final : public Source {
  public:
   explicit ThenGone(std::vector<Frame> frames) : frames_(std::move(frames)) {
@@ -101,7 +101,7 @@ class ThenGone final : public Source {
   bool stopped_ = false;
 };
 
-TEST(LiveThreads, ASearchThatFailsWhileTheCameraIsGoneEndsTheRun) {
+TEST(LiveThreads, FailedSearchWithoutCameraEndsTheRun) {
   const ScratchFolder folder;
   std::vector<Frame> frames;
   for (int i = 0; i < 4; ++i) {
@@ -114,11 +114,11 @@ TEST(LiveThreads, ASearchThatFailsWhileTheCameraIsGoneEndsTheRun) {
   const std::int64_t last = frames.back().index;
   Heard heard;
   LiveHooks hooks = heard.hooks();
-  std::atomic<bool> fail = false;  // now
+  std::atomic<bool> fail = false;
   std::atomic<bool> failed = false;
   hooks.motion = [&, heard_motion = hooks.motion](const MotionFrame& frame, double taken) {
     heard_motion(frame, taken);
-    if (frame.frame == last) {  // also when the person is said to be gone
+    if (frame.frame == last) {  // also called when the person is reported lost
       heard.wait([&] { return fail.load(); });
       failed = true;
       throw std::runtime_error("the search has failed");
@@ -126,7 +126,7 @@ TEST(LiveThreads, ASearchThatFailsWhileTheCameraIsGoneEndsTheRun) {
   };
   const LiveSession session(quick_request(folder), true, std::make_unique<ThenGone>(std::move(frames)),
                             std::move(hooks));
-  // The image side waits for a picture while the last one is searched.
+  // The image side waits for a frame while the search side works on the last one.
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
   fail = true;
   ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
@@ -134,7 +134,7 @@ TEST(LiveThreads, ASearchThatFailsWhileTheCameraIsGoneEndsTheRun) {
   EXPECT_EQ(session.state().words, "the search has failed");
 }
 
-// The same pictures with stamps of a clock that has gone mad.
+// The same frames with time stamps of a faulty clock.
 class OddStamps final : public Source {
  public:
   explicit OddStamps(std::unique_ptr<Source> camera) : camera_(std::move(camera)) {}
@@ -155,7 +155,7 @@ class OddStamps final : public Source {
   std::unique_ptr<Source> camera_;
 };
 
-TEST(LiveThreads, OddStampsDoNoHarm) {
+TEST(LiveThreads, ToleratesOddTimeStamps) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
@@ -174,14 +174,14 @@ TEST(LiveThreads, OddStampsDoNoHarm) {
     last = taken;
   }
   EXPECT_GT(rates.tracked, 0.0);
-  EXPECT_LE(rates.tracked, 1000.0) << "the clock shows a thousandth more at each look";
+  EXPECT_LE(rates.tracked, 1000.0) << "the clock advances by a millisecond with each reading";
   EXPECT_GE(rates.ms.wait, 0.0);
   EXPECT_GT(rates.ms.total, 0.0);
   EXPECT_LT(rates.ms.total_p95, 1e4);
   EXPECT_EQ(heard.motion.front().state, TrackState::tracking);
 }
 
-TEST(LiveThreads, SilenceIsMeasuredByItsOwnClock) {
+TEST(LiveThreads, MeasuresSilenceByItsOwnClock) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());

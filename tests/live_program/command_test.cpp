@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `telemime live` as a user starts it: what it says, what it opens, how it ends.
+// `telemime live` as a user starts it: its messages, the page that it opens, its end.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -22,7 +22,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// A variable of the environment, for as long as it lives.
+// Sets an environment variable for the scope.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -42,18 +42,18 @@ class Variable {
 
 class LiveCommand : public ::testing::Test {
  protected:
-  // The clip of a person, over and over, at any free port or the given one.
+  // The arguments for the clip of a person in a loop, at any free port or the given one.
   Words live(const Words& more, std::uint16_t port = 0) const {
     Words all = {"live",   e2e::person_clip(),   "--background", e2e::wall_clip(),      "--loop",
                  "--port", std::to_string(port), "--recordings", folder_ / "recordings"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  // An input that ends.
+  // The arguments for an input that ends.
   Words once(const std::string& input, std::uint16_t port = 0) const {
     return {"live", input, "--port", std::to_string(port), "--recordings", folder_ / "recordings"};
   }
-  // Of a program that is to end by itself.
+  // Waits for a program that should end by itself.
   static e2e::Ended end_of(e2e::Program& program) {
     EXPECT_TRUE(comes_true([&] { return !program.running(); }));
     if (program.running()) {
@@ -71,7 +71,7 @@ class LiveCommand : public ::testing::Test {
   Variable wayland_{"WAYLAND_DISPLAY", nullptr};
 };
 
-TEST_F(LiveCommand, EndsWithZeroWhenItsTimeIsOverAndWhenItIsInterrupted) {
+TEST_F(LiveCommand, ExitCodeIsZeroAtTimeoutAndInterrupt) {
   const e2e::Ended over = e2e::run(live({"--seconds", "1"}));
   EXPECT_EQ(over.code, 0) << over.words;
   EXPECT_TRUE(has(over.output, "the page: http://localhost:")) << over.output;
@@ -88,14 +88,14 @@ TEST_F(LiveCommand, EndsWithZeroWhenItsTimeIsOverAndWhenItIsInterrupted) {
   EXPECT_EQ(program.wait().code, 0);
 }
 
-TEST_F(LiveCommand, EndsAfterAFileWhenNoPageIsOpen) {
+TEST_F(LiveCommand, EndsAfterFileIfNoPageIsOpen) {
   e2e::Program program(once(e2e::person_clip()));
   const e2e::Ended ended = end_of(program);
   EXPECT_EQ(ended.code, 0) << ended.words;
   EXPECT_TRUE(has(ended.words, "the input has ended")) << ended.words;
 }
 
-TEST_F(LiveCommand, StaysAfterAFileAsLongAsAPageIsOpen) {
+TEST_F(LiveCommand, StaysAfterFileWhilePageIsOpen) {
   const std::uint16_t port = testing_receivers::free_port();
   e2e::Program program(once(e2e::person_clip(), port));
   std::unique_ptr<SocketClient> page;
@@ -107,15 +107,15 @@ TEST_F(LiveCommand, StaysAfterAFileAsLongAsAPageIsOpen) {
     }
     return true;
   }));
-  for (int i = 0; i < 10; ++i) {  // for 5 s: longer than a page takes to come back
-    live_testing::hear(*page, "status", [](const auto& status) { return status.at("phase") == "ended"; });
+  for (int i = 0; i < 10; ++i) {  // for 5 s: longer than a page needs to reconnect
+    live_testing::receive(*page, "status", [](const auto& status) { return status.at("phase") == "ended"; });
   }
   EXPECT_TRUE(program.running());
   page.reset();
   EXPECT_EQ(end_of(program).code, 0);
 }
 
-TEST_F(LiveCommand, AClipOnAWebServerEndsWellWhateverWasWrongWithIt) {
+TEST_F(LiveCommand, ClipOnWebServerEndsDespiteErrors) {
   const std::string clip = folder_ / "clip.avi";
   e2e::write_grey_video(clip, 60, 90);
   std::filesystem::resize_file(clip, std::filesystem::file_size(clip) * 2 / 3);
@@ -133,7 +133,7 @@ TEST_F(LiveCommand, AClipOnAWebServerEndsWellWhateverWasWrongWithIt) {
   EXPECT_TRUE(has(ended.words, "its header promised 60")) << ended.words;
 }
 
-TEST_F(LiveCommand, WhatCannotBeDoneHasItsExitCode) {
+TEST_F(LiveCommand, FailuresHaveExitCodes) {
   EXPECT_EQ(e2e::run({"live", "/nothing/here.mp4"}).code, 4);
   EXPECT_EQ(e2e::run(live({"--send", "vmc://"})).code, 2);
   const WebServer other(any_port(), {});
@@ -142,7 +142,7 @@ TEST_F(LiveCommand, WhatCannotBeDoneHasItsExitCode) {
   EXPECT_TRUE(has(taken.words, std::to_string(other.port()))) << "also with --quiet: " << taken.words;
 }
 
-TEST_F(LiveCommand, QuietHidesWhatCanBeLeftUnreadAndNothingElse) {
+TEST_F(LiveCommand, QuietKeepsWarningsAndErrors) {
   save_settings(folder_.path() / "telemime" / "live.json", {{"vmc://localhost:39539"}});
   const e2e::Ended loud = e2e::run(live({"--seconds", "1"}));
   EXPECT_TRUE(has(loud.words, "outputs of earlier runs, off now: vmc://localhost:39539")) << loud.words;
@@ -166,7 +166,7 @@ TEST_F(LiveCommand, OpensThePageWithoutAShell) {
   const Variable opener("PATH", path.c_str());
   const Variable display("DISPLAY", ":77");
   EXPECT_EQ(e2e::run(live({"--seconds", "1"})).code, 0);
-  EXPECT_FALSE(std::filesystem::exists(note)) << "not without being asked";
+  EXPECT_FALSE(std::filesystem::exists(note)) << "only with --open";
 
   const e2e::Ended ended = e2e::run(live({"--seconds", "1", "--open"}));
   EXPECT_EQ(ended.code, 0) << ended.words;
@@ -176,7 +176,7 @@ TEST_F(LiveCommand, OpensThePageWithoutAShell) {
   EXPECT_EQ(e2e::bytes_of(note), "1 " + ended.output.substr(at, ended.output.find(' ', at) - at) + "\n");
 }
 
-TEST_F(LiveCommand, WhereNothingCanBeOpenedItSaysWhatToDo) {
+TEST_F(LiveCommand, ReportsRemedyIfPageCannotOpen) {
   const e2e::Ended blind = e2e::run(live({"--seconds", "1", "--open"}));
   EXPECT_EQ(blind.code, 0);
   EXPECT_TRUE(has(blind.words, "no display") && has(blind.words, "http://localhost:")) << blind.words;

@@ -15,10 +15,10 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::empty_room;
-using live_testing::hear;
 using live_testing::Json;
 using live_testing::person;
 using live_testing::quick_request;
+using live_testing::receive;
 using live_testing::Scene;
 
 class LiveRun : public ::testing::Test {
@@ -39,12 +39,12 @@ class LiveRun : public ::testing::Test {
                                         : infos_) += words + "\n";
     };
   }
-  bool says(const std::string& heard, const std::string& words) {
+  bool contains(const std::string& text, const std::string& words) {
     const std::lock_guard lock(mutex_);
-    return heard.find(words) != std::string::npos;
+    return text.find(words) != std::string::npos;
   }
-  // Until the program has looked at so many more frames.
-  static void pass(const LiveProgram& program, std::int64_t frames) {
+  // Waits until the program has processed this number of further frames.
+  static void process_frames(const LiveProgram& program, std::int64_t frames) {
     const std::int64_t before = program.report().state.rates.frames;
     ASSERT_TRUE(comes_true([&] { return program.report().state.rates.frames >= before + frames; }));
   }
@@ -61,34 +61,34 @@ class LiveRun : public ::testing::Test {
   std::string errors_;
 };
 
-TEST_F(LiveRun, NothingIsMadeForNobody) {
+TEST_F(LiveRun, ComputesNothingWithoutViewers) {
   const LiveProgram program(options(), camera_of(scene_), {});
-  pass(program, 30);
+  process_frames(program, 30);
   EXPECT_EQ(program.report().pictures, 0);
   EXPECT_EQ(program.report().poses, 0);
   {
     SocketClient page(program.port());
-    hear(page, "pose");
+    receive(page, "pose");
     EXPECT_TRUE(comes_true([&] { return program.report().pictures > 0; }));
     page.say(R"({"type":"pictures","on":false})");
     page.say(R"({"type":"ping","id":1})");
-    hear(page, "pong");
+    receive(page, "pong");
     const LiveReport hidden = program.report();
-    pass(program, 30);
-    EXPECT_LE(program.report().pictures, hidden.pictures + 2) << "but for those under way";
-    EXPECT_GT(program.report().poses, hidden.poses + 10) << "which it still gets";
+    process_frames(program, 30);
+    EXPECT_LE(program.report().pictures, hidden.pictures + 2) << "except for those on their way";
+    EXPECT_GT(program.report().poses, hidden.poses + 10) << "poses are still sent";
     page.say(R"({"type":"poses","on":false})");
     page.say(R"({"type":"ping","id":2})");
-    hear(page, "pong");
+    receive(page, "pong");
     const LiveReport asleep = program.report();
-    pass(program, 30);
+    process_frames(program, 30);
     EXPECT_LE(program.report().poses, asleep.poses + 2);
     page.say(R"({"type":"poses","on":true})");
-    hear(page, "pose");
+    receive(page, "pose");
   }
   ASSERT_TRUE(comes_true([&] { return program.report().pages == 0; }));
   const LiveReport alone = program.report();
-  pass(program, 30);
+  process_frames(program, 30);
   EXPECT_LE(program.report().poses, alone.poses + 2);
 }
 
@@ -110,7 +110,7 @@ class SlowCamera final : public Source {
   std::shared_future<void> ready_;
 };
 
-TEST_F(LiveRun, APageThatComesTooEarlyIsToldSoAndThenGreeted) {
+TEST_F(LiveRun, EarlyPageGetsStatusThenHello) {
   LiveRequest request = options();
   request.web.port = testing_receivers::free_port();
   std::promise<void> ready;
@@ -132,19 +132,19 @@ TEST_F(LiveRun, APageThatComesTooEarlyIsToldSoAndThenGreeted) {
   EXPECT_EQ(first.at("phase"), "opening");
   EXPECT_NE(first.at("words"), "");
   page->say(R"({"type":"ping","id":3})");
-  EXPECT_EQ(hear(*page, "pong").at("id"), 3) << "the page knows that the program lives";
+  EXPECT_EQ(receive(*page, "pong").at("id"), 3) << "the page can tell that the program is alive";
   page->say(R"({"type":"recalibrate"})");
-  EXPECT_EQ(hear(*page, "message").at("level"), "error");
+  EXPECT_EQ(receive(*page, "message").at("level"), "error");
   page->say(R"({"type":"output","add":"vmc://localhost"})");
-  EXPECT_EQ(hear(*page, "status", [](const Json& j) { return !j.at("outputs").empty(); }).at("phase"),
+  EXPECT_EQ(receive(*page, "status", [](const Json& j) { return !j.at("outputs").empty(); }).at("phase"),
             "opening");
   ready.set_value();
-  hear(*page, "hello");
-  hear(*page, "status", [](const Json& j) { return j.at("phase") == "tracking"; });
+  receive(*page, "hello");
+  receive(*page, "status", [](const Json& j) { return j.at("phase") == "tracking"; });
   program.get();
 }
 
-TEST_F(LiveRun, OutputsOfThePageAreOfferedToTheNextRunAndSentToWhenItAsks) {
+TEST_F(LiveRun, NextRunListsAndResumesOutputs) {
   testing_receivers::UdpReceiver receiver;
   const std::string url = "vmc://127.0.0.1:" + std::to_string(receiver.port());
   const std::string add = Json{{"type", "output"}, {"add", url}}.dump();
@@ -158,7 +158,7 @@ TEST_F(LiveRun, OutputsOfThePageAreOfferedToTheNextRunAndSentToWhenItAsks) {
     const LiveProgram program(options(), camera_of(scene_), console());
     SocketClient page(program.port());
     page.say(add);
-    hear(page, "status", is("sending"));
+    receive(page, "status", is("sending"));
   }
   scene_ = std::make_shared<Scene>();
   scene_->show(person());
@@ -166,16 +166,16 @@ TEST_F(LiveRun, OutputsOfThePageAreOfferedToTheNextRunAndSentToWhenItAsks) {
   }
   {
     const LiveProgram program(options(), camera_of(scene_), console());
-    EXPECT_TRUE(says(infos_, url)) << infos_;
+    EXPECT_TRUE(contains(infos_, url)) << infos_;
     SocketClient page(program.port());
-    hear(page, "status", is("off"));
-    pass(program, 30);
-    EXPECT_FALSE(receiver.receive(0)) << "nobody asked for it in this run";
+    receive(page, "status", is("off"));
+    process_frames(program, 30);
+    EXPECT_FALSE(receiver.receive(0)) << "it was not requested in this run";
     page.say(add);
-    hear(page, "status", is("sending"));
+    receive(page, "status", is("sending"));
     EXPECT_TRUE(receiver.receive());
     page.say(Json{{"type", "output"}, {"off", url}}.dump());
-    hear(page, "status", is("off"));
+    receive(page, "status", is("off"));
   }
   scene_ = std::make_shared<Scene>();
   scene_->show(person());
@@ -187,61 +187,61 @@ TEST_F(LiveRun, OutputsOfThePageAreOfferedToTheNextRunAndSentToWhenItAsks) {
   EXPECT_TRUE(receiver.receive());
   SocketClient page(program.port());
   page.say(Json{{"type", "output"}, {"remove", url}}.dump());
-  hear(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
+  receive(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
   EXPECT_EQ(warnings_ + errors_, "");
 }
 
-TEST_F(LiveRun, ACameraThatIsGoneForGoodIsAFailureInWords) {
+TEST_F(LiveRun, PermanentCameraFailureHasAMessage) {
   const LiveProgram program(options(), camera_of(scene_), console());
   SocketClient page(program.port());
-  hear(page, "pose");
+  receive(page, "pose");
   EXPECT_FALSE(program.report().failure);
   scene_->end();
-  EXPECT_EQ(hear(page, "message", [](const Json& j) { return j.at("level") == "error"; }).at("words"),
+  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; }).at("words"),
             "the cable is out");
   ASSERT_TRUE(program.report().failure);
   EXPECT_TRUE(program.report().failure->input);
   EXPECT_EQ(program.report().failure->words, "the cable is out");
-  EXPECT_TRUE(says(errors_, "the cable is out"));
+  EXPECT_TRUE(contains(errors_, "the cable is out"));
 }
 
-TEST_F(LiveRun, TheEndOfAFileIsNoFailure) {
+TEST_F(LiveRun, EndOfFileIsNoFailure) {
   LiveRequest request = options();
   request.request.input = "http://host/talk.mp4";
   request.ends = true;
   const LiveProgram program(request, camera_of(scene_), console());
-  pass(program, 1);
+  process_frames(program, 1);
   scene_->end();
-  EXPECT_TRUE(comes_true([&] { return says(warnings_, "the cable is out"); }))
-      << "what went wrong in it is told";
+  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "the cable is out"); }))
+      << "the fault is reported";
   EXPECT_EQ(program.report().state.phase, LivePhase::ended);
   EXPECT_FALSE(program.report().failure);
   const std::lock_guard lock(mutex_);
   EXPECT_EQ(errors_, "");
 }
 
-TEST_F(LiveRun, TheGuideWaitsForAPageAndSaysSo) {
+TEST_F(LiveRun, GuideWaitsForAPageAndReportsIt) {
   LiveRequest request = options();
   request.request.background.clear();
   request.page_wait = 2.0;
   scene_->show(empty_room());
   const LiveProgram program(request, camera_of(scene_), console());
   const std::string url = "http://localhost:" + std::to_string(program.port());
-  EXPECT_TRUE(comes_true([&] { return says(warnings_, "waiting for the page"); }));
-  EXPECT_TRUE(says(warnings_, url) && says(warnings_, "--no-guide")) << warnings_;
-  EXPECT_FALSE(says(warnings_, "going on without"));
-  EXPECT_TRUE(comes_true([&] { return says(warnings_, "going on without"); }));
+  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "waiting for the page"); }));
+  EXPECT_TRUE(contains(warnings_, url) && contains(warnings_, "--no-guide")) << warnings_;
+  EXPECT_FALSE(contains(warnings_, "going on without"));
+  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "going on without"); }));
   EXPECT_TRUE(comes_true([&] { return program.report().state.phase == LivePhase::person; }));
 }
 
-TEST_F(LiveRun, ARecordingIsServedInParts) {
+TEST_F(LiveRun, RecordingIsServedInParts) {
   const LiveProgram program(options(), camera_of(scene_), {});
   SocketClient page(program.port());
   page.say(R"({"type":"record","on":true})");
-  hear(page, "status",
-       [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 5; });
+  receive(page, "status",
+          [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 5; });
   page.say(R"({"type":"record","on":false})");
-  hear(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
+  receive(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
   const std::uint16_t port = program.port();
   const WebReply whole = ask(port, "/recordings/1/motion.bvh");
   const WebReply part = ask(port, "/recordings/1/motion.bvh", "Range: bytes=3-8\r\n");
@@ -253,7 +253,7 @@ TEST_F(LiveRun, ARecordingIsServedInParts) {
   EXPECT_EQ(head.header("Content-Length"), std::to_string(whole.body.size()));
 }
 
-TEST(PageUrl, IsWhereABrowserHereFindsIt) {
+TEST(PageUrl, IsReachableFromThisComputer) {
   WebServerOptions web;
   EXPECT_EQ(page_url(web, 7070), "http://localhost:7070");
   web.address = "0.0.0.0";
