@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps configure build demo test bench experiments lint asan asan-quick tsan fuzz install clean
+TARGETS := help deps configure build demo test bench experiments accuracy lint asan asan-quick tsan fuzz install clean
 .PHONY: $(TARGETS) deps-test
 
 help: ## this list
@@ -40,8 +40,15 @@ bench: deps configure ## run the benchmarks
 	@cmake --build --preset release -j $(JOBS)
 	@scripts/each.sh build/release/bench
 
-experiments: deps build ## run every experiments/*/run: the tables and figures
-	@apps/lab/experiments.sh
+experiments: configure ## measure the thesis's tables and figures again: out/experiments/report.html
+	@scripts/deps.sh build plots
+	@cmake --build --preset release --target telemime-lab -j $(JOBS)
+	@build/release/telemime-lab experiments all
+	@/usr/bin/python3 apps/lab/plots.py out/experiments
+
+accuracy: deps configure ## make and track the clips of the README's accuracy table: out/accuracy
+	@cmake --build --preset release --target telemime telemime-lab -j $(JOBS)
+	@apps/lab/accuracy.sh
 
 lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@scripts/deps.sh build check

@@ -69,7 +69,7 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command.add_option("--iterations", o.iterations, "cost evaluations a frame of the other methods [2000]");
   command.add_option(
       "--budget", o.budget_ms,
-      "search time a frame in ms, instead of --particles or --iterations (see `telemime tune`)");
+      "search time a frame in ms, instead of --particles or --iterations (see `telemime-lab tune`)");
   command.add_option("--threads", o.threads, "for the search of heuristics and condensation [all]");
   command.add_option("--limits", o.limits, "joint limits: reference, anatomical or a JSON file [anatomical]");
   command.add_option("--backend", o.backend, "what evaluates poses: " + backend_names() + " [simd]");

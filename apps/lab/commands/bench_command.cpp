@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench_command.h"
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <iostream>
@@ -12,13 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "bench_soak.h"
-#include "engine_report.h"
+#include "commands.h"
+#include "lab/experiments/engine_agreement.h"
+#include "lab/experiments/engine_tables.h"
 #include "lab/experiments/report.h"
 #include "lab/experiments/timing.h"
-#include "measurement_clips.h"
 #include "telemime/likelihood/all.h"
-#include "thread_clock.h"
 
 namespace telemime {
 namespace {
@@ -45,7 +43,7 @@ nlohmann::json to_json(const Table& table) {
   return {{"title", table.title}, {"rows", rows}};
 }
 
-// The tables of the thesis's times, which need clips.
+// The tables of the thesis's computing times, which need clips.
 void report_clips(BenchArguments& arguments, const std::function<void(const Table&)>& show) {
   arguments.lab.data = measurement_data(arguments.data, arguments.out);
   arguments.lab.seconds = thread_seconds;
@@ -56,8 +54,33 @@ void report_clips(BenchArguments& arguments, const std::function<void(const Tabl
   show(background_time_table(lab));
   show(frame_time_table(frames));
   show(size_time_table(sizes));
-  std::cout << "one thread, computing time, medians; 500 evaluations at 160x120: "
+  std::cout << "one thread, processor time, medians; 500 evaluations at 160x120: "
             << number(1e3 / frames.back().total_ms()) << " frames a second\n";
+}
+
+// Measures the evaluation engine; passes each table to `show` as soon as it is complete.
+void report_engine(const EngineOptions& options, const std::function<void(const Table&)>& show) {
+  const std::vector<std::string> backends = engine_backends(options);
+  for (const std::string& line : missing_backends()) {
+    std::cout << "not measured, cannot run here: " << line << '\n';
+  }
+  const std::vector<Throughput> cells = measure_throughput(options);
+  show(speed_table(cells));
+  show(time_table(cells));
+  if (const Table device = device_table(cells); !device.rows.empty()) {
+    show(device);
+  }
+  if (std::find(backends.begin(), backends.end(), "simd") != backends.end()) {
+    show(stage_table(options));
+    show(instruction_set_table(options));
+    show(opencv_table(options));
+  }
+  show(overlap_time_table(options));
+  if (backends.size() > 1 || backends.front() != "scalar") {
+    show(agreement_table(options));
+    show(ranking_table(options));
+  }
+  std::cout << "wall-clock time, best of several; '-': would take too long\n";
 }
 
 void run_bench(BenchArguments arguments) {
@@ -71,7 +94,7 @@ void run_bench(BenchArguments arguments) {
   engine.quick = arguments.lab.quick;
   engine.seed = arguments.lab.seed;
   engine.seconds = steady_seconds;
-  engine_backends(engine);  // says what is wrong with a name before anything is measured
+  engine_backends(engine);  // refuses unknown names before anything is measured
   nlohmann::json json = nlohmann::json::array();
   const auto show = [&](const Table& table) {
     std::cout << to_text(table) << std::endl;
@@ -92,17 +115,18 @@ void run_bench(BenchArguments arguments) {
 void add_bench_command(CLI::App& app) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* const command = app.add_subcommand(
-      "bench", "Time features, evaluations and frames beside the thesis's tables, and the back ends");
+      "bench", "Time features, evaluations and frames beside the thesis's tables, and time the back ends");
   command->add_option("--json", arguments->json, "also write the tables to this file");
-  command->add_option("--data", arguments->data, "folder with joy [the development clips, or made]");
+  command->add_option("--data", arguments->data,
+                      "folder with the clip joy [the development clips, else made]");
   command->add_option("--out", arguments->out, "folder for clips that have to be made")
       ->capture_default_str();
   command->add_flag("--quick", arguments->lab.quick, "fewer frames, poses and repeats");
-  command->add_option("--backend", arguments->backends, "measure only this back end; may be given again");
-  command->add_flag("--engine-only", arguments->engine_only, "only the back ends: no clips are needed");
+  command->add_option("--backend", arguments->backends, "measure only this back end; may be repeated");
+  command->add_flag("--engine-only", arguments->engine_only, "only the back ends; needs no clips");
   command
       ->add_option("--soak", arguments->soak_minutes,
-                   "evaluate for so many minutes instead, and watch the memory")
+                   "instead, evaluate for this many minutes and watch the memory")
       ->check(CLI::Range(0.01, 1e5));
   command->callback([arguments] { run_bench(*arguments); });
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "experiments_command.h"
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
@@ -9,14 +7,15 @@
 #include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "lab/experiments/all.h"
-#include "measurement_clips.h"
+#include "commands.h"
+#include "lab/experiments/experiments.h"
+#include "lab/synth/sequence.h"
 #include "telemime/core/errors.h"
-#include "thread_clock.h"
 
 namespace telemime {
 namespace {
@@ -30,25 +29,25 @@ struct ExperimentArguments {
 };
 
 std::vector<const Experiment*> chosen(const std::vector<std::string>& ids) {
-  std::vector<const Experiment*> experiments;
+  std::vector<const Experiment*> selected;
   for (const std::string& id : ids) {
     if (id == "all") {
-      for (const Experiment& experiment : kExperiments) {
-        experiments.push_back(&experiment);
+      for (const Experiment& experiment : experiments()) {
+        selected.push_back(&experiment);
       }
     } else if (const Experiment* const found = find_experiment(id)) {
-      experiments.push_back(found);
+      selected.push_back(found);
     } else {
       throw Error(ErrorKind::usage, "there is no experiment '" + id + "'",
-                  "`telemime experiments list` names them all.");
+                  "`telemime-lab experiments list` lists them.");
     }
   }
-  return experiments;
+  return selected;
 }
 
 void list_experiments() {
   Table table{"", {"id", "what"}, {}};
-  for (const Experiment& experiment : kExperiments) {
+  for (const Experiment& experiment : experiments()) {
     table.rows.push_back({std::string(experiment.id), std::string(experiment.title)});
   }
   std::cout << to_text(table);
@@ -59,7 +58,7 @@ void run_experiments(ExperimentArguments arguments) {
     list_experiments();
     return;
   }
-  const auto experiments = chosen(arguments.ids);
+  const auto selected = chosen(arguments.ids);
   cv::setNumThreads(1);  // experiments run side by side instead
   const auto start = std::chrono::steady_clock::now();
   const auto elapsed = [&] {
@@ -67,18 +66,17 @@ void run_experiments(ExperimentArguments arguments) {
   };
   arguments.lab.data = measurement_data(arguments.data, arguments.out);
   arguments.lab.seconds = thread_seconds;
-  arguments.lab.progress = [&](const std::string& words) {
-    std::cerr << '[' << static_cast<int>(elapsed()) << " s] " << words << '\n';
+  arguments.lab.progress = [&](const std::string& message) {
+    std::cerr << '[' << static_cast<int>(elapsed()) << " s] " << message << '\n';
   };
   Lab lab(arguments.lab);
-  std::vector<Section> sections;
   const std::filesystem::path out = arguments.out;
   std::string missed;
   ErrorKind why = ErrorKind::tracking;
-  // What one experiment cannot use need not stop hours of others.
+  // An experiment that fails does not stop hours of others.
   const auto try_to = [&](std::string_view id, const std::function<void()>& measure) {
-    const auto miss = [&](const char* words, ErrorKind kind) {
-      std::cerr << id << "  not measured: " << words << '\n';
+    const auto miss = [&](const char* reason, ErrorKind kind) {
+      std::cerr << id << "  not measured: " << reason << '\n';
       why = missed.empty() ? kind : why;
       missed.append(" ").append(id);
       return false;
@@ -92,37 +90,68 @@ void run_experiments(ExperimentArguments arguments) {
       return miss(error.what(), ErrorKind::tracking);
     }
   };
-  for (const Experiment* const experiment : experiments) {
-    if (!try_to(experiment->id, [&] { sections.push_back(run_experiment(*experiment, lab)); })) {
+  for (const Experiment* const experiment : selected) {
+    Section section;
+    if (!try_to(experiment->id, [&] { section = run_experiment(*experiment, lab); })) {
       continue;
     }
-    write_section(out, sections.back());
-    std::cout << experiment->id << "  " << sections.back().finding.verdict << std::endl;
-    write_text(out / "report.html", report_page(sections, conditions(lab.options())));
+    write_section(out, section);
+    std::cout << experiment->id << "  " << section.finding.verdict << std::endl;
   }
   if (!arguments.budget.empty()) {
     try_to("--budget", [&] { write_text(arguments.budget, tuning_json({lab.fit(), {}}, 0.0)); });
   }
-  if (!sections.empty()) {
-    std::cout << "report: " << (out / "report.html").string() << '\n';
+  std::string head;
+  for (const std::string& line : conditions(lab.options())) {
+    head += line + "\n";
   }
+  write_text(out / "conditions.txt", head);
+  std::cout << "results: " << out.string() << "; apps/lab/plots.py " << out.string()
+            << " draws the figures and writes report.html there\n";
   if (!missed.empty()) {
-    throw Error(why, "experiments that could not be measured:" + missed);
+    throw Error(why, "these experiments could not be measured:" + missed);
   }
 }
 
 }  // namespace
 
+std::filesystem::path measurement_data(const std::filesystem::path& given, const std::filesystem::path& out) {
+  if (!given.empty()) {
+    return given;
+  }
+  std::filesystem::path development = "../shared/data/dev";
+  if (std::filesystem::exists(development / "joy" / "truth.json")) {
+    return development;
+  }
+  std::filesystem::path made = out / "clips";
+  for (const std::string_view name : std::span(kGestureNames).first(kThesisGestureCount)) {
+    if (std::filesystem::exists(made / name / "truth.json")) {
+      continue;
+    }
+    std::cerr << "making the clip " << name << '\n';
+    SequenceOptions options;
+    options.scene.gesture = gesture_named(std::string(name));
+    options.scene.width = 320;
+    options.scene.height = 240;
+    options.folder = made;
+    options.small_videos = false;
+    make_sequence(options);
+  }
+  return made;
+}
+
 void add_experiments_command(CLI::App& app) {
   const auto arguments = std::make_shared<ExperimentArguments>();
   CLI::App* const command =
-      app.add_subcommand("experiments", "Measure tables and figures of the thesis again");
-  command->add_option("ID", arguments->ids, "which ones: list, all, or ids such as F3-18")->required();
+      app.add_subcommand("experiments", "Measure the tables and figures of the thesis again");
+  command->add_option("ID", arguments->ids, "list, all, or ids such as F3-18")->required();
   command->add_option("--data", arguments->data,
-                      "folder with raising_arms, joy, exclaiming, asking [the development clips, or made]");
+                      "folder with raising_arms, joy, exclaiming, asking [the development clips, else made]");
   command->add_option("--out", arguments->out, "folder of the results")->capture_default_str();
-  command->add_option("--seed", arguments->lab.seed, "of every random draw")->capture_default_str();
-  command->add_option("--seeds", arguments->lab.seeds, "runs of each particle filter [5; 2 with --quick]")
+  command->add_option("--seed", arguments->lab.seed, "seed of every random draw")->capture_default_str();
+  command
+      ->add_option("--seeds", arguments->lab.seeds,
+                   "number of runs of each particle filter [5; 2 with --quick]")
       ->check(CLI::Range(1, 1000));
   command->add_option("--write-budget", arguments->budget,
                       "also write the coefficients of F3-28 to this file (data/budget.json)");

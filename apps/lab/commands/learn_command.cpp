@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "learn_command.h"
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands.h"
 #include "lab/experiments/learn.h"
 #include "lab/experiments/report.h"
 #include "telemime/offline/run_outputs.h"
@@ -30,8 +29,8 @@ void run_learn(const LearnArguments& arguments) {
   prepare_file(arguments.out);
   std::vector<std::filesystem::path> clips(arguments.folders.begin(), arguments.folders.end());
   const FilterModel model =
-      learn_filter_model(clips, config, [](const std::string& words) { std::cerr << words << '\n'; });
-  std::string note = "estimated by telemime learn from";
+      learn_filter_model(clips, config, [](const std::string& message) { std::cerr << message << '\n'; });
+  std::string note = "estimated by telemime-lab learn from";
   for (const auto& clip : clips) {
     note += " " + (clip.has_filename() ? clip : clip.parent_path()).filename().string();
   }
@@ -45,13 +44,13 @@ void run_learn(const LearnArguments& arguments) {
 void add_learn_command(CLI::App& app) {
   const auto arguments = std::make_shared<LearnArguments>();
   CLI::App* const command = app.add_subcommand(
-      "learn", "Estimate the particle filter's numbers from sequences whose truth is known");
+      "learn", "Estimate the particle filter's parameters from sequences with known truth");
   command
       ->add_option("FOLDER", arguments->folders,
                    "folders with video, background and truth.json, as `synth` makes them")
       ->required();
   command->add_option("--out", arguments->out, "JSON file for the setting filter.model")->required();
-  command->add_option("--config", arguments->config, "JSON file of settings to track with");
+  command->add_option("--config", arguments->config, "JSON file of settings for the tracking");
   command->callback([arguments] { run_learn(*arguments); });
 }
 

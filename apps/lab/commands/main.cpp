@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laboratory: every subcommand is one file beside this one.
+// The laboratory: each subcommand is one file in this folder.
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <exception>
 #include <iostream>
 
-#include "bench_command.h"
 #include "cli/exit_codes.h"
-#include "experiments_command.h"
-#include "learn_command.h"
-#include "synth_command.h"
+#include "commands.h"
 #include "telemime/capture/prepare_opencv.h"
-#include "tune_command.h"
 
 int main(int argc, char** argv) {
   telemime::prepare_opencv();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "synth_command.h"
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "cli/progress_bar.h"
+#include "commands.h"
 #include "lab/synth/sequence.h"
 #include "telemime/core/errors.h"
 
@@ -23,21 +22,21 @@ struct SynthArguments {
   SequenceOptions sequence;
 };
 
-void read_size(const std::string& words, SceneOptions& scene) {
+void read_size(const std::string& text, SceneOptions& scene) {
   std::size_t used = 0;
   try {
-    scene.width = std::stoi(words, &used);
-    if (used < words.size() && words[used] == 'x') {
-      const std::string rest = words.substr(used + 1);
+    scene.width = std::stoi(text, &used);
+    if (used < text.size() && text[used] == 'x') {
+      const std::string rest = text.substr(used + 1);
       scene.height = std::stoi(rest, &used);
       if (used == rest.size()) {
         return;
       }
     }
   } catch (const std::exception&) {
-    used = 0;  // no number, or too long a one: the same words as for any other mistake, below
+    used = 0;  // not a number: reported below
   }
-  throw Error(ErrorKind::usage, "--size \"" + words + "\" is not a size in pixels",
+  throw Error(ErrorKind::usage, "--size \"" + text + "\" is not a size in pixels",
               "write it as width x height, for instance 640x480");
 }
 
@@ -45,8 +44,9 @@ void run_synth(const SynthArguments& arguments) {
   SequenceOptions options = arguments.sequence;
   read_size(arguments.size, options.scene);
   const std::vector<std::string> gestures =
-      arguments.gesture == "all" ? std::vector<std::string>(kGestureNames.begin(), kGestureNames.end())
-                                 : std::vector<std::string>{arguments.gesture};
+      arguments.gesture == "all"
+          ? std::vector<std::string>(kGestureNames.begin(), kGestureNames.begin() + kThesisGestureCount)
+          : std::vector<std::string>{arguments.gesture};
   for (const std::string& gesture : gestures) {
     options.scene.gesture = gesture_named(gesture);
     ProgressBar bar(arguments.quiet);
@@ -74,26 +74,30 @@ void add_synth_command(CLI::App& app) {
       app.add_subcommand("synth", "Make clips of an animated person with the exact joint positions");
   command
       ->add_option("GESTURE", arguments->gesture,
-                   "raising_arms, joy, exclaiming, asking, or all of them: all")
+                   "raising_arms, joy, exclaiming, asking, talking; all: the first four")
       ->required();
-  command->add_option("--out", sequence.folder, "the files go to a folder in here, named like the gesture")
-      ->required();
-  command->add_option("--size", arguments->size, "of the image, pixels")->capture_default_str();
-  command->add_option("--seed", scene.seed, "another person, room and manner for each number")
+  command->add_option("--out", sequence.folder, "the files go to DIR/GESTURE")->required();
+  command->add_option("--size", arguments->size, "image size, pixels")->capture_default_str();
+  command->add_option("--seed", scene.seed, "each number gives another person, room and manner of moving")
       ->capture_default_str();
   command
       ->add_option("--frames", scene.frames,
-                   "of the clip, 25 a second; the gesture takes 165 and starts again")
+                   "length of the clip, 25 a second; a gesture takes 165 and repeats")
       ->capture_default_str();
   command
       ->add_option("--background-frames", sequence.background_frames,
-                   "of the clip without the person, 0: none")
+                   "length of the clip without the person; 0: none")
       ->capture_default_str();
-  command->add_option("--noise", scene.sensor.noise, "of the camera, standard deviation in grey levels")
+  command->add_option("--noise", scene.sensor.noise, "camera noise, standard deviation in grey levels")
       ->capture_default_str();
   command->add_flag("--light-change", scene.light_change, "a lamp comes on in the middle of the clip");
   command->add_flag("--long-sleeves", scene.long_sleeves, "a shirt with sleeves to the wrist");
   command->add_flag("--striped", scene.striped_shirt, "a striped shirt");
+  command
+      ->add_option("--distance", scene.distance, "of the person, m; 0: as the gesture is staged, about 1.4")
+      ->capture_default_str();
+  command->add_flag("--walk-in", scene.walk_in,
+                    "the person walks in and out of an empty scene (120 frames or more)");
   command->add_flag("--no-small{false}", sequence.small_videos, "without the lossless 160-pixel copies");
   command->add_flag("--mp4", sequence.compact,
                     "write small H.264 clips (.mp4) instead of lossless ones (.mkv)");

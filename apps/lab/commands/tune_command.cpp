@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tune_command.h"
-
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <array>
@@ -8,11 +6,11 @@
 #include <memory>
 #include <string>
 
+#include "commands.h"
 #include "lab/experiments/report.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/search/budget.h"
 #include "telemime/tracker/config.h"
-#include "thread_clock.h"
 
 namespace telemime {
 namespace {
@@ -40,7 +38,7 @@ void run_tune(const TuneArguments& arguments) {
                           number(1e3 * cost.edge_ms), std::to_string(split.region),
                           std::to_string(split.edge)});
   }
-  std::cout << "best split of " << number(arguments.budget_ms) << " ms a frame for the search\n"
+  std::cout << "best split of " << number(arguments.budget_ms) << " ms of search per frame\n"
             << to_text(table);
   if (!arguments.out.empty()) {
     write_text(arguments.out, tuning_json(tuning, arguments.budget_ms));
@@ -55,10 +53,10 @@ void add_tune_command(CLI::App& app) {
   CLI::App* const command =
       app.add_subcommand("tune", "Measure this machine and split a time budget between regions and edges");
   command->add_option("--out", arguments->out, "also write costs and splits to this JSON file");
-  command->add_option("--budget", arguments->budget_ms, "search time a frame, ms")
+  command->add_option("--budget", arguments->budget_ms, "search time per frame, ms")
       ->capture_default_str()
       ->check(CLI::Range(0.01, 1e5));
-  command->add_option("--fit", arguments->fit, "file of fitted coefficients [those of data/budget.json]");
+  command->add_option("--fit", arguments->fit, "file of fitted coefficients [data/budget.json]");
   command->callback([arguments] { run_tune(*arguments); });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each heuristic of a particle filter is good for: each left out, and each alone.
+// The contribution of each heuristic of a particle filter: each left out, and each alone.
 #include <algorithm>
 
 #include "lab/experiments/experiments.h"
@@ -24,7 +24,7 @@ std::string list_of(const std::vector<const Heuristic*>& heuristics, const Heuri
 }
 
 FilterSweep measure(Lab& lab, const std::string& name, int particles, const FilterSearch& search) {
-  lab.say("tracking the four gestures with " + name);
+  lab.log("tracking the four gestures with " + name);
   return sweep(lab.gestures(), {particles}, lab.options().seed, lab.seeds(), lab.options().peaks, search);
 }
 
@@ -37,7 +37,7 @@ FilterSweep measure_filter(Lab& lab, const std::string& name, FilterSetup setup,
   });
 }
 
-// The filter as it is, each heuristic of its list left out, each heuristic that there is alone, and none.
+// The full filter, the filter without each heuristic of its list, each existing heuristic alone, and none.
 std::vector<Variant> variants_of(Lab& lab, const FilterSetup& setup) {
   const auto heuristics = parse_heuristics(setup.filter.heuristics);
   std::vector<Variant> variants;
@@ -71,7 +71,7 @@ Table table_of(const std::string& title, const std::vector<Variant>& variants) {
     std::vector<std::string> row = {variant.name};
     for (const FilterMeasure measure :
          {&FilterRun::error_3d, &FilterRun::error_2d, &FilterRun::mistracked, &FilterRun::jitter}) {
-      row.push_back(to_words(variant.sweep.over_sequences(0, measure)));
+      row.push_back(mean_and_range(variant.sweep.over_sequences(0, measure)));
     }
     row.push_back(number(variant.sweep.mean_of_all(&FilterRun::evaluations)));
     row.push_back(number(variant.sweep.mean_of_all(&FilterRun::effective)));
@@ -88,7 +88,7 @@ Table by_gesture(Lab& lab, const std::string& title, const std::vector<Variant>&
   for (const Variant& variant : variants) {
     table.rows.push_back({variant.name});
     for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
-      table.rows.back().push_back(to_words(variant.sweep.at(s, 0, &FilterRun::error_3d)));
+      table.rows.back().push_back(mean_and_range(variant.sweep.at(s, 0, &FilterRun::error_3d)));
     }
   }
   return table;
@@ -98,15 +98,15 @@ Table by_gesture(Lab& lab, const std::string& title, const std::vector<Variant>&
 std::string cost_of_leaving_out(const std::vector<Variant>& variants, FilterMeasure measure,
                                 const std::string& unit) {
   const double everything = variants.front().sweep.over_sequences(0, measure).mean;
-  std::string words;
+  std::string list;
   for (const Variant& variant : variants) {
     if (variant.name.rfind("without ", 0) == 0) {
       const double change = variant.sweep.over_sequences(0, measure).mean - everything;
-      words.append(words.empty() ? "" : ", ")
+      list.append(list.empty() ? "" : ", ")
           .append(variant.name + (change < 0.0 ? " " : " +") + number(change) + unit);
     }
   }
-  return words;
+  return list;
 }
 
 }  // namespace
@@ -138,8 +138,9 @@ Finding ablation(Lab& lab) {
   finding.notes = {
       "Means over the four gestures; in brackets the lowest and highest of the " +
           std::to_string(lab.seeds()) +
-          " seeds. 'Without' leaves one heuristic out of everything; 'alone' is that heuristic and no other. "
-          "The single searches start from the last pose, without expected motion.",
+          " seeds. 'Without' leaves one heuristic out of the full list; 'alone' is that heuristic and no "
+          "other. "
+          "The single searches start from the previous pose, without predicted motion.",
       "Left out of the thesis's filter: " + cost_of_leaving_out(theirs, &FilterRun::error_3d, " mm") + "; " +
           cost_of_leaving_out(theirs, &FilterRun::mistracked, " frames") + ".",
       "Left out of ours: " + cost_of_leaving_out(own, &FilterRun::error_3d, " mm") + "; " +

@@ -3,14 +3,10 @@
 #include <cmath>
 
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/plot.h"
 #include "lab/experiments/timing.h"
 
 namespace telemime {
 namespace {
-
-constexpr const char* kRegionAxis = "region iterations (evaluations of F)";
-constexpr const char* kEdgeAxis = "edge iterations (evaluations of D_C)";
 
 Table coefficients(const QuadraticFit& fit) {
   Table table{"coefficients", {"A", "B", "C", "D", "F", "G", "limit"}, {}};
@@ -19,22 +15,7 @@ Table coefficients(const QuadraticFit& fit) {
   return table;
 }
 
-HeatMap surface(const QuadraticFit& fit, const std::string& title) {
-  HeatMap map{title, kRegionAxis, kEdgeAxis, {}, {}, {}, {}};
-  constexpr int kCells = 25;
-  for (int i = 0; i <= kCells; ++i) {
-    map.x.push_back(std::round(fit.limit * i / kCells));
-  }
-  map.y = map.x;
-  for (const double y : map.y) {
-    for (const double x : map.x) {
-      map.z.push_back(fit(x, y));
-    }
-  }
-  return map;
-}
-
-// Root mean square of what the fit leaves, mm.
+// Root mean square of the residuals of the fit, mm.
 double misfit(Lab& lab, const QuadraticFit& fit) {
   const Grid& grid = lab.grid();
   const std::size_t n = grid.steps.size();
@@ -57,7 +38,7 @@ struct Curve {
   std::vector<double> total;
   std::vector<double> region;
   std::vector<double> edge;
-  double first_edges = 0.0;  ///< iterations in all from which edges get at least one; 0: never
+  double first_edges = 0.0;  ///< total iterations from which edges get at least one; 0: never
 };
 
 Curve curve_of(const QuadraticFit& fit, const EvaluationCost& cost) {
@@ -83,15 +64,13 @@ Finding quadratic(Lab& lab) {
   const double rest = misfit(lab, fit);
   Finding finding;
   finding.tables = {coefficients(fit)};
-  finding.plots = {{"plot", to_svg(surface(fit, "Quadratic fit of the mean 2-D error (mm)"))}};
   finding.notes = {
       "z = A + B x + C y + D x^2 + F y^2 + G x y over the means of the four gestures; the root mean square "
       "of "
-      "what it leaves is " +
+      "its residuals is " +
           number(rest) + " mm.",
       "The error falls steeply at first and then hardly at all: a quadratic follows that only roughly, and "
-      "its "
-      "minimum inside the square is partly made by its own shape."};
+      "its minimum inside the square is partly an effect of its own shape."};
   finding.verdict =
       verdict({fit(fit.limit, fit.limit) < fit(0, 0), fit.b < 0.0},
               "the fitted error is " + number(fit(0, 0)) + " mm without search and " +
@@ -104,26 +83,20 @@ Finding tangent_point(Lab& lab) {
   const EvaluationCost cost = evaluation_cost(lab, 160, 120);
   const double budget = 0.5 * fit.limit * (cost.region_ms + cost.edge_ms);
   const Allocation best = best_allocation(fit, cost.region_ms, cost.edge_ms, budget);
-  Series line{"z", {}, {}};
   constexpr int kPoints = 60;
   Table table{"along the line", {"region iterations", "edge iterations", "fitted 2-D error (mm)"}, {}};
   for (int i = 0; i <= kPoints; ++i) {
     const double x = std::min(fit.limit, budget / cost.region_ms) * i / kPoints;
     const double y = (budget - cost.region_ms * x) / cost.edge_ms;
     if (y <= fit.limit) {
-      line.x.push_back(x);
-      line.y.push_back(fit(x, y));
       table.rows.push_back({number(x), number(y), number(fit(x, y))});
     }
   }
-  line.name = "fitted 2-D error for " + number(budget) + " ms";
-  const Series mark{"best point", {best.region, best.region}, {0.0, fit(best.region, best.edge)}};
   Finding finding;
   finding.tables = {table};
-  finding.plots = {{"plot", to_svg(LinePlot{"2-D error along one budget", kRegionAxis, "mm", {line, mark}})}};
   finding.notes = {"One F costs " + number(1e3 * cost.region_ms) + " us and one D_C " +
                    number(1e3 * cost.edge_ms) +
-                   " us here; the printed equations 3.22 to 3.24 carry slips, so "
+                   " us here. The printed equations 3.22 to 3.24 contain errors, so "
                    "the quadratic along the line is solved directly and its ends are compared."};
   finding.verdict = verdict({best.region > 0.0}, "for " + number(budget) + " ms the best is " +
                                                      number(std::round(best.region)) + " region and " +
@@ -135,25 +108,22 @@ Finding best_curve(Lab& lab) {
   const QuadraticFit fit = lab.fit();
   const EvaluationCost cost = evaluation_cost(lab, 160, 120);
   const Curve curve = curve_of(fit, cost);
-  HeatMap map = surface(fit, "Best split over the fitted 2-D error (mm)");
-  map.lines = {{"best split", curve.region, curve.edge}};
   Finding finding;
-  Table table{"best split", {"iterations in all", "region", "edge", "fitted 2-D error (mm)"}, {}};
+  Table table{"best split", {"total iterations", "region", "edge", "fitted 2-D error (mm)"}, {}};
   for (std::size_t i = 4; i < curve.total.size(); i += 5) {
     table.rows.push_back({number(curve.total[i]), number(curve.region[i]), number(curve.edge[i]),
                           number(fit(curve.region[i], curve.edge[i]))});
   }
-  finding.tables = {table};
-  finding.plots = {{"plot", to_svg(map)}};
+  finding.tables = {table, coefficients(fit)};
   finding.notes = {
-      "`telemime tune` measures the two costs on the host and applies this fit (data/budget.json); beyond "
-      "the "
-      "measured square the split at its rim is kept."};
+      "`telemime-lab tune` measures the two costs on the host and applies this fit (data/budget.json); "
+      "beyond "
+      "the measured square the split at its edge is kept."};
   const bool edges = curve.first_edges > 0.0;
   finding.verdict =
       verdict({curve.edge.front() == 0.0, edges && curve.first_edges >= 75.0 && curve.first_edges <= 400.0},
               edges ? "edges get a share from about " + number(std::round(curve.first_edges)) +
-                          " iterations in all (thesis: about 150)."
+                          " iterations in total (thesis: about 150)."
                     : "edges never get a share here.");
   return finding;
 }

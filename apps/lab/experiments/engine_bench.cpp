@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::size_t, 6> kBatches = {1, 10, 100, 1000, 10000, 100000};
 
-// Shares a batch between threads; the others use one whatever they are told.
+// Whether the back end shares a batch between threads; the others use one thread.
 bool uses_threads(const std::string& backend) {
   return backend == "simd";
 }
@@ -40,7 +40,7 @@ void measure_batches(const EngineOptions& options, const std::string& name, int 
   const auto backend = make_backend(name, {threads});
   double each = 0.0;  // s for one evaluation, by the batch before
   for (const std::size_t batch : kBatches) {
-    Throughput cell = {name, size_words(scene.frame.camera), threads, batch, std::nullopt};
+    Throughput cell = {name, size_name(scene.frame.camera), threads, batch, std::nullopt};
     if (each * static_cast<double>(batch) <= longest) {
       cell.time = best_batch_time(*backend, scene, batch, Reduction::all, budget, options.seconds);
       each = cell.time->seconds / static_cast<double>(batch);
@@ -105,7 +105,7 @@ std::vector<Camera> engine_cameras() {
   return {Camera{}.scaled_to(160, 120), Camera{}.scaled_to(320, 240), Camera{}.scaled_to(640, 480)};
 }
 
-std::string size_words(const Camera& camera) {
+std::string size_name(const Camera& camera) {
   return std::to_string(camera.width) + "x" + std::to_string(camera.height);
 }
 

@@ -33,7 +33,7 @@ std::vector<std::string> missing_backends();
 
 /// The working images of all tables: 160x120, 320x240, 640x480.
 std::vector<Camera> engine_cameras();
-std::string size_words(const Camera& camera);
+std::string size_name(const Camera& camera);
 
 /// One person before one picture, and poses about the one in it as a search would try them.
 struct EngineScene {

@@ -11,7 +11,7 @@
 namespace telemime {
 namespace {
 
-// A clock that a test turns by hand.
+// A clock that the test advances.
 struct Clock {
   double now = 0.0;
   std::function<double()> function() {
@@ -41,7 +41,7 @@ class Timed final : public Backend {
   int batches_ = 0;
 };
 
-TEST(BestBatchTime, IsTheBestOfSeveralAfterOneThatWarmsUp) {
+TEST(BestBatchTime, IsTheBestAfterAWarmUp) {
   Clock clock;
   Timed backend(clock);
   const EngineScene scene = engine_scene(engine_cameras().front(), 250, 1);
@@ -77,7 +77,7 @@ TEST(EngineBackends, AreThoseThatRunHereOrThoseNamed) {
   EXPECT_THROW(engine_backends(options), Error);
 }
 
-TEST(ThroughputTables, HaveARowForEachImageAndAColumnForEachBatch) {
+TEST(ThroughputTables, HaveARowPerImageAndAColumnPerBatch) {
   std::vector<Throughput> cells;
   for (const std::size_t batch : {1, 10, 100, 1000, 10000, 100000}) {
     cells.push_back({"a", "160x120", 1, batch, BatchTime{2e-6 * static_cast<double>(batch), {}}});
@@ -112,7 +112,7 @@ TEST(EngineTables, AreWhole) {
   }
 }
 
-TEST(OverlapTimes, StandBesideThePublishedOnes) {
+TEST(OverlapTimes, HaveThePublishedOnesBeside) {
   Clock clock;
   EngineOptions options;
   options.quick = true;

@@ -62,7 +62,7 @@ Table stage_table(const EngineOptions& options) {
   table.rows.push_back({"all"});
   for (const Camera& camera : engine_cameras()) {
     const std::vector<double> up_to = each_of(backends, scene_of(camera, options), options);
-    const std::string size = size_words(camera);
+    const std::string size = size_name(camera);
     table.columns.push_back(size + " us");
     table.columns.push_back(size + " %");
     for (std::size_t i = 0; i < up_to.size(); ++i) {
@@ -86,7 +86,7 @@ Table instruction_set_table(const EngineOptions& options) {
   }
   for (const Camera& camera : engine_cameras()) {
     const std::vector<double> each = each_of(backends, scene_of(camera, options), options);
-    table.columns.push_back(size_words(camera) + " us");
+    table.columns.push_back(size_name(camera) + " us");
     for (std::size_t i = 0; i < each.size(); ++i) {
       table.rows[i].push_back(number(each[i]));
     }
@@ -105,7 +105,7 @@ Table opencv_table(const EngineOptions& options) {
       {}};
   for (const Camera& camera : engine_cameras()) {
     const std::vector<double> each = each_of(backends, scene_of(camera, options), options);
-    table.rows.push_back({size_words(camera), number(each[0]), number(each[1]), number(each[2]),
+    table.rows.push_back({size_name(camera), number(each[0]), number(each[1]), number(each[2]),
                           number(each[0] / each[2]), number(each[1] / each[2])});
   }
   return table;
@@ -113,25 +113,25 @@ Table opencv_table(const EngineOptions& options) {
 
 Table overlap_time_table(const EngineOptions& options) {
   const int all = most_threads(options);
-  struct Column {
+  struct Timed {
     std::string title;
     std::unique_ptr<Backend> backend;
   };
-  std::vector<Column> columns;
+  std::vector<Timed> timed;
   for (const std::string& name : engine_backends(options)) {
-    columns.push_back({name, make_backend(name)});
+    timed.push_back({name, make_backend(name)});
     if (name == "simd" && all > 1) {
-      columns.push_back({"simd, " + std::to_string(all) + " threads", make_backend(name, {all})});
+      timed.push_back({"simd, " + std::to_string(all) + " threads", make_backend(name, {all})});
     }
   }
   Table table{"Table 4-1: overlap histograms at 160x120, ms", {"histograms"}, {}};
-  for (const Column& column : columns) {
+  for (const Timed& column : timed) {
     table.columns.push_back(column.title);
   }
   const EngineScene scene = engine_scene(engine_cameras().front(), 10 * kHistograms.back(), options.seed);
   for (std::size_t h = 0; h < kHistograms.size(); ++h) {
     table.rows.push_back({std::to_string(kHistograms[h])});
-    for (const Column& column : columns) {
+    for (const Timed& column : timed) {
       const BatchTime time = best_batch_time(*column.backend, scene, kHistograms[h], Reduction::overlap,
                                              options.quick ? 0.01 : 0.2, options.seconds);
       table.rows.back().push_back(number(1e3 * time.seconds));

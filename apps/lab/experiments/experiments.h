@@ -1,12 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "lab/experiments/lab.h"
 #include "lab/experiments/report.h"
 
 namespace telemime {
 
-// One function for each table or figure of the thesis; all.h lists them.
+/// A table or figure of the thesis that can be measured again.
+struct Experiment {
+  std::string_view id;
+  std::string_view title;
+  std::string_view question;
+  Finding (*run)(Lab& lab);
+};
+
+/// Every experiment, in the order of the thesis.
+std::span<const Experiment> experiments();
+
+/// The experiment with this id, or null.
+const Experiment* find_experiment(std::string_view id);
+
+/// Runs one experiment and adds what the thesis reports.
+Section run_experiment(const Experiment& experiment, Lab& lab);
+
+/// The measuring conditions, one line each, for the head of the report.
+std::vector<std::string> conditions(const LabOptions& options);
+
+/// "Agrees: ", "Partly agrees: " or "Differs: ", by how many of the statements hold, followed by `text`.
+std::string verdict(std::initializer_list<bool> statements, const std::string& text);
 
 Finding background_times(Lab& lab);      ///< T3-1
 Finding background_in_light(Lab& lab);   ///< F3-6
@@ -40,10 +64,7 @@ Finding all_accuracy(Lab& lab);          ///< F4-29
 Finding all_robustness(Lab& lab);        ///< F4-30
 Finding real_clips(Lab& lab);            ///< F4-33
 Finding overlap_times(Lab& lab);         ///< T4-1
-Finding ablation(Lab& lab);              ///< no figure: each heuristic left out
-Finding levers(Lab& lab);                ///< no figure: each part of the whole program left out
-
-/// "Agrees", "Partly agrees" or "Differs", by how many of the statements hold, then the words.
-std::string verdict(std::initializer_list<bool> statements, const std::string& words);
+Finding ablation(Lab& lab);              ///< not in the thesis: each heuristic left out
+Finding levers(Lab& lab);                ///< not in the thesis: each part of the program left out
 
 }  // namespace telemime

@@ -2,19 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <set>
 
-#include "lab/experiments/all.h"
+#include "lab/experiments/experiments.h"
 #include "lab/experiments/testing_sequence.h"
 #include "lab/experiments/timing.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
 
-TEST(Experiments, EachHasAnIdOfItsOwnAndPublishedValues) {
+TEST(Experiments, HaveUniqueIdsAndPublishedValues) {
   std::set<std::string_view> ids;
-  for (const Experiment& experiment : kExperiments) {
+  for (const Experiment& experiment : experiments()) {
     EXPECT_TRUE(ids.insert(experiment.id).second) << experiment.id;
     EXPECT_FALSE(published_values(std::string(experiment.id)).rows.empty()) << experiment.id;
     EXPECT_EQ(find_experiment(experiment.id), &experiment);
@@ -45,7 +49,7 @@ TEST(ReferenceWith, GivesEachStepItsEvaluations) {
   }
 }
 
-TEST(TrackSequence, StartsAtTheTruthAndIsTheSameWhateverRunsBesideIt) {
+TEST(TrackSequence, StartsAtTheTruthAndIsRepeatable) {
   const PreparedSequence sequence = testing::model_sequence();
   const Trace still = track_sequence(sequence, reference_with(0, 0), 1);
   ASSERT_EQ(still.region.size(), 3U);
@@ -68,24 +72,28 @@ TEST(Means, LeaveOutWhatIsNotFinite) {
   EXPECT_EQ(median_of({5.0, 1.0, 3.0}), 3.0);
 }
 
-TEST(Beside, JoinsRowsByTheirFirstField) {
-  const Table joined =
-      beside({"t", {"k", "ours"}, {{"a", "1"}, {"b", "2"}}}, {"p", {"k", "theirs"}, {{"b", "9"}}});
-  EXPECT_EQ(joined.columns, (std::vector<std::string>{"k", "ours", "theirs"}));
-  EXPECT_EQ(joined.rows[0].back(), "-");
-  EXPECT_EQ(joined.rows[1].back(), "9");
+TEST(PublishedValues, CellsBecomeRowsAndColumns) {
+  const Table times = published_values("T3-2");
+  EXPECT_EQ(times.columns,
+            (std::vector<std::string>{"quantity", "platform 1 ms", "platform 2 ms", "platform 3 ms"}));
+  ASSERT_EQ(times.rows.size(), 6U);
+  EXPECT_EQ(times.rows.back(), (std::vector<std::string>{"500", "93 +- 10", "101 +- 10", "114 +- 10"}));
+  EXPECT_TRUE(published_values("F0-0").rows.empty());
 }
 
-TEST(ReportPage, HoldsEverySectionAndNothingFromOutside) {
-  Section section{"F0-0", "A title", "A question?", {}, {}};
-  section.finding.notes = {"Seen."};
+TEST(WriteSection, NamesItsTablesAndPicture) {
+  const ScratchFolder scratch;
+  Section section{"F0-0", "A title", "A question?", {"p", {"k"}, {{"v"}}}, {}};
+  section.finding.tables = {{"A table (mm)", {"a"}, {{"1"}}}};
+  section.finding.picture = cv::Mat(2, 2, CV_8UC1, cv::Scalar(7));
   section.finding.verdict = "Agrees: yes.";
-  const std::string page = report_page({section}, {"One condition."});
-  for (const char* words : {"F0-0", "A question?", "Seen.", "Agrees: yes.", "One condition."}) {
-    EXPECT_NE(page.find(words), std::string::npos) << words;
-  }
-  EXPECT_EQ(page.find("src="), std::string::npos);
-  EXPECT_EQ(page.find("href=\"http"), std::string::npos);
+  write_section(scratch.path(), section);
+  const auto json = nlohmann::json::parse(std::ifstream(scratch.path() / "F0-0/section.json"));
+  EXPECT_EQ(json["published"], "k\nv\n");
+  EXPECT_EQ(json["verdict"], "Agrees: yes.");
+  EXPECT_EQ(json["tables"][0]["file"], "a_table_mm.csv");
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "F0-0/a_table_mm.csv"));
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "F0-0/picture.png"));
 }
 
 TEST(Lab, NeedsAClock) {

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lab/experiments/plot.h"
-
 namespace telemime {
 namespace {
 
@@ -29,25 +27,6 @@ void add_fields(Lab& lab, const std::vector<std::string>& filters, std::size_t c
       row.push_back(number(value));
     }
   }
-}
-
-template <typename At>
-Plot plot_of(Lab& lab, const std::vector<std::string>& filters, const std::string& name,
-             const std::string& title, const FilterQuantity& quantity, const At& at) {
-  LinePlot plot{title, "particles", quantity.title, {}};
-  for (const std::string& filter : filters) {
-    const FilterSweep& sweep = lab.filter(filter);
-    Series series{filter_title(filter), {}, {}};
-    for (std::size_t count = 0; count < sweep.particles.size(); ++count) {
-      const Spread spread = at(sweep, count);
-      series.x.push_back(sweep.particles[count]);
-      series.y.push_back(spread.mean);
-      series.low.push_back(spread.low);
-      series.high.push_back(spread.high);
-    }
-    plot.series.push_back(std::move(series));
-  }
-  return {name, to_svg(plot)};
 }
 
 Table averages_table(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity) {
@@ -74,7 +53,7 @@ Table averages_table(Lab& lab, const std::vector<std::string>& filters, const Fi
   return table;
 }
 
-// What the filters did, to tell why they differ.
+// Effort and state of the filters, to explain why they differ.
 Table effort_table(Lab& lab, const std::vector<std::string>& filters) {
   Table table{"what the filters spent and kept",
               {"filter", "evaluations / frame", "effective particles", "parts diffused (%)",
@@ -95,7 +74,7 @@ int sign_beyond(double change, double chance) {
   return std::abs(change) <= chance ? 0 : change < 0.0 ? -1 : 1;
 }
 
-const char* sign_in_words(int sign) {
+const char* sign_text(int sign) {
   return sign < 0 ? " (down)" : sign > 0 ? " (up)" : " (may be chance)";
 }
 
@@ -131,14 +110,13 @@ int change_of_all(const FilterAverages& a, const FilterAverages& b) {
   return sign_beyond(b.all - a.all, std::hypot(a.chance_of_all, b.chance_of_all));
 }
 
-std::string change_in_words(Lab& lab, const FilterAverages& from, const FilterAverages& to) {
-  std::string words;
+std::string described_change(Lab& lab, const FilterAverages& from, const FilterAverages& to) {
+  std::string text;
   for (std::size_t s = 0; s < from.gestures.size(); ++s) {
-    words += lab.gestures()[s].name + " " + number(from.gestures[s]) + " -> " + number(to.gestures[s]) +
-             sign_in_words(change_of(from, to, s)) + ", ";
+    text += lab.gestures()[s].name + " " + number(from.gestures[s]) + " -> " + number(to.gestures[s]) +
+            sign_text(change_of(from, to, s)) + ", ";
   }
-  return words + "mean " + number(from.all) + " -> " + number(to.all) +
-         sign_in_words(change_of_all(from, to));
+  return text + "mean " + number(from.all) + " -> " + number(to.all) + sign_text(change_of_all(from, to));
 }
 
 Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity) {
@@ -153,8 +131,6 @@ Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const
   const auto over_all = [&](const FilterSweep& sweep, std::size_t count) {
     return sweep.over_sequences(count, quantity.measure);
   };
-  finding.plots.push_back(plot_of(
-      lab, filters, "plot", std::string(quantity.title) + ", mean of the gestures", quantity, over_all));
   for (std::size_t count = 0; count < particles.size(); ++count) {
     mean.rows.push_back({std::to_string(particles[count])});
     add_fields(lab, filters, count, over_all, mean.rows.back());
@@ -164,8 +140,6 @@ Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const
     const auto of_gesture = [&](const FilterSweep& sweep, std::size_t count) {
       return sweep.at(s, count, quantity.measure);
     };
-    finding.plots.push_back(
-        plot_of(lab, filters, name, std::string(quantity.title) + ", " + name, quantity, of_gesture));
     for (std::size_t count = 0; count < particles.size(); ++count) {
       all.rows.push_back({name, std::to_string(particles[count])});
       add_fields(lab, filters, count, of_gesture, all.rows.back());

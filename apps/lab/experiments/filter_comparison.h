@@ -29,15 +29,15 @@ struct FilterAverages {
 };
 FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure);
 
-/// What happened from a to b: -1 it fell, 1 it rose, 0 it may be chance.
+/// The change from a to b: -1 a fall, 1 a rise, 0 within chance.
 int change_of(const FilterAverages& a, const FilterAverages& b, std::size_t gesture);
 int change_of_all(const FilterAverages& a, const FilterAverages& b);
 
 /// "raising_arms 120 -> 100 (down), ...; mean ...".
-std::string change_in_words(Lab& lab, const FilterAverages& from, const FilterAverages& to);
+std::string described_change(Lab& lab, const FilterAverages& from, const FilterAverages& to);
 
-/// Tables and plots (a plot of the mean and one of each gesture, the spread over the seeds as a band) of
-/// filters (Lab::filter) beside each other.
+/// Tables of several filters (Lab::filter) beside each other: averages, by number of particles (mean and each
+/// gesture, with the spread over the seeds), and effort.
 Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity);
 
 }  // namespace telemime

@@ -37,7 +37,7 @@ Spread spread_of(std::span<const double> values) {
   return spread;
 }
 
-std::string to_words(const Spread& spread) {
+std::string mean_and_range(const Spread& spread) {
   return number(spread.mean) + " (" + number(spread.low) + " to " + number(spread.high) + ")";
 }
 

@@ -9,7 +9,7 @@
 
 namespace telemime {
 
-/// What one run over one sequence comes to.
+/// Summary of one run over one sequence.
 struct FilterRun {
   double error_3d = 0.0;     ///< mm
   double error_2d = 0.0;     ///< mm
@@ -35,7 +35,7 @@ struct Spread {
 Spread spread_of(std::span<const double> values);
 
 /// "mean (low to high)".
-std::string to_words(const Spread& spread);
+std::string mean_and_range(const Spread& spread);
 
 /// Every sequence tracked with several numbers of particles (or other settings), each with several seeds.
 struct FilterSweep {
@@ -58,17 +58,16 @@ struct FilterSweep {
   double standard_error(std::size_t sequence, FilterMeasure measure) const;
 };
 
-/// What a search gives on one sequence with so many particles and this seed.
+/// Tracks one sequence with this number of particles and this seed.
 using FilterSearch = std::function<Trace(const PreparedSequence&, int particles, std::uint64_t seed)>;
 
-/// Seeds are first_seed, first_seed + 1, ... Runs go side by side on all cores; results do not depend on how
-/// many there are.
+/// Seeds are first_seed, first_seed + 1, ... Runs are parallel; results do not depend on the number of cores.
 FilterSweep sweep(std::span<const PreparedSequence> sequences, std::vector<int> particles,
                   std::uint64_t first_seed, std::size_t seeds, const PeakThresholds& peaks,
                   const FilterSearch& search);
 
-/// work(i) for all i below lengths.size(), side by side, the longest first, so that no core waits long for
-/// the last one.
+/// Calls work(i) for all i below lengths.size() in parallel, the longest first, so that no core waits long
+/// for the last one.
 void longest_first(std::span<const double> lengths, const std::function<void(std::size_t)>& work);
 
 }  // namespace telemime

@@ -70,7 +70,7 @@ TEST(SpreadOf, IsMeanLowestAndHighestOfWhatIsFinite) {
   EXPECT_EQ(spread.mean, 3.0);
   EXPECT_EQ(spread.low, 1.0);
   EXPECT_EQ(spread.high, 4.0);
-  EXPECT_EQ(to_words(spread), "3 (1 to 4)");
+  EXPECT_EQ(mean_and_range(spread), "3 (1 to 4)");
   EXPECT_TRUE(std::isnan(spread_of({}).low));
 }
 

@@ -73,15 +73,15 @@ Lab::Lab(LabOptions options) : options_(std::move(options)) {
   }
 }
 
-void Lab::say(const std::string& words) const {
+void Lab::log(const std::string& message) const {
   if (options_.progress) {
-    options_.progress(words);
+    options_.progress(message);
   }
 }
 
 const std::vector<PreparedSequence>& Lab::gestures() {
   if (gestures_.empty()) {
-    say("preparing the four gestures at 160x120");
+    log("preparing the four gestures at 160x120");
     std::vector<PreparedSequence> prepared(kGestures.size());
     tbb::parallel_for(std::size_t{0}, kGestures.size(), [&](std::size_t i) {
       const Clip clip = read_clip(options_.data / kGestures[i], options_.quick ? 24 : 0);
@@ -111,7 +111,7 @@ const Clip& Lab::timing_clip() {
 const Grid& Lab::grid() {
   if (!grid_) {
     const auto& sequences = gestures();
-    say("tracking the four gestures over the grid of iterations");
+    log("tracking the four gestures over the grid of iterations");
     grid_ = track_grid(sequences, options_);
   }
   return *grid_;
@@ -130,7 +130,7 @@ const FilterSweep& Lab::filter(const std::string& heuristics) {
   const std::vector<int> particles =
       options_.quick ? std::vector<int>{100, 300}
                      : std::vector<int>{100, 200, 300, 400, 500, 600, 700, 800, 900, 1000};
-  say("tracking the four gestures with " + filter_title(heuristics) + ", up to " +
+  log("tracking the four gestures with " + filter_title(heuristics) + ", up to " +
       std::to_string(particles.back()) + " particles");
   const FilterSetup setup = filter_setup(heuristics);
   const auto search = [&](const PreparedSequence& sequence, int count, std::uint64_t seed) {

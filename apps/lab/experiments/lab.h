@@ -20,11 +20,11 @@ struct LabOptions {
   std::uint64_t seed = 1;
   int seeds = 0;  ///< runs of a particle filter, each with a seed of its own; 0: 5, 2 when quick
   PeakThresholds peaks;
-  std::function<void(const std::string&)> progress;  ///< what is being done, in words; may be empty
-  std::function<double()> seconds;  ///< clock of the calling thread's computing time, for the timings
+  std::function<void(const std::string&)> progress;  ///< receives progress messages; may be empty
+  std::function<double()> seconds;                   ///< processor time of the calling thread, s
 };
 
-/// One cell of the grid: a sequence tracked with x region and y edge evaluations a frame.
+/// One cell of the grid: a sequence tracked with this many region and edge evaluations per frame.
 struct GridCell {
   std::size_t sequence = 0;
   int region = 0;
@@ -50,8 +50,8 @@ inline constexpr const char* kCondensation = "";
 inline constexpr const char* kAllTogether = "wd,hpm,lo,kf,ee";
 inline constexpr const char* kOurFilter = "ours";
 
-/// What experiments share: clips and sequences are read and prepared when they are first asked for; the
-/// grid over the iterations and each filter are tracked once.
+/// Shared state of the experiments. Clips and sequences are read and prepared on first use; the grid over the
+/// iterations and each filter are tracked once.
 class Lab {
  public:
   /// Throws Error(usage) without a clock.
@@ -73,7 +73,7 @@ class Lab {
   QuadraticFit fit();
   /// Evaluations after which a search counts as run to convergence.
   int to_convergence() const { return options_.quick ? 800 : 3000; }
-  void say(const std::string& words) const;
+  void log(const std::string& message) const;
 
  private:
   LabOptions options_;
@@ -86,14 +86,13 @@ class Lab {
 /// The filter that Lab::filter names.
 FilterSetup filter_setup(const std::string& heuristics);
 
-/// The filter's name in tables and plots.
+/// The filter's name in tables.
 std::string filter_title(const std::string& heuristics);
 
 /// The configuration that experiments prepare sequences with: 160x120, all else by default.
 Config experiment_config(std::uint64_t seed);
 
-/// Tracks one sequence with several searches, side by side on all cores; results do not depend on how many
-/// there are.
+/// Tracks one sequence with several searches in parallel; results do not depend on the number of cores.
 std::vector<Trace> track_all(const PreparedSequence& sequence,
                              const std::vector<RegistrationConfig>& searches, std::uint64_t seed);
 

@@ -24,7 +24,7 @@
 namespace telemime {
 namespace {
 
-// One tracked frame with what is known of it.
+// One tracked frame with its errors.
 struct Sample {
   Body body;
   Pose pose;
@@ -51,7 +51,7 @@ double deviation(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
 }
 
-// How far the part's joints went from one frame of the truth to the next, m; nothing where one is unknown.
+// Largest displacement of the part's joints from one true frame to the next, m; nothing where one is unknown.
 std::optional<double> truth_motion(const Truth& truth, std::size_t t, std::size_t part) {
   static const std::array<std::vector<Joint>, kPartCount> kJoints = {
       {{Joint::neck, Joint::l_shoulder, Joint::r_shoulder},
@@ -125,7 +125,7 @@ void collect(const Clip& clip, const std::filesystem::path& folder, const Config
     labels = frame.features.labels.clone();
   }
   if (regions.empty()) {
-    throw Error(ErrorKind::tracking, clip.name + ": nobody was tracked");
+    throw Error(ErrorKind::tracking, clip.name + ": no frame was tracked");
   }
   samples.sigma_region.push_back(deviation(regions));
   samples.sigma_contour.push_back(deviation(contours));
@@ -178,7 +178,7 @@ SpreadModel fit_spread(const std::vector<Sample>& samples, const Camera& camera,
         const Fit fit = fit_of(samples, camera, model_at(x), kArmJoints);
         double sum = fit.log_determinants;
         for (const double squared : fit.squared) {
-          // Heavy tails: a flipped arm must not blow up all the others.
+          // Heavy tails: a flipped arm must not inflate the spread of all others.
           sum += 5.0 * std::log1p(squared / 2.0);
         }
         return sum;
@@ -220,7 +220,7 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
   model.sigma_contour = mean_of(samples.sigma_contour);
   // Two standard deviations reach all but the fastest hundredth of the changes.
   const auto half_of_largest = [](const std::vector<double>& ways) {
-    // A number that never changed must still be one that a file may hold.
+    // A number that never changed must still be positive, as the file format requires.
     constexpr double kLeast = 1e-6;
     return std::max(kLeast, 0.5 * quantile(ways, 0.99).value_or(0.0));
   };
@@ -229,7 +229,7 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
   }
   model.swivel = 0.5 * (half_of_largest(samples.swivel[0]) + half_of_largest(samples.swivel[1]));
   for (std::size_t part = 0; part < kPartCount; ++part) {
-    // A part that never rests says nothing about the noise of a still one.
+    // A part that never rests gives no estimate of the noise of a still one.
     constexpr std::size_t kFewest = 20;
     constexpr double kLeast = 0.005;
     if (samples.uncovered[part].size() >= kFewest) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Figure 4-33: mistracked frames on clips of real people.
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/plot.h"
 #include "lab/experiments/timing.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/truth.h"
@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A clip with what was learned of scene and person before.
+// A clip with its scene and person, learned beforehand.
 struct LearnedClip {
   std::string name;
   std::string input;
   std::string background;  ///< empty: there is none
   Camera camera;
   LookAhead start;
-  std::optional<Truth> truth;  ///< tells in which frames there is somebody to track
+  std::optional<Truth> truth;  ///< says in which frames there is a person to track
   PeakThresholds peaks;
 };
 
@@ -72,8 +72,8 @@ void follow(const LearnedClip& clip, const Config& config, std::int64_t most_fra
   }
 }
 
-// How low F and D_C can be depends on the clip: clothes, light, how far away the person is. A peak stands out
-// from what a long search from frame to frame leaves.
+// How low F and D_C can be depends on the clip: clothes, light, distance. A peak stands out from the result
+// of a long search from frame to frame.
 PeakThresholds peaks_of(const LearnedClip& clip, const Config& config, std::int64_t most_frames) {
   constexpr double kAbove = 1.5;
   std::vector<double> region;
@@ -102,7 +102,7 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   if (fs::exists(folder / "truth.json")) {
     clip.truth = read_truth(folder / "truth.json");
   }
-  lab.say("learning scene and person of " + clip.name);
+  lab.log("learning scene and person of " + clip.name);
   TrackRequest request;
   request.input = clip.input;
   request.background = clip.background;
@@ -165,7 +165,7 @@ struct ClipRuns {
 
 ClipRuns run_clip(const Lab& lab, const LearnedClip& clip, const std::string& filter,
                   const std::vector<int>& particles) {
-  lab.say("tracking " + clip.name + " with " + filter_title(filter));
+  lab.log("tracking " + clip.name + " with " + filter_title(filter));
   ClipRuns result;
   result.seeds = lab.seeds();
   std::vector<double> lengths;
@@ -200,7 +200,7 @@ std::vector<LearnedClip> learn_clips(const Lab& lab, bool& real) {
     }
   }
   if (clips.empty()) {
-    throw Error(ErrorKind::tracking, "nobody could be calibrated in the clips of " + data.string(),
+    throw Error(ErrorKind::tracking, "no person could be calibrated in the clips of " + data.string(),
                 "Use clips that show a person who faces the camera.");
   }
   return clips;
@@ -224,23 +224,12 @@ Finding real_clips(Lab& lab) {
     means.columns.push_back(filter_title(filter) + ", lost");
   }
   std::size_t fewer = 0;
-  std::string words;
+  std::string text;
   for (const LearnedClip& clip : clips) {
-    LinePlot plot{"Mistracked frames, " + clip.name, "particles", "frames", {}};
     std::vector<ClipRuns> runs;
     for (const char* filter : kFilters) {
       runs.push_back(run_clip(lab, clip, filter, particles));
-      Series series{filter_title(filter), {}, {}};
-      for (std::size_t count = 0; count < particles.size(); ++count) {
-        const Spread spread = runs.back().at(count, &Counted::mistracked);
-        series.x.push_back(particles[count]);
-        series.y.push_back(spread.mean);
-        series.low.push_back(spread.low);
-        series.high.push_back(spread.high);
-      }
-      plot.series.push_back(std::move(series));
     }
-    finding.plots.push_back({clip.name, to_svg(plot)});
     const std::string frames = number(runs.front().runs.front().frames);
     for (std::size_t count = 0; count < particles.size(); ++count) {
       all.rows.push_back({clip.name, std::to_string(particles[count]), frames});
@@ -260,23 +249,23 @@ Finding real_clips(Lab& lab) {
     const double before = runs[0].mean(&Counted::mistracked);
     const double after = runs[1].mean(&Counted::mistracked);
     fewer += after < before ? 1 : 0;
-    words += clip.name + " " + number(before) + " -> " + number(after) + " of " + frames + " frames, ours " +
-             number(runs[2].mean(&Counted::mistracked)) + "; ";
+    text += clip.name + " " + number(before) + " -> " + number(after) + " of " + frames + " frames, ours " +
+            number(runs[2].mean(&Counted::mistracked)) + "; ";
   }
   finding.tables = {means, all};
   finding.notes = {
-      real ? "Two real clips without a background clip, which the thesis does not have: a man who sits and "
-             "stands 2.8 m away (the frames that its joints are known in), and one before his laptop."
-           : "No real clip is at hand: these are the four synthetic gestures.",
-      "Scene, person and first pose are learned once and are the same for every run. A frame counts as "
-      "mistracked with a peak of F or D_C and while the person is lost; the tracker then looks for them "
-      "again, which the thesis's does not. The thresholds are 1.5 times the medians that our own search "
-      "from frame to frame leaves on the clip.",
+      real ? "Two real clips without a background clip, neither of them from the thesis: a man who sits and "
+             "stands 2.8 m away (the frames in which his joints are known), and a man at his laptop."
+           : "There are no real clips here: these are the four synthetic gestures.",
+      "Scene, person and first pose are learned once and are the same for every run. A frame is mistracked "
+      "with a peak of F or D_C and while the person is lost; the tracker then searches for the person again, "
+      "which the thesis's does not. The thresholds are 1.5 times the medians of our own frame-to-frame "
+      "search on the clip.",
       "The six films of the thesis are not published: pointing, occlusions, turning around, a job interview "
-      "and two lectures, 2 to 5 minutes each. What it says of turning around and of people who do not face "
-      "the camera cannot be measured here."};
+      "and two lectures, 2 to 5 minutes each. Its statements about turning around and about people who do "
+      "not face the camera cannot be measured here."};
   finding.verdict = verdict({fewer == clips.size(), fewer > 0},
-                            words + "CONDENSATION -> all heuristics, mean over particles and seeds.");
+                            text + "CONDENSATION -> all heuristics, mean over particles and seeds.");
   return finding;
 }
 

@@ -5,7 +5,8 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
-#include <string_view>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
 #include "telemime/core/errors.h"
@@ -13,25 +14,9 @@
 namespace telemime {
 namespace {
 
-struct Published {
-  std::string_view id;
-  std::string_view csv;
-};
-
-constexpr Published kPublished[] = {
+constexpr std::string_view kPublished =
 #include "published.inc"
-};
-
-constexpr std::string_view kStyle = R"(
-body { font: 16px/1.5 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
-h2 { border-top: 1px solid #bbb; padding-top: 1.2rem; }
-table { display: block; max-width: 100%; overflow-x: auto; border-collapse: collapse; margin: .6rem 0 1rem; font-size: .86rem; }
-caption { text-align: left; color: #555; }
-td, th { border: 1px solid #ccc; padding: .15rem .5rem; text-align: left; }
-th { background: #f2f2f2; }
-.verdict { background: #eef4ee; border-left: 4px solid #2a8a4a; padding: .4rem .8rem; }
-svg { max-width: 100%; height: auto; border: 1px solid #ddd; margin: .3rem .3rem .3rem 0; }
-)";
+    ;
 
 std::string file_name(const std::string& title) {
   std::string name;
@@ -43,42 +28,32 @@ std::string file_name(const std::string& title) {
       name += '_';
     }
   }
-  while (!name.empty() && name.back() == '_') {
-    name.pop_back();
-  }
-  return name.empty() ? "data" : name;
+  return name.substr(0, name.find_last_not_of('_') + 1) + ".csv";
 }
 
-// Long tables (one row a frame) are in the CSV; the page shows plots of them.
-constexpr std::size_t kMostRows = 45;
-
-std::string section_html(const Section& section) {
-  std::string html = "<h2 id=\"" + escaped(section.id) + "\">" + escaped(section.id) + " " +
-                     escaped(section.title) + "</h2>\n<p>" + escaped(section.question) + "</p>\n";
-  if (!section.published.rows.empty()) {
-    html += to_html(section.published);
-  }
-  for (const Table& table : section.finding.tables) {
-    html += table.rows.size() <= kMostRows ? to_html(table) : "";
-  }
-  for (const Plot& plot : section.finding.plots) {
-    html += plot.svg;
-  }
-  for (const std::string& note : section.finding.notes) {
-    html += "<p>" + escaped(note) + "</p>\n";
-  }
-  return html + "<p class=\"verdict\">" + escaped(section.finding.verdict) + "</p>\n";
+// The entry with this name, appended when there is none yet.
+template <typename T, typename Name>
+T& entry_of(std::vector<T>& entries, const std::string& name, const Name& name_of, const T& fresh) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const T& entry) { return name_of(entry) == name; });
+  return found != entries.end() ? *found : entries.emplace_back(fresh);
 }
 
 }  // namespace
 
 Table published_values(const std::string& id) {
-  for (const Published& entry : kPublished) {
-    if (entry.id == id) {
-      return parse_csv(entry.csv, "published");
+  // One line of the file is one cell: id, row, column, value.
+  static const Table kCells = parse_csv(kPublished, "published.csv");
+  Table table{"published", {"quantity"}, {}};
+  for (const auto& cell : kCells.rows) {
+    if (cell[0] != id) {
+      continue;
     }
+    entry_of(
+        table.columns, cell[2], [](const auto& column) { return column; }, cell[2]);
+    entry_of(table.rows, cell[1], [](const auto& row) { return row.front(); }, {cell[1]}).push_back(cell[3]);
   }
-  return {};
+  return table;
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
@@ -91,40 +66,29 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!stream) {
     throw Error(ErrorKind::output,
                 "cannot write " + file.string() + ": " + std::generic_category().message(errno),
-                "Give --out a folder that you may write, on a disk with room.");
+                "Give --out a writable folder on a disk with free space.");
   }
 }
 
 void write_section(const std::filesystem::path& folder, const Section& section) {
+  const std::filesystem::path own = folder / section.id;
+  nlohmann::ordered_json json = {{"id", section.id},
+                                 {"title", section.title},
+                                 {"question", section.question},
+                                 {"published", to_csv(section.published)},
+                                 {"notes", section.finding.notes},
+                                 {"verdict", section.finding.verdict},
+                                 {"tables", nlohmann::ordered_json::array()}};
   for (const Table& table : section.finding.tables) {
-    write_text(folder / section.id / (file_name(table.title) + ".csv"), to_csv(table));
+    write_text(own / file_name(table.title), to_csv(table));
+    json["tables"].push_back({{"title", table.title}, {"file", file_name(table.title)}});
   }
-  for (const Plot& plot : section.finding.plots) {
-    write_text(folder / section.id / (plot.name + ".svg"), plot.svg);
+  if (!section.finding.picture.empty()) {
+    std::vector<unsigned char> png;
+    cv::imencode(".png", section.finding.picture, png);
+    write_text(own / "picture.png", {png.begin(), png.end()});
   }
-}
-
-std::string report_page(const std::vector<Section>& sections, const std::vector<std::string>& conditions) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Telemime: the thesis's "
-      "experiments, measured again</title><style>" +
-      std::string(kStyle) +
-      "</style></head><body>\n<h1>The thesis's experiments, measured again</h1>\n<p>Published values are "
-      "those of D. A. Gomez Jauregui, Telecom SudParis, 2011. In every figure an iteration is one "
-      "evaluation of a cost (F or D_C), because that is what time is spent on.</p>\n<ul>\n";
-  for (const std::string& condition : conditions) {
-    html += "<li>" + escaped(condition) + "</li>\n";
-  }
-  html += "</ul>\n<ul>\n";
-  for (const Section& section : sections) {
-    html += "<li><a href=\"#" + escaped(section.id) + "\">" + escaped(section.id) + "</a> " +
-            escaped(section.title) + ". " + escaped(section.finding.verdict) + "</li>\n";
-  }
-  html += "</ul>\n";
-  for (const Section& section : sections) {
-    html += section_html(section);
-  }
-  return html + "</body></html>\n";
+  write_text(own / "section.json", json.dump(2) + "\n");
 }
 
 }  // namespace telemime

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
@@ -9,20 +10,15 @@
 
 namespace telemime {
 
-struct Plot {
-  std::string name;  ///< of the file, without its ending
-  std::string svg;
-};
-
-/// What one experiment found.
+/// The result of one experiment. plots.py draws its figures from the tables.
 struct Finding {
-  std::vector<Table> tables;  ///< titles become file names
-  std::vector<Plot> plots;
-  std::vector<std::string> notes;  ///< what is seen, in plain words
-  std::string verdict;             ///< whether it agrees with the thesis, and in what
+  std::vector<Table> tables;       ///< titles become file names
+  cv::Mat picture = {};            ///< written as picture.png; empty: none
+  std::vector<std::string> notes;  ///< observations, one paragraph each
+  std::string verdict;             ///< whether it agrees with the thesis, and on what
 };
 
-/// A finding with what it answers.
+/// A finding with the question that it answers.
 struct Section {
   std::string id;
   std::string title;
@@ -31,14 +27,13 @@ struct Section {
   Finding finding;
 };
 
-/// What the thesis reports for an experiment (experiments/<id>/published.csv); no rows for an unknown id.
+/// What the thesis reports for an experiment (the rows of apps/lab/published.csv with this id); no rows for
+/// an unknown id.
 Table published_values(const std::string& id);
 
-/// Writes the tables (CSV) and plots (SVG) of a section to folder/<id>/. Throws Error(output).
+/// Writes the tables (CSV), the picture and section.json, which names them, to folder/<id>/. Throws
+/// Error(output).
 void write_section(const std::filesystem::path& folder, const Section& section);
-
-/// One HTML page that needs no other file. `conditions`: how it was measured, one line each.
-std::string report_page(const std::vector<Section>& sections, const std::vector<std::string>& conditions);
 
 /// Writes a text file. Throws Error(output) that names it.
 void write_text(const std::filesystem::path& file, const std::string& text);

@@ -25,7 +25,7 @@ std::filesystem::path video_in(const std::filesystem::path& folder, const std::s
     }
   }
   throw Error(ErrorKind::input, "there is no " + stem + ".mp4 or .mkv in " + folder.string(),
-              "`telemime synth all --out DIR` makes sequences; give DIR with --data.");
+              "`telemime-lab synth all --out DIR` makes sequences; give DIR with --data.");
 }
 
 std::vector<Frame> read_all(const std::filesystem::path& file, std::size_t most) {

@@ -41,10 +41,10 @@ struct PreparedSequence {
   Pose start;
 };
 
-/// Runs features once over the clip and calibrates. Throws Error(tracking) when nobody can be calibrated.
+/// Runs features once over the clip and calibrates. Throws Error(tracking) when no person can be calibrated.
 PreparedSequence prepare_sequence(const Clip& clip, const Config& config);
 
-/// What one search over a sequence gave, by frame from `first` on.
+/// Result of one search over a sequence, by frame from `first` on.
 struct Trace {
   std::vector<double> frame;
   std::vector<double> region;    ///< F after the frame's search

@@ -3,13 +3,9 @@
 #include <algorithm>
 
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/plot.h"
 
 namespace telemime {
 namespace {
-
-constexpr const char* kRegionAxis = "region iterations (evaluations of F)";
-constexpr const char* kEdgeAxis = "edge iterations (evaluations of D_C)";
 
 using Measure = double GridCell::*;
 
@@ -36,10 +32,6 @@ std::vector<double> mean_plane(Lab& lab, Measure measure) {
   return mean;
 }
 
-Plot heat(const Grid& grid, const std::string& name, const std::string& title, std::vector<double> z) {
-  return {name, to_svg(HeatMap{title, kRegionAxis, kEdgeAxis, grid.steps, grid.steps, std::move(z), {}})};
-}
-
 Table grid_table(Lab& lab) {
   Table table{"grid",
               {"sequence", "region iterations", "edge iterations", "mean F", "mean D_C (px)",
@@ -63,21 +55,20 @@ Corners corners_of(const Grid& grid, const std::vector<double>& z) {
   return {z[0], z[n - 1], z[(n - 1) * n], z[n * n - 1]};
 }
 
-Finding averaged(Lab& lab, Measure measure, const std::string& title) {
+Finding with_grid(Lab& lab) {
   Finding finding;
   finding.tables = {grid_table(lab)};
-  finding.plots = {heat(lab.grid(), "plot", title, mean_plane(lab, measure))};
   return finding;
 }
 
-std::string in_words(const Corners& c, const std::string& unit, double most) {
+std::string described(const Corners& c, const std::string& unit, double most) {
   const std::string full = number(most);
   return number(c.none) + unit + " without search, " + number(c.regions) + unit + " with " + full +
          " region iterations, " + number(c.edges) + unit + " with " + full + " edge iterations, " +
          number(c.both) + unit + " with both.";
 }
 
-// The share of the fall from no search to all regions that the first `x` region iterations bring.
+// The part of the fall from no search to all regions that the first `x` region iterations bring.
 double share_of_fall(const Grid& grid, const std::vector<double>& z, double x) {
   const Corners c = corners_of(grid, z);
   for (std::size_t r = 0; r < grid.steps.size(); ++r) {
@@ -88,22 +79,10 @@ double share_of_fall(const Grid& grid, const std::vector<double>& z, double x) {
   return 1.0;
 }
 
-Finding per_gesture(Lab& lab, Measure measure, const std::string& title) {
-  Finding finding;
-  finding.tables = {grid_table(lab)};
-  for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
-    const std::string& name = lab.gestures()[s].name;
-    std::string words = title;
-    words.append(", ").append(name);
-    finding.plots.push_back(heat(lab.grid(), name, words, plane_of(lab.grid(), s, measure)));
-  }
-  return finding;
-}
-
 }  // namespace
 
 Finding region_residuals(Lab& lab) {
-  Finding finding = averaged(lab, &GridCell::mean_region, "Mean F over the four gestures");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   const auto z = mean_plane(lab, &GridCell::mean_region);
   const Corners c = corners_of(grid, z);
@@ -111,26 +90,25 @@ Finding region_residuals(Lab& lab) {
   finding.notes = {"The first 200 region iterations bring " + number(100.0 * early) +
                    " % of what all of them bring."};
   finding.verdict = verdict({c.regions < c.none, c.regions<c.edges, early> 0.6},
-                            "mean F is " + in_words(c, "", grid.steps.back()));
+                            "mean F is " + described(c, "", grid.steps.back()));
   return finding;
 }
 
 Finding contour_residuals(Lab& lab) {
-  Finding finding = averaged(lab, &GridCell::mean_contour, "Mean D_C (px) over the four gestures");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   const auto z = mean_plane(lab, &GridCell::mean_contour);
   const Corners c = corners_of(grid, z);
   finding.notes = {
-      "D_C is low wherever the contours lie on some edge, right or wrong; read it together with the errors "
-      "of "
-      "Figures 3-26 and 3-27."};
-  finding.verdict =
-      verdict({c.both < c.regions, c.both < c.edges}, "mean D_C is " + in_words(c, " px", grid.steps.back()));
+      "D_C is low wherever the contours lie on any edge, right or wrong; read it together with the errors of "
+      "figures 3-26 and 3-27."};
+  finding.verdict = verdict({c.both < c.regions, c.both < c.edges},
+                            "mean D_C is " + described(c, " px", grid.steps.back()));
   return finding;
 }
 
 Finding region_mistrackings(Lab& lab) {
-  Finding finding = averaged(lab, &GridCell::region_peaks, "Mistracked frames by F, mean of the gestures");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   const auto z = mean_plane(lab, &GridCell::region_peaks);
   double worst_after = 0.0;
@@ -143,22 +121,22 @@ Finding region_mistrackings(Lab& lab) {
   finding.notes = {"With 200 region iterations or more, at most " + number(worst_after) +
                    " frames of a sequence are mistracked; with edges alone " + number(c.edges) + "."};
   finding.verdict = verdict({worst_after < 0.25 * c.none, c.regions < c.edges},
-                            "frames with a peak of F: " + in_words(c, "", grid.steps.back()));
+                            "frames with a peak of F: " + described(c, "", grid.steps.back()));
   return finding;
 }
 
 Finding contour_mistrackings(Lab& lab) {
-  Finding finding = averaged(lab, &GridCell::contour_peaks, "Mistracked frames by D_C, mean of the gestures");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   const auto z = mean_plane(lab, &GridCell::contour_peaks);
   const Corners c = corners_of(grid, z);
   finding.verdict = verdict({c.regions < c.none, c.both <= c.edges},
-                            "frames with a peak of D_C: " + in_words(c, "", grid.steps.back()));
+                            "frames with a peak of D_C: " + described(c, "", grid.steps.back()));
   return finding;
 }
 
 Finding surfaces_3d(Lab& lab) {
-  Finding finding = per_gesture(lab, &GridCell::error_3d, "3-D error (mm)");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   const std::size_t n = grid.steps.size();
   Table table{"mean 3-D error (mm)", {"sequence", "no search", "regions", "edges", "both", "lowest"}, {}};
@@ -175,7 +153,7 @@ Finding surfaces_3d(Lab& lab) {
   finding.tables.insert(finding.tables.begin(), table);
   finding.notes = {"The largest search is " + std::to_string(static_cast<int>(grid.steps[n - 1])) + " + " +
                    std::to_string(static_cast<int>(grid.steps[n - 1])) +
-                   " iterations. What is left is depth: poses that look alike from one camera."};
+                   " iterations. The remaining error is depth: poses that look alike from one camera."};
   const bool raising_best = std::min_element(lowest.begin(), lowest.end()) == lowest.begin();
   finding.verdict = verdict({!always, raising_best},
                             std::string("the largest search ") +
@@ -186,7 +164,7 @@ Finding surfaces_3d(Lab& lab) {
 }
 
 Finding surfaces_2d(Lab& lab) {
-  Finding finding = per_gesture(lab, &GridCell::error_2d, "2-D error (mm)");
+  Finding finding = with_grid(lab);
   const Grid& grid = lab.grid();
   Table table{"mean 2-D error (mm)", {"sequence", "no search", "regions", "edges", "both"}, {}};
   int falls = 0;
@@ -199,7 +177,7 @@ Finding surfaces_2d(Lab& lab) {
   finding.tables.insert(finding.tables.begin(), table);
   const Corners mean = corners_of(grid, mean_plane(lab, &GridCell::error_2d));
   finding.verdict = verdict({falls == static_cast<int>(lab.gestures().size()), mean.both < mean.regions},
-                            "the mean 2-D error is " + in_words(mean, " mm", grid.steps.back()));
+                            "the mean 2-D error is " + described(mean, " mm", grid.steps.back()));
   return finding;
 }
 

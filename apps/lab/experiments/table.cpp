@@ -37,7 +37,7 @@ std::vector<std::vector<std::string>> csv_rows(std::string_view text) {
   std::vector<std::string> row;
   std::string field;
   bool quoted = false;
-  bool open = false;  // the row has begun
+  bool open = false;  // a row has begun
   const auto end_row = [&] {
     row.push_back(std::move(field));
     rows.push_back(std::move(row));
@@ -84,6 +84,17 @@ std::string number(double value) {
   return text;
 }
 
+Table table_of(const std::string& title, const std::vector<Column>& columns) {
+  Table table{title, {}, std::vector<std::vector<std::string>>(columns.front().values.size())};
+  for (const Column& column : columns) {
+    table.columns.push_back(column.name);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      table.rows[i].push_back(number(column.values[i]));
+    }
+  }
+  return table;
+}
+
 std::string to_csv(const Table& table) {
   std::string text = csv_line(table.columns);
   for (const auto& row : table.rows) {
@@ -102,8 +113,8 @@ Table parse_csv(std::string_view text, const std::string& title) {
   table.columns = std::move(rows.front());
   for (std::size_t i = 1; i < rows.size(); ++i) {
     if (rows[i].size() != table.columns.size()) {
-      throw Error(ErrorKind::input,
-                  title + ": row " + std::to_string(i) + " has another number of fields than the first line");
+      throw Error(ErrorKind::input, title + ": row " + std::to_string(i) +
+                                        " and the first line differ in their number of fields");
     }
     table.rows.push_back(std::move(rows[i]));
   }
@@ -121,12 +132,12 @@ std::string to_text(const Table& table) {
   }
   std::string text = table.title.empty() ? "" : table.title + "\n";
   const auto line = [&](const std::vector<std::string>& fields) {
-    std::string words;
+    std::string joined;
     for (std::size_t c = 0; c < fields.size(); ++c) {
-      words += fields[c];
-      words += c + 1 < fields.size() ? std::string(widths[c] - fields[c].size() + 2, ' ') : "";
+      joined += fields[c];
+      joined += c + 1 < fields.size() ? std::string(widths[c] - fields[c].size() + 2, ' ') : "";
     }
-    text += "  " + words + "\n";
+    text += "  " + joined + "\n";
   };
   line(table.columns);
   for (const auto& row : table.rows) {
@@ -135,47 +146,17 @@ std::string to_text(const Table& table) {
   return text;
 }
 
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
+Table beside(const Table& measured, const Table& published) {
+  Table joined = measured;
+  joined.columns.insert(joined.columns.end(), published.columns.begin() + 1, published.columns.end());
+  for (auto& row : joined.rows) {
+    const auto match = std::find_if(published.rows.begin(), published.rows.end(),
+                                    [&](const auto& other) { return other.front() == row.front(); });
+    for (std::size_t c = 1; c < published.columns.size(); ++c) {
+      row.push_back(match == published.rows.end() ? "-" : (*match)[c]);
     }
   }
-  return safe;
-}
-
-std::string to_html(const Table& table) {
-  std::string html = "<table>";
-  if (!table.title.empty()) {
-    html += "<caption>" + escaped(table.title) + "</caption>";
-  }
-  const auto line = [&](const std::vector<std::string>& fields, const std::string& tag) {
-    html += "<tr>";
-    for (const std::string& field : fields) {
-      html.append("<").append(tag).append(">").append(escaped(field));
-      html.append("</").append(tag).append(">");
-    }
-    html += "</tr>\n";
-  };
-  line(table.columns, "th");
-  for (const auto& row : table.rows) {
-    line(row, "td");
-  }
-  return html + "</table>\n";
+  return joined;
 }
 
 }  // namespace telemime

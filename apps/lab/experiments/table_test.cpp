@@ -28,8 +28,18 @@ TEST(Number, HasFourDigits) {
   EXPECT_EQ(number(std::nan("")), "-");
 }
 
-TEST(Html, Escapes) {
-  EXPECT_NE(to_html({"", {"<b>"}, {{"a & b"}}}).find("<th>&lt;b&gt;</th>"), std::string::npos);
+TEST(TableOf, PutsColumnsSideBySide) {
+  const Table table = table_of("t", {{"frame", {0.0, 1.0}}, {"F", {0.25, std::nan("")}}});
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"frame", "F"}));
+  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"1", "-"}));
+}
+
+TEST(Beside, JoinsRowsByTheirFirstField) {
+  const Table joined =
+      beside({"t", {"k", "ours"}, {{"a", "1"}, {"b", "2"}}}, {"p", {"k", "theirs"}, {{"b", "9"}}});
+  EXPECT_EQ(joined.columns, (std::vector<std::string>{"k", "ours", "theirs"}));
+  EXPECT_EQ(joined.rows[0].back(), "-");
+  EXPECT_EQ(joined.rows[1].back(), "9");
 }
 
 TEST(Text, LinesUpColumns) {

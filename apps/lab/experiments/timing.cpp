@@ -8,11 +8,10 @@
 
 #include "lab/experiments/engine_tables.h"
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/plot.h"
 #include "lab/experiments/report.h"
+#include "lab/experiments/subtraction.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
-#include "telemime/image/subtraction.h"
 
 namespace telemime {
 namespace {
@@ -38,7 +37,7 @@ double measure_features(Lab& lab, const ImageConfig& config) {
   return median_of(times);
 }
 
-std::string size_words(int width, int height) {
+std::string size_name(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
@@ -95,21 +94,6 @@ std::vector<SizeTime> measure_sizes(Lab& lab) {
   return times;
 }
 
-Table beside(const Table& measured, const Table& published) {
-  Table joined = measured;
-  for (std::size_t c = 1; c < published.columns.size(); ++c) {
-    joined.columns.push_back(published.columns[c]);
-  }
-  for (auto& row : joined.rows) {
-    const auto match = std::find_if(published.rows.begin(), published.rows.end(),
-                                    [&](const auto& other) { return other.front() == row.front(); });
-    for (std::size_t c = 1; c < published.columns.size(); ++c) {
-      row.push_back(match == published.rows.end() ? "-" : (*match)[c]);
-    }
-  }
-  return joined;
-}
-
 Table background_time_table(Lab& lab) {
   const Clip& clip = lab.timing_clip();
   const auto small = [](const Frame& frame) {
@@ -152,7 +136,7 @@ Table frame_time_table(const std::vector<FrameTime>& times) {
 Table size_time_table(const std::vector<SizeTime>& times) {
   Table table{"Table 3-3: by working size", {"size", "features ms", "F us", "D_C us", "D_C : F"}, {}};
   for (const SizeTime& t : times) {
-    table.rows.push_back({size_words(t.width, t.height), number(t.features_ms),
+    table.rows.push_back({size_name(t.width, t.height), number(t.features_ms),
                           number(kMilliseconds * t.cost.region_ms), number(kMilliseconds * t.cost.edge_ms),
                           number(t.cost.edge_ms / t.cost.region_ms)});
   }
@@ -164,7 +148,7 @@ Finding background_times(Lab& lab) {
   finding.tables = {background_time_table(lab)};
   const auto ms = [&](std::size_t row) { return std::stod(finding.tables[0].rows[row][1]); };
   finding.notes = {
-      "All with the same opening and closing. 'reference' is the thesis's method, 'robust' the one that "
+      "All use the same opening and closing. 'reference' is the thesis's method, 'robust' the one that "
       "telemime uses."};
   finding.verdict = verdict({ms(0) < ms(1), ms(1) < ms(2)},
                             "RGB difference " + number(ms(0)) + " ms, mixture " + number(ms(1)) +
@@ -177,19 +161,11 @@ Finding frame_times(Lab& lab) {
   const std::vector<FrameTime> times = measure_frame_times(lab, kIterations);
   Finding finding;
   finding.tables = {frame_time_table(times)};
-  Series ours{"ours, one thread", {}, {}};
-  Series theirs{"thesis, platform 1", {40, 100, 200, 300, 400, 500}, {20, 31, 46, 62, 75, 93}};
-  for (const FrameTime& t : times) {
-    ours.x.push_back(t.iterations);
-    ours.y.push_back(t.total_ms());
-  }
-  finding.plots = {
-      {"plot", to_svg(LinePlot{"One frame at 160x120", "iterations (evaluations)", "ms", {ours, theirs}})}};
   const double per_500 = times.back().total_ms();
   finding.notes = {"With 500 evaluations a frame takes " + number(per_500) + " ms: " + number(1e3 / per_500) +
-                   " frames a second on one thread, features and search one after the other."};
+                   " frames a second on one thread, features and search in sequence."};
   finding.verdict = verdict({times.back().search_ms > 3.0 * times.front().search_ms},
-                            "the time grows in proportion to the evaluations, as published; the whole is " +
+                            "the time grows in proportion to the evaluations, as published; a frame is " +
                                 number(93.0 / per_500) + " times as fast as platform 1.");
   return finding;
 }
@@ -198,21 +174,9 @@ Finding size_times(Lab& lab) {
   const std::vector<SizeTime> times = measure_sizes(lab);
   Finding finding;
   finding.tables = {size_time_table(times)};
-  Series region{"one F", {}, {}};
-  Series edge{"one D_C", {}, {}};
-  for (const SizeTime& t : times) {
-    const double kilopixels = 1e-3 * t.width * t.height;
-    region.x.push_back(kilopixels);
-    region.y.push_back(kMilliseconds * t.cost.region_ms);
-    edge.x.push_back(kilopixels);
-    edge.y.push_back(kMilliseconds * t.cost.edge_ms);
-  }
-  finding.plots = {
-      {"plot", to_svg(LinePlot{"One evaluation by size", "thousand pixels", "us", {region, edge}})}};
   finding.notes = {
-      "An evaluation's time grows slower than the pixels: part of it is projecting the mesh, which has the "
-      "same "
-      "number of triangles at every size."};
+      "The time of an evaluation grows more slowly than the number of pixels: part of it is projecting the "
+      "mesh, which has the same number of triangles at every size."};
   const double first = times.front().cost.edge_ms / times.front().cost.region_ms;
   const double last = times.back().cost.edge_ms / times.back().cost.region_ms;
   finding.verdict = verdict({first > last, times.back().features_ms > times.front().features_ms},
@@ -241,19 +205,13 @@ Finding overlap_times(Lab& lab) {
   const std::vector<double> scalar = column(1);
   const std::vector<double> simd = column(2);
   const std::vector<double> plain = column(3);
-  finding.plots = {{"plot", to_svg(LinePlot{"Overlap histograms at 160x120",
-                                            "histograms",
-                                            "ms",
-                                            {{"scalar, one thread", count, scalar},
-                                             {"simd, one thread", count, simd},
-                                             {"thesis, CPU in C++", count, plain},
-                                             {"thesis, GPU 1", count, column(5)}}})}};
   finding.notes = {
-      "From the poses to the histograms: placing the model, drawing it and counting the overlap. Other back "
-      "ends, devices among them, and all threads: `telemime bench --engine-only`."};
+      "From the poses to the histograms: placing the model, drawing it and counting the overlap. "
+      "`telemime-lab bench --engine-only` measures the other back ends, devices among them, and all "
+      "threads."};
   finding.verdict = verdict(
       {simd.back() < scalar.back(), scalar.back() > 2.0 * scalar.front()},
-      number(count.back()) + " histograms take " + number(scalar.back()) + " ms with plain code and " +
+      number(count.back()) + " histograms take " + number(scalar.back()) + " ms with scalar code and " +
           number(simd.back()) + " ms with vector instructions on one thread, " +
           number(plain.back() / simd.back()) + " times as fast as the thesis's CPU and " +
           number(column(5).back() / simd.back()) + " times as fast as its first GPU.");

@@ -41,9 +41,7 @@ Table size_time_table(const std::vector<SizeTime>& times);
 /// The working sizes of Table 3-3.
 std::vector<SizeTime> measure_sizes(Lab& lab);
 
-/// Columns of `published` added to the rows of `measured` that have the same first field; "-" for others.
-Table beside(const Table& measured, const Table& published);
-
+/// 0 for an empty list.
 double median_of(std::vector<double> values);
 
 }  // namespace telemime

@@ -40,7 +40,7 @@ TEST(Actor, BonesAreRigidInEveryGesture) {
   }
 }
 
-TEST(Actor, FacesTheCameraWithItsOwnLeftOnTheRightOfTheImage) {
+TEST(Actor, FacesTheCameraWithItsLeftOnTheRight) {
   const ActorKinematics k = actor_kinematics(ActorBuild{}, ActorPose{});
   EXPECT_GT(k.joints[Joint::l_shoulder].x(), k.joints[Joint::r_shoulder].x());
   EXPECT_GT(k.joints[Joint::l_wrist].x(), k.joints[Joint::r_wrist].x());
@@ -63,7 +63,7 @@ TEST(Actor, SamePoseOfBothArmsIsMirrored) {
   }
 }
 
-TEST(Actor, PronationTurnsThePalmOfTheBentElbowDownAndSupinationUp) {
+TEST(Actor, PronationTurnsThePalmDown) {
   ActorPose pose;
   for (ActorArm& arm : pose.arms) {
     arm.upper = {0.0, -1.0, 0.0};
@@ -106,7 +106,7 @@ TEST(Gesture, StartsAndEndsAtRestAndRepeats) {
 }
 
 TEST(Gesture, MovesSmoothlyAndAsFastAsPeopleDo) {
-  const std::array<double, kGestureCount> least = {0.02, 0.08, 0.02, 0.04};
+  const std::array<double, kGestureCount> least = {0.02, 0.08, 0.02, 0.04, 0.01};
   for (std::size_t g = 0; g < kGestureCount; ++g) {
     double fastest = 0.0;
     Eigen::Vector3d before = Eigen::Vector3d::Zero();

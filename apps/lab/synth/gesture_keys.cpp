@@ -94,6 +94,26 @@ constexpr std::array<GestureKey, 13> kAsking = {{
     both(164, kRest, 0, 0),
 }};
 
+constexpr GestureArmKey kLap = {{0.30, -0.95, 0.10}, {-0.30, -0.30, 0.90}, 60, 0, 0.40};
+constexpr GestureArmKey kTalkLow = {{0.34, -0.92, 0.20}, {0.05, 0.25, 0.95}, 20, 5, 0.30};
+constexpr GestureArmKey kTalkOpen = {{0.42, -0.86, 0.28}, {0.40, 0.35, 0.85}, -20, 5, 0.20};
+constexpr GestureArmKey kTalkIn = {{0.30, -0.88, 0.38}, {-0.40, 0.45, 0.80}, 35, 0, 0.30};
+constexpr GestureArmKey kTalkPoint = {{0.34, -0.80, 0.50}, {0.05, 0.62, 0.78}, 30, 5, 0.55};
+constexpr GestureArmKey kClasp = {{0.28, -0.92, 0.28}, {-0.50, 0.15, 0.85}, 50, 0, 0.35};
+constexpr std::array<GestureKey, 11> kTalking = {{
+    both(0, kRest, 0, 0),
+    both(10, kRest, 0, 0),
+    both(30, kTalkLow, 1, 0),
+    {48, kTalkOpen, kTalkLow, 2, -1},
+    {66, kTalkIn, kTalkOpen, 2, 1},
+    {84, kTalkLow, kTalkPoint, 1, -1},
+    both(100, kClasp, 0, 1),
+    {118, kTalkPoint, kTalkLow, 2, -1},
+    both(136, kLap, -1, 1),
+    both(150, kLap, -1, 0),
+    both(164, kRest, 0, 0),
+}};
+
 }  // namespace
 
 std::span<const GestureKey> gesture_keys(Gesture gesture) {
@@ -106,6 +126,8 @@ std::span<const GestureKey> gesture_keys(Gesture gesture) {
       return kExclaiming;
     case Gesture::asking:
       return kAsking;
+    case Gesture::talking:
+      return kTalking;
   }
   throw Error(ErrorKind::usage, "unknown gesture", "use one of the values of telemime::Gesture");
 }
@@ -120,6 +142,8 @@ std::string_view gesture_note(Gesture gesture) {
       return "hands toward the camera, upper arms rotate, forearms cross the chest";
     case Gesture::asking:
       return "palms up, forearms far forward and back, one fast retract and thrust";
+    case Gesture::talking:
+      return "slow talking gestures before the trunk, hands in the lap between them";
   }
   throw Error(ErrorKind::usage, "unknown gesture", "use one of the values of telemime::Gesture");
 }

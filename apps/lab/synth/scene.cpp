@@ -9,7 +9,7 @@
 namespace telemime {
 namespace {
 
-// Streams of the seed: what is drawn from one never shifts what is drawn from another.
+// Random streams of the seed: draws from one never shift those from another.
 constexpr std::uint64_t kLookStream = 1;
 constexpr std::uint64_t kRoomStream = 2;
 // The background clip's noise must not repeat that of the frames.
@@ -31,6 +31,42 @@ constexpr std::array<std::pair<Joint, Joint>, 10> kTruthBones = {{{Joint::neck, 
 
 std::string name_of(Joint joint) {
   return std::string(kJointNames[static_cast<std::size_t>(joint)]);
+}
+
+// A clip in which the person walks in and out, in frames: empty, walking in, the gesture, walking out, empty.
+constexpr int kEmptyBefore = 28;
+constexpr int kWalk = 32;
+constexpr int kEmptyAfter = 14;
+constexpr int kShortestWalkIn = 120;
+
+// Frames since the start of the walk in and until the end of the walk out; either is negative while nobody is
+// there.
+struct WalkTime {
+  int since_start;
+  int until_end;
+};
+
+WalkTime walk_time(const SceneOptions& options, int frame) {
+  return {frame - kEmptyBefore, options.frames - kEmptyAfter - 1 - frame};
+}
+
+bool is_present(const SceneOptions& options, int frame) {
+  const WalkTime time = walk_time(options, frame);
+  return !options.walk_in || (time.since_start >= 0 && time.until_end >= 0);
+}
+
+// Moves a seated pose to where the person is on the way in or out, turned to the direction of walking.
+void walk(const SceneOptions& options, int frame, ActorPose& pose) {
+  constexpr double kWay = 1.6;   // m, from outside the image to the seat
+  constexpr double kTurn = 1.0;  // rad
+  const WalkTime time = walk_time(options, frame);
+  const int nearest = std::min(time.since_start, time.until_end);
+  const double s = std::clamp(static_cast<double>(nearest) / kWalk, 0.0, 1.0);
+  const double left = 1.0 - s * s * (3.0 - 2.0 * s);  // of the way, 1 outside ... 0 seated
+  const double direction = time.since_start < time.until_end ? -1.0 : 1.0;
+  pose.root.x() += kWay * left;
+  pose.root.y() -= 0.02 * std::abs(std::sin(4.0 * left));
+  pose.turn += direction * kTurn * std::min(1.0, 3.0 * left);
 }
 
 double hundredths(double value) {
@@ -61,6 +97,14 @@ Scene make_scene(const SceneOptions& options) {
   if (!(options.sensor.noise >= 0.0) || !(options.sensor.flicker >= 0.0)) {
     throw Error(ErrorKind::usage, "noise and flicker cannot be negative", "choose 0 for a clean picture");
   }
+  if (options.distance != 0.0 && !(options.distance >= 0.6 && options.distance <= 1.8)) {
+    throw Error(ErrorKind::usage, "the person cannot be that near or far",
+                "choose a distance of 0.6 to 1.8 m");
+  }
+  if (options.walk_in && options.frames < kShortestWalkIn) {
+    throw Error(ErrorKind::usage, "walking in and out takes longer than the clip",
+                "choose 120 frames or more");
+  }
   Scene scene;
   scene.options = options;
   scene.camera = camera_from_field_of_view(options.width, options.height, options.field_of_view);
@@ -76,14 +120,33 @@ Scene make_scene(const SceneOptions& options) {
 }
 
 ActorKinematics scene_kinematics(const Scene& scene, int frame) {
-  return actor_kinematics(scene.look.build, gesture_pose(scene.options.gesture, frame, scene.options.seed));
+  const SceneOptions& options = scene.options;
+  // Walking in ends where the gesture starts.
+  const int moment = options.walk_in ? std::max(0, frame - kEmptyBefore - kWalk) : frame;
+  ActorPose pose = gesture_pose(options.gesture, moment, options.seed);
+  if (options.distance > 0.0) {
+    constexpr double kStaged = 1.39;
+    // A person near the camera is lower in the camera frame, so that the head stays in the image.
+    pose.root.y() += 0.16 * (kStaged - options.distance);
+    pose.root.z() += options.distance - kStaged;
+  }
+  if (options.walk_in) {
+    walk(options, frame, pose);
+  }
+  return actor_kinematics(scene.look.build, pose);
+}
+
+bool person_is_visible(const Scene& scene, int frame) {
+  const double u = scene.camera.project(scene_kinematics(scene, frame).joints[Joint::neck]).x();
+  return is_present(scene.options, frame) && u >= 0.0 && u < scene.camera.width;
 }
 
 SynthFrame render_frame(const Scene& scene, int frame) {
   const ActorKinematics kinematics = scene_kinematics(scene, frame);
   const Avatar avatar = make_avatar(scene.look, kinematics);
   const RenderedImage picture =
-      render_scene(scene.camera, scene.room, &avatar, lighting_at(scene.options, frame));
+      render_scene(scene.camera, scene.room, is_present(scene.options, frame) ? &avatar : nullptr,
+                   lighting_at(scene.options, frame));
   return {develop(picture.light, scene.options.sensor, scene.options.seed, static_cast<std::uint64_t>(frame)),
           picture.surfaces, kinematics.joints};
 }
@@ -131,6 +194,9 @@ std::string truth_json(const Scene& scene) {
       row.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
     }
     truth["positions"].push_back(std::move(row));
+    if (scene.options.walk_in) {
+      truth["visible"].push_back(person_is_visible(scene, frame));
+    }
   }
   return truth.dump();
 }

@@ -41,14 +41,14 @@ TEST(Scene, SameSeedSamePixelsWhateverTheThreads) {
   EXPECT_FALSE(same(one.image, render_frame(make_scene(small_scene(Gesture::asking, 2)), 43).image));
 }
 
-TEST(Scene, FramesDoNotDependOnTheOrderInWhichTheyAreRendered) {
+TEST(Scene, FramesDoNotDependOnTheirOrder) {
   const Scene scene = make_scene(small_scene());
   const cv::Mat before = render_frame(scene, 10).image;
   render_frame(scene, 90);
   EXPECT_TRUE(same(before, render_frame(scene, 10).image));
 }
 
-TEST(Scene, TrueJointsLieOnThePersonAndFrameZeroShowsAllOfThem) {
+TEST(Scene, TrueJointsLieOnThePerson) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     for (std::size_t g = 0; g < kGestureCount; ++g) {
       SceneOptions options = small_scene(static_cast<Gesture>(g), seed);
@@ -117,7 +117,7 @@ TEST(Scene, BoundingBallsHoldTheirParts) {
   }
 }
 
-TEST(Scene, WithoutNoiseTheRoomBesideThePersonAndHerShadowIsTheBackground) {
+TEST(Scene, CleanSceneBesideThePersonIsTheBackground) {
   SceneOptions options = small_scene(Gesture::raising_arms);
   options.sensor = {0.0, 0.0};
   const Scene scene = make_scene(options);
@@ -151,7 +151,7 @@ TEST(Scene, NoiseHasTheStatedDeviation) {
   }
 }
 
-TEST(Scene, TheLampBrightensMostInRedAndOnlyAfterTheMiddle) {
+TEST(Scene, LampBrightensRedMostAfterTheMiddle) {
   SceneOptions options = small_scene();
   options.frames = 40;
   options.sensor = {0.0, 0.0};
@@ -178,6 +178,42 @@ TEST(Scene, LongSleevesCoverTheForearm) {
   EXPECT_EQ(surface_at(frame, scene.camera, frame.joints[Joint::l_hand]), Surface::arm);
 }
 
+TEST(Scene, PersonWalksInAndOut) {
+  SceneOptions options = small_scene(Gesture::talking);
+  options.frames = 120;
+  options.walk_in = true;
+  const Scene scene = make_scene(options);
+  const auto pixels = [&](int frame) { return cv::countNonZero(render_frame(scene, frame).surfaces); };
+  EXPECT_EQ(pixels(0), 0);
+  EXPECT_EQ(pixels(27), 0);
+  EXPECT_EQ(pixels(119), 0);
+  EXPECT_GT(pixels(60), 500);
+  for (const int frame : {0, 27, 30, 104, 119}) {
+    EXPECT_FALSE(person_is_visible(scene, frame)) << frame;
+  }
+  for (const int frame : {48, 60, 85}) {
+    EXPECT_TRUE(person_is_visible(scene, frame)) << frame;
+  }
+  // Walks to the left with the chest turned that way, and back.
+  const auto neck = [&](int frame) { return scene_kinematics(scene, frame).joints[Joint::neck]; };
+  EXPECT_GT(neck(35).x(), neck(50).x() + 0.3);
+  EXPECT_LT(neck(85).x(), neck(100).x() - 0.3);
+  EXPECT_LT(scene_kinematics(scene, 40).camera_from_chest.linear().col(2).x(), -0.5);
+  EXPECT_GT(scene_kinematics(scene, 95).camera_from_chest.linear().col(2).x(), 0.5);
+}
+
+TEST(Scene, DistanceMovesThePersonAndKeepsTheHead) {
+  for (const double distance : {0.75, 1.2, 1.7}) {
+    SceneOptions options = small_scene(Gesture::talking);
+    options.distance = distance;
+    const Scene scene = make_scene(options);
+    const SynthFrame frame = render_frame(scene, 0);
+    EXPECT_NEAR(frame.joints[Joint::root].z(), distance, 0.06);
+    EXPECT_EQ(surface_at(frame, scene.camera, frame.joints[Joint::head]), Surface::head) << distance;
+    EXPECT_EQ(cv::countNonZero(frame.surfaces.row(0)), 0) << distance;
+  }
+}
+
 TEST(Scene, ImpossibleOptionsAreRefused) {
   SceneOptions options = small_scene();
   options.width = 4;
@@ -187,6 +223,13 @@ TEST(Scene, ImpossibleOptionsAreRefused) {
   EXPECT_THROW(make_scene(options), Error);
   options = small_scene();
   options.sensor.noise = -1.0;
+  EXPECT_THROW(make_scene(options), Error);
+  options = small_scene();
+  options.distance = 0.3;
+  EXPECT_THROW(make_scene(options), Error);
+  options = small_scene();
+  options.walk_in = true;
+  options.frames = 100;
   EXPECT_THROW(make_scene(options), Error);
 }
 

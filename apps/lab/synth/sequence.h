@@ -14,7 +14,7 @@
 
 namespace telemime {
 
-/// What to film. Same options, same pixels, whatever the number of threads.
+/// A scene to render. The same options give the same pixels for any number of threads.
 struct SceneOptions {
   Gesture gesture = Gesture::asking;
   int width = 640;
@@ -26,9 +26,13 @@ struct SceneOptions {
   bool light_change = false;  ///< a warm lamp comes on within three frames at the middle of the clip
   bool long_sleeves = false;
   bool striped_shirt = false;
+  double distance = 0.0;  ///< of the person from the camera, m; 0: as the gesture is staged, about 1.4
+  /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
+  /// again.
+  bool walk_in = false;
 };
 
-/// The person, the room and the camera, ready to be filmed; a constant value.
+/// The person, the room and the camera, ready to be rendered; a constant value.
 struct Scene {
   SceneOptions options;
   Camera camera;
@@ -36,9 +40,12 @@ struct Scene {
   Room room;
 };
 
-/// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame, or negative
-/// noise.
+/// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame (fewer than
+/// 120 with walk_in), negative noise, or a distance outside 0.6 to 1.8 m.
 Scene make_scene(const SceneOptions& options);
+
+/// Whether the neck of the person is inside the image at a frame (0-based).
+bool person_is_visible(const Scene& scene, int frame);
 
 /// The bones at a frame (0-based), camera frame, m.
 ActorKinematics scene_kinematics(const Scene& scene, int frame);
@@ -54,7 +61,8 @@ SynthFrame render_frame(const Scene& scene, int frame);
 /// A frame of the same room without the person; `index` only changes noise and flicker.
 cv::Mat render_background(const Scene& scene, int index);
 
-/// The true joints of all frames as JSON: intrinsics, joint names, positions in mm, bone lengths of frame 0.
+/// The true joints of all frames as JSON: intrinsics, joint names, positions in mm, bone lengths of frame 0,
+/// and, with walk_in, the frames in which the person is visible.
 std::string truth_json(const Scene& scene);
 
 struct SequenceOptions {
@@ -76,7 +84,7 @@ struct SequenceFiles {
   std::vector<std::filesystem::path> all;
 };
 
-/// Films the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// Renders the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
 /// A compact clip of odd size, or where OpenCV can write neither H.264 nor MPEG-4, is lossless all the same.
 /// Throws Error(output) that names the file which could not be written.
 SequenceFiles make_sequence(const SequenceOptions& options);

@@ -126,7 +126,7 @@ Split split_for_budget(double budget_ms, double alpha_ms, double beta_ms, const 
 
 EvaluationCost Tuning::cost_at(int width, int height) const {
   if (costs.empty()) {
-    throw Error(ErrorKind::config, "the tuning holds no measured costs", "Run `telemime tune` once.");
+    throw Error(ErrorKind::config, "the tuning holds no measured costs", "Run `telemime-lab tune` once.");
   }
   const auto distance = [&](const EvaluationCost& c) {
     return std::abs(static_cast<double>(c.width) * c.height - static_cast<double>(width) * height);
@@ -140,7 +140,7 @@ Tuning read_tuning(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in) {
     throw Error(ErrorKind::config, "budget file " + file.string() + " cannot be opened",
-                "`telemime tune --out FILE` writes one.");
+                "`telemime-lab tune --out FILE` writes one.");
   }
   try {
     const Json json = Json::parse(in);
@@ -163,7 +163,7 @@ Tuning read_tuning(const std::filesystem::path& file) {
     return tuning;
   } catch (const Json::exception& e) {
     throw Error(ErrorKind::config, "budget file " + file.string() + ": " + e.what(),
-                "`telemime tune --out FILE` writes one.");
+                "`telemime-lab tune --out FILE` writes one.");
   }
 }
 

@@ -70,7 +70,7 @@ struct EvaluationCost {
   double edge_ms = 0.0;    ///< beta: one D_C
 };
 
-/// What `telemime tune` measures and writes.
+/// What `telemime-lab tune` measures and writes.
 struct Tuning {
   QuadraticFit fit;
   std::vector<EvaluationCost> costs;

@@ -15,7 +15,7 @@ struct FilterConfig {
   int particles = 2000;
   std::string heuristics = "modes,wd,lo,turn,kf";  ///< names of kHeuristics with commas; empty: CONDENSATION
   std::string estimate = "heaviest";               ///< or mean
-  std::string model;       ///< file of the numbers that `telemime learn` writes; empty: data/filter.json
+  std::string model;       ///< file of the numbers that `telemime-lab learn` writes; empty: data/filter.json
   double diffusion = 1.0;  ///< S of equation 4.13: multiplies every standard deviation
   /// Share of the modes' log weights that the next generation remembers (heuristic modes; without it all): 1
   /// is a Markov chain with independent frames; errors of the model last for many frames, so less is nearer

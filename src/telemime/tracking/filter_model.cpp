@@ -36,7 +36,7 @@ double positive(const Json& json, const std::string& key, const std::string& nam
   if (!json.contains(key) || !json[key].is_number() || !std::isfinite(json[key].get<double>()) ||
       json[key].get<double>() <= 0.0) {
     throw Error(ErrorKind::config, name + ": '" + key + "' must be a number above 0",
-                "`telemime learn` writes such files.");
+                "`telemime-lab learn` writes such files.");
   }
   return json[key].get<double>();
 }

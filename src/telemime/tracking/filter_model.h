@@ -28,7 +28,7 @@ struct SpreadModel {
   double size_given = 0.0;  ///< the same with a height that was given
 };
 
-/// What the filter knows from sequences (data/filter.json, made by `telemime learn`): how much the scores
+/// What the filter knows from sequences (data/filter.json, made by `telemime-lab learn`): how much the scores
 /// vary and how people move from one frame to the next at 25 frames a second.
 struct FilterModel {
   double sigma_region = 0.0;               ///< sigma_F of thesis equation 4.12
