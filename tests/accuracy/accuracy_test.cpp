@@ -144,7 +144,7 @@ TEST_P(GestureGate, SyntheticClip) {
 INSTANTIATE_TEST_SUITE_P(Synth, GestureGate,
                          testing::Values(SynthClip{"raising_arms", 22, {1, 1}}, SynthClip{"joy", 21, {1, 1}},
                                          SynthClip{"exclaiming", 23, {1, 1}}),
-                         [](const auto& info) { return std::string(info.param.gesture); });
+                         [](const auto& clip) { return std::string(clip.param.gesture); });
 
 }  // namespace
 }  // namespace telemime

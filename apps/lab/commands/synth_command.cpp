@@ -78,7 +78,8 @@ void add_synth_command(CLI::App& app) {
       ->required();
   command->add_option("--out", sequence.folder, "the files go to DIR/GESTURE")->required();
   command->add_option("--size", arguments->size, "image size, pixels")->capture_default_str();
-  command->add_option("--seed", scene.seed, "each number gives another person, room and manner of moving")
+  command
+      ->add_option("--seed", scene.seed, "each number gives another person, background and manner of moving")
       ->capture_default_str();
   command
       ->add_option("--frames", scene.frames,

@@ -38,7 +38,7 @@ LightClip make_light_clip(std::uint64_t seed, int frames) {
   for (int t = 0; t < frames; ++t) {
     const SynthFrame frame = render_frame(scene, t);
     clip.pictures.push_back(frame.image);
-    clip.truth.emplace_back(frame.surfaces != static_cast<int>(Surface::room));
+    clip.truth.emplace_back(frame.surfaces != static_cast<int>(Surface::background));
   }
   return clip;
 }

@@ -16,7 +16,7 @@
 namespace telemime {
 
 /// What a pixel shows.
-enum class Surface : std::uint8_t { room, head, arm, shirt, hair, trousers };
+enum class Surface : std::uint8_t { background, head, arm, shirt, hair, trousers };
 
 /// Cuts a part off where (p - at) . normal > 0, camera frame; used for hems.
 struct Hem {

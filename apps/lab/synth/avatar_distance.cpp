@@ -201,7 +201,7 @@ Vector3f surface_colour(const Avatar& avatar, const BodyPart& part, const Vector
     case Surface::trousers:
       return look.trousers * (1.0f + 0.15f * value_noise(p * 300.0f, look.texture));
     case Surface::arm:
-    case Surface::room:
+    case Surface::background:
       break;
   }
   Vector3f mottled = look.skin * (0.97f + 0.05f * value_noise(local * 70.0f, look.texture + 2));

@@ -169,16 +169,16 @@ cv::Mat wall_shadow(const Camera& camera, float wall, const Shader* shader) {
 
 }  // namespace
 
-RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar* avatar,
+RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const Avatar* avatar,
                            const Lighting& lighting) {
   const cv::Size size(camera.width, camera.height);
-  if (room.albedo.size() != size) {
-    throw Error(ErrorKind::usage, "the room was drawn for another image size",
-                "call make_room with this camera");
+  if (backdrop.albedo.size() != size) {
+    throw Error(ErrorKind::usage, "the backdrop was drawn for another image size",
+                "call make_backdrop with this camera");
   }
   const Avatar nobody;
   const Shader shader{avatar != nullptr ? *avatar : nobody, lighting, lighting.to_key.normalized()};
-  const auto wall = static_cast<float>(room.distance);
+  const auto wall = static_cast<float>(backdrop.distance);
   const cv::Mat shadow = wall_shadow(camera, wall, avatar != nullptr ? &shader : nullptr);
 
   RenderedImage result;
@@ -188,7 +188,7 @@ RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar*
     const Vector3f light =
         wall_light(lighting, wall * ray_of(camera, static_cast<float>(x), static_cast<float>(y)),
                    shadow.at<float>(y, x));
-    const auto& a = room.albedo.at<cv::Vec3f>(y, x);
+    const auto& a = backdrop.albedo.at<cv::Vec3f>(y, x);
     return Vector3f(a[2] * light.x(), a[1] * light.y(), a[0] * light.z());
   };
   const auto shoot = [&](float u, float v, int x, int y, Surface* surface) -> Vector3f {
@@ -196,13 +196,13 @@ RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar*
     const PartSelection parts = parts_along(shader.avatar, Vector3f::Zero(), direction, 0.01f);
     const BodyHit hit = parts.count > 0 ? shader.trace(direction, parts) : BodyHit{};
     if (surface != nullptr) {
-      *surface = hit.part != nullptr ? hit.part->surface : Surface::room;
+      *surface = hit.part != nullptr ? hit.part->surface : Surface::background;
     }
     return hit.part != nullptr ? shader.shade(hit, direction, parts) : wall_colour(x, y);
   };
   rows(size.height, [&](int y) {
     for (int x = 0; x < size.width; ++x) {
-      Surface surface = Surface::room;
+      Surface surface = Surface::background;
       const Vector3f c = shoot(static_cast<float>(x), static_cast<float>(y), x, y, &surface);
       result.light.at<cv::Vec3f>(y, x) = {c.z(), c.y(), c.x()};
       result.surfaces.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(surface);

@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "lab/synth/avatar.h"
-#include "lab/synth/room.h"
+#include "lab/synth/backdrop.h"
 #include "telemime/core/camera.h"
 
 namespace telemime {
@@ -25,11 +25,11 @@ struct RenderedImage {
   cv::Mat surfaces;  ///< (height x width) CV_8UC1, Surface at the pixel's centre
 };
 
-/// Renders the person (nullptr: nobody) before the room by sphere tracing, with soft shadows on the body and
-/// on the wall, ambient occlusion, and four rays per pixel along edges. The room's albedo must have the
-/// camera's size, else Error(usage). Runs on the calling thread's oneTBB arena; the result does not depend on
-/// its size.
-RenderedImage render_scene(const Camera& camera, const Room& room, const Avatar* avatar,
+/// Renders the person (nullptr: none) in front of the backdrop by sphere tracing, with soft shadows on the
+/// body and on the wall, ambient occlusion, and four rays per pixel along edges. The backdrop's albedo must
+/// have the camera's size, else Error(usage). Runs on the calling thread's oneTBB arena; the result does not
+/// depend on its size.
+RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const Avatar* avatar,
                            const Lighting& lighting);
 
 }  // namespace telemime

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -11,7 +14,7 @@ namespace {
 
 // Random streams of the seed: draws from one never shift those from another.
 constexpr std::uint64_t kLookStream = 1;
-constexpr std::uint64_t kRoomStream = 2;
+constexpr std::uint64_t kBackdropStream = 2;
 // The background clip's noise must not repeat that of the frames.
 constexpr std::uint64_t kBackgroundFrames = 1'000'000;
 
@@ -82,6 +85,31 @@ Lighting lighting_at(const SceneOptions& options, int frame) {
   return lights;
 }
 
+// Linear light (CV_32FC3) to the picture that the camera gives (CV_8UC3, BGR, gamma 2). The noise of a pixel
+// depends on seed, frame and pixel alone, not on the number of threads.
+cv::Mat develop(const cv::Mat& light, const Sensor& sensor, std::uint64_t seed, std::uint64_t frame) {
+  // One stream per row, one more for the frame's gain.
+  const std::uint64_t first = (frame + 1) << 20;
+  Random gain_random(seed, first);
+  const auto gain = static_cast<float>(255.0 * (1.0 + gain_random.normal(0.0, sensor.flicker)));
+  cv::Mat picture(light.size(), CV_8UC3);
+  tbb::parallel_for(tbb::blocked_range<int>(0, light.rows), [&](const tbb::blocked_range<int>& range) {
+    for (int y = range.begin(); y < range.end(); ++y) {
+      Random random(seed, first + 1 + static_cast<std::uint64_t>(y));
+      const auto* in = light.ptr<cv::Vec3f>(y);
+      auto* out = picture.ptr<cv::Vec3b>(y);
+      for (int x = 0; x < light.cols; ++x) {
+        for (int c = 0; c < 3; ++c) {
+          const float value = gain * std::sqrt(std::max(in[x][c], 0.0f));
+          const double noise = sensor.noise > 0.0 ? random.normal(0.0, sensor.noise) : 0.0;
+          out[x][c] = cv::saturate_cast<uchar>(static_cast<double>(value) + noise);
+        }
+      }
+    }
+  });
+  return picture;
+}
+
 }  // namespace
 
 Scene make_scene(const SceneOptions& options) {
@@ -114,8 +142,8 @@ Scene make_scene(const SceneOptions& options) {
   if (options.long_sleeves) {
     scene.look.sleeve = 1.97;
   }
-  Random room_random(options.seed, kRoomStream);
-  scene.room = make_room(scene.camera, scene.look.shirt_index, room_random);
+  Random backdrop_random(options.seed, kBackdropStream);
+  scene.backdrop = make_backdrop(scene.camera, scene.look.shirt_index, backdrop_random);
   return scene;
 }
 
@@ -145,14 +173,14 @@ SynthFrame render_frame(const Scene& scene, int frame) {
   const ActorKinematics kinematics = scene_kinematics(scene, frame);
   const Avatar avatar = make_avatar(scene.look, kinematics);
   const RenderedImage picture =
-      render_scene(scene.camera, scene.room, is_present(scene.options, frame) ? &avatar : nullptr,
+      render_scene(scene.camera, scene.backdrop, is_present(scene.options, frame) ? &avatar : nullptr,
                    lighting_at(scene.options, frame));
   return {develop(picture.light, scene.options.sensor, scene.options.seed, static_cast<std::uint64_t>(frame)),
           picture.surfaces, kinematics.joints};
 }
 
 cv::Mat render_background(const Scene& scene, int index) {
-  const RenderedImage picture = render_scene(scene.camera, scene.room, nullptr, Lighting{});
+  const RenderedImage picture = render_scene(scene.camera, scene.backdrop, nullptr, Lighting{});
   return develop(picture.light, scene.options.sensor, scene.options.seed,
                  kBackgroundFrames + static_cast<std::uint64_t>(index));
 }

@@ -130,8 +130,8 @@ TEST(Scene, CleanSceneBesideThePersonIsTheBackground) {
   EXPECT_TRUE(same(frame.image(corner).clone(), background(corner).clone()));
   // The shadow only darkens: it lies below her to the right.
   const cv::Rect shadow(56, 44, 20, 14);
-  const cv::Mat room = frame.surfaces(shadow) == 0;
-  EXPECT_LT(cv::mean(frame.image(shadow), room)[1], cv::mean(background(shadow), room)[1] - 2.0);
+  const cv::Mat wall = frame.surfaces(shadow) == 0;
+  EXPECT_LT(cv::mean(frame.image(shadow), wall)[1], cv::mean(background(shadow), wall)[1] - 2.0);
 }
 
 TEST(Scene, NoiseHasTheStatedDeviation) {

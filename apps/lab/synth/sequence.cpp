@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file) {
   throw Error(ErrorKind::output, "cannot write " + file.string(),
-              "give --out a folder that you may write, on a disk with room");
+              "give --out a writable folder on a disk with free space");
 }
 
 struct Video {
@@ -134,7 +134,7 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
   fs::create_directories(folder, error);
   if (error) {
     throw Error(ErrorKind::output, "cannot make the folder " + folder.string() + ": " + error.message(),
-                "give --out a folder that you may write");
+                "give --out a writable folder");
   }
   const cv::Size size(filmed.width, filmed.height);
   SequenceFiles files;

@@ -9,10 +9,15 @@
 
 #include "lab/synth/gesture.h"
 #include "lab/synth/render.h"
-#include "lab/synth/sensor.h"
 #include "telemime/core/camera.h"
 
 namespace telemime {
+
+/// A simple camera sensor.
+struct Sensor {
+  double noise = 2.0;  ///< standard deviation, grey levels of 0..255, each channel of each pixel on its own
+  double flicker = 0.004;  ///< standard deviation of the gain from frame to frame
+};
 
 /// A scene to render. The same options give the same pixels for any number of threads.
 struct SceneOptions {
@@ -20,7 +25,7 @@ struct SceneOptions {
   int width = 640;
   int height = 480;
   double field_of_view = 60.0;  ///< horizontal, degrees
-  std::uint64_t seed = 1;       ///< draws the person, the room, the manner of the gesture and the noise
+  std::uint64_t seed = 1;       ///< draws the person, the background, the manner of the gesture and the noise
   int frames = kGestureFrames;  ///< a longer clip repeats the gesture
   Sensor sensor;
   bool light_change = false;  ///< a warm lamp comes on within three frames at the middle of the clip
@@ -32,12 +37,12 @@ struct SceneOptions {
   bool walk_in = false;
 };
 
-/// The person, the room and the camera, ready to be rendered; a constant value.
+/// The person, the background and the camera, ready to be rendered; a constant value.
 struct Scene {
   SceneOptions options;
   Camera camera;
   Look look;
-  Room room;
+  Backdrop backdrop;
 };
 
 /// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame (fewer than
@@ -58,7 +63,7 @@ struct SynthFrame {
 };
 SynthFrame render_frame(const Scene& scene, int frame);
 
-/// A frame of the same room without the person; `index` only changes noise and flicker.
+/// A frame of the same scene without the person; `index` only changes noise and flicker.
 cv::Mat render_background(const Scene& scene, int index);
 
 /// The true joints of all frames as JSON: intrinsics, joint names, positions in mm, bone lengths of frame 0,

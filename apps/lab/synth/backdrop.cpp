@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/synth/room.h"
+#include "lab/synth/backdrop.h"
 
 #include <algorithm>
 #include <array>
@@ -133,7 +133,7 @@ void draw_notice(Canvas& c, double x, double y, double w, double h, const cv::Sc
 
 }  // namespace
 
-Room make_room(const Camera& camera, int shirt_index, Random& random) {
+Backdrop make_backdrop(const Camera& camera, int shirt_index, Random& random) {
   // BGR: blue, teal, green, violet, slate - in the order of the shirts of look.cpp.
   const std::array<cv::Scalar, 5> accents = {
       {{168, 112, 52}, {140, 128, 44}, {92, 132, 62}, {150, 74, 108}, {128, 92, 70}}};
@@ -166,13 +166,13 @@ Room make_room(const Camera& camera, int shirt_index, Random& random) {
   draw_notice(c, across(850 - jitter, 190), 190 + random.uniform(-20, 20), 190, 240, accent2, random);
   draw_notice(c, across(1240 + jitter, 200), 700 + random.uniform(-20, 20), 200, 250, accent, random);
 
-  Room room;
-  room.distance = random.uniform(2.2, 2.6);
+  Backdrop backdrop;
+  backdrop.distance = random.uniform(2.2, 2.6);
   cv::Mat small;
   cv::resize(c.image, small, cv::Size(camera.width, camera.height), 0, 0, cv::INTER_AREA);
-  small.convertTo(room.albedo, CV_32FC3, 1.0 / 255.0);
-  room.albedo = room.albedo.mul(room.albedo);
-  return room;
+  small.convertTo(backdrop.albedo, CV_32FC3, 1.0 / 255.0);
+  backdrop.albedo = backdrop.albedo.mul(backdrop.albedo);
+  return backdrop;
 }
 
 }  // namespace telemime
