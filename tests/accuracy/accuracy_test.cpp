@@ -4,8 +4,8 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <iterator>
-#include <ostream>
 #include <string>
 #include <utility>
 
@@ -80,7 +80,6 @@ std::string complaints(const fs::path& folder, const Truth& truth, const Bounds&
   const double millimetres = 1000.0 * e.tracked.scored.aligned.value_or(1e9);
   const double pixels = e.tracked.scored.pixels.value_or(1e9);
   const int exchanged = exchanged_frames(poses, truth);
-  testing::Test::RecordProperty("millimetres", std::to_string(millimetres));
   std::cout << "3-D " << millimetres << " mm, 2-D " << pixels << " px\n";
   std::string text;
   const auto complain = [&](bool wrong, const std::string& what) { text += wrong ? what + "; " : ""; };
@@ -142,8 +141,9 @@ TEST_P(GestureGate, SyntheticClip) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Synth, GestureGate,
-                         testing::Values(SynthClip{"raising_arms", 22, {1, 1}}, SynthClip{"joy", 21, {1, 1}},
-                                         SynthClip{"exclaiming", 23, {1, 1}}),
+                         testing::Values(SynthClip{"raising_arms", 22, {70.2, 2.76}},
+                                         SynthClip{"joy", 21, {46.2, 2.88}},
+                                         SynthClip{"exclaiming", 23, {25.5, 2.42}}),
                          [](const auto& clip) { return std::string(clip.param.gesture); });
 
 }  // namespace
