@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_lines = 400;
-// Folders that hold no source of this project.
+// Folders without sources of this project.
 constexpr std::array<std::string_view, 6> foreign = {".git",         "build", "out",
                                                      "node_modules", "dist",  ".cache"};
 constexpr std::array<std::string_view, 13> source_endings = {
@@ -42,7 +42,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Every plain file of the project below `folder`, sorted.
+/// All regular files of the project below `folder`, sorted.
 std::vector<fs::path> project_files(const fs::path& folder) {
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) {
@@ -74,7 +74,7 @@ std::string place(const fs::path& root, const fs::path& file, std::size_t line) 
   return fs::relative(file, root).string() + ":" + std::to_string(line) + ": ";
 }
 
-/// The words after DEPENDS, up to the next keyword.
+/// The words after DEPENDS up to the next keyword.
 std::set<std::string> depends_of(const std::string& arguments) {
   std::set<std::string> modules;
   bool listed = false;
@@ -209,11 +209,22 @@ Violations check_includes(const fs::path& root) {
 }
 
 Violations check_architecture_table(const fs::path& root) {
+  static const std::regex row(R"(\| `(\w+)` \|.*\| ([\w, -]+) \|)");
+  Reach rows;
+  for (const std::string& line : lines_of(content_of(root / "ARCHITECTURE.md"))) {
+    if (std::smatch found; std::regex_match(line, found, row)) {
+      const std::string names = std::regex_replace(found.str(2), std::regex("[,-]"), "");
+      rows[found.str(1)] = depends_of("DEPENDS " + names);
+    }
+  }
   Violations violations;
-  const std::string table = content_of(root / "ARCHITECTURE.md");
-  for (const auto& [module, ignored] : read_modules(root, violations)) {
-    if (table.find("| `" + module + "` |") == std::string::npos) {
+  Reach direct;
+  module_folders(root, direct);
+  for (const auto& [module, depends] : direct) {
+    if (!rows.contains(module)) {
       violations.push_back("ARCHITECTURE.md: module " + module + " has no row in the table of modules");
+    } else if (rows.at(module) != depends) {
+      violations.push_back("ARCHITECTURE.md: the row of module " + module + " does not list its DEPENDS");
     }
   }
   return violations;
@@ -255,8 +266,9 @@ Violations check_names(const fs::path& root) {
       if (std::regex_search(lines[i], found, space)) {
         where = found[1];
       } else if (std::regex_search(lines[i], found, type)) {
-        const auto [other, is_new] = first.emplace(where + "::" + found[1].str(), place(root, file, i + 1));
-        if (!is_new) {
+        const auto [other, first_time] =
+            first.emplace(where + "::" + found[1].str(), place(root, file, i + 1));
+        if (!first_time) {
           violations.push_back(place(root, file, i + 1) + other->first +
                                " is also the name of another type: " + other->second);
         }
@@ -267,7 +279,7 @@ Violations check_names(const fs::path& root) {
 }
 
 Violations check_no_leftovers(const fs::path& root) {
-  // Put together here, so that this file does not hold them itself.
+  // Concatenated, so that this file does not contain them.
   static const std::regex leftover(std::string("\\b(TO") + "DO|FIX" + "ME)\\b");
   Violations violations;
   for (const fs::path& file : project_files(root)) {

@@ -9,30 +9,31 @@
 
 namespace telemime::layering {
 
-/// Room -> every module that it may include: itself, the DEPENDS of its CMakeLists.txt, theirs, and so on.
+/// For each module the modules that it may include: itself, the DEPENDS of its CMakeLists.txt, theirs, and so
+/// on.
 using Reach = std::map<std::string, std::set<std::string>>;
 
-/// What is broken, one sentence for each place: "src/telemime/a/b.h:12: ...". Empty when all is well.
+/// One sentence for each violation: "src/telemime/a/b.h:12: ...".
 using Violations = std::vector<std::string>;
 
-/// Reads every telemime_module(...) below `root`/src/telemime. Rooms that depend on each other in a circle,
-/// or on a module that does not exist, are violations.
+/// Reads all telemime_module(...) calls of the project. Circular dependencies and dependencies on unknown
+/// modules are violations.
 Reach read_modules(const std::filesystem::path& root, Violations& violations);
 
-/// Every #include "..." of every module: only of modules within reach, by the full path from src/.
+/// Checks that each #include "..." of a module names a module within reach, by its full path.
 Violations check_includes(const std::filesystem::path& root);
 
-/// Every module of CMake has its row in the table of ARCHITECTURE.md.
+/// Checks that each module has a row in the table of ARCHITECTURE.md whose last column lists its DEPENDS.
 Violations check_architecture_table(const std::filesystem::path& root);
 
-/// Every source file: at most 400 lines, and an SPDX line at its top (after #! where there is one).
+/// Checks that each source file has at most 400 lines, and an SPDX line at its top (after #!, if any).
 Violations check_sources(const std::filesystem::path& root);
 
-/// No two headers of the modules define a type of one name in one namespace: a program that uses both would
-/// be broken, and the linker is silent.
+/// Checks that no two headers define types of the same name in the same namespace: a program that uses both
+/// would be broken without an error from the linker.
 Violations check_names(const std::filesystem::path& root);
 
-/// No text file says that something is still to be done or mended; such notes belong to an issue.
+/// Checks that no text file has notes about unfinished work; they belong in an issue.
 Violations check_no_leftovers(const std::filesystem::path& root);
 
 }  // namespace telemime::layering
