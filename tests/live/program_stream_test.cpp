@@ -89,7 +89,7 @@ TEST_F(ProgramStream, CameraGoesAndReturns) {
 
 TEST_F(ProgramStream, CameraFallsSilent) {
   camera_.fall_silent();
-  expect_message("warning", "no pictures");
+  expect_message("warning", "no images");
   expect_phase("stopped");
   camera_.show(person_frames(), kRate);
   expect_message("info", "is back");
@@ -107,16 +107,16 @@ TEST_F(ProgramStream, ImageSizeChanges) {
 
 TEST_F(ProgramStream, FiveFramesPerSecond) {
   camera_.show(person_frames(), 5.0);
-  expect_message("warning", "only 5 pictures a second");
+  expect_message("warning", "only 5 frames per second");
   for (int i = 0; i < 3; ++i) {
     expect_state("tracking");
   }
   SocketClient late(program_->port());
-  expect_message(late, "warning", "only 5 pictures a second");  // it still applies
-  EXPECT_TRUE(warned_of("pictures a second"));
+  expect_message(late, "warning", "only 5 frames per second");  // it still applies
+  EXPECT_TRUE(warned_of("frames per second"));
   camera_.show(person_frames(), kRate);
   expect_message("info", "again");
-  EXPECT_FALSE(warned_of("pictures a second"));
+  EXPECT_FALSE(warned_of("frames per second"));
 }
 
 TEST_F(ProgramStream, DamagedImages) {
@@ -127,7 +127,7 @@ TEST_F(ProgramStream, DamagedImages) {
   expect_message("warning", "damaged");
   expect_state("tracking");
   camera_.show(person_frames(), kRate);
-  expect_message("info", "whole again");
+  expect_message("info", "no longer damaged");
 }
 
 TEST_F(ProgramStream, EndsWhileCameraIsGone) {

@@ -137,7 +137,7 @@ TEST_F(Stream, ReconnectsToSilentServer) {
     server_.show(six(), 100.0);
   });
   ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
-  EXPECT_TRUE(reported(Kind::gone, "no pictures"));
+  EXPECT_TRUE(reported(Kind::gone, "no images"));
 }
 
 TEST_F(Stream, RetriesUntilCameraIsBack) {
@@ -150,7 +150,7 @@ TEST_F(Stream, RetriesUntilCameraIsBack) {
     }
   };
   ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
-  EXPECT_TRUE(reported(Kind::gone, "no pictures"));
+  EXPECT_TRUE(reported(Kind::gone, "no images"));
 }
 
 TEST_F(Stream, StopsAtOnceWithoutAnswer) {
@@ -168,7 +168,7 @@ TEST_F(Stream, ReportsAnotherImageSize) {
   server_.show(six({320, 240}), 100.0);
   ASSERT_TRUE(read_until_reported(Kind::worse, "320x240"));
   server_.show(jpegs({numbered(4, {320, 180})}), 100.0);
-  ASSERT_TRUE(read_until_reported(Kind::worse, "another shape"));
+  ASSERT_TRUE(read_until_reported(Kind::worse, "another aspect ratio"));
   // The image is the camera's, complete and current, with bars.
   ASSERT_TRUE(read_until([](const Frame& f) {
     return std::abs(level(f.image) - 160) < 5 && f.image.at<cv::Vec3b>(2, 80)[1] < 5 &&
@@ -181,9 +181,9 @@ TEST_F(Stream, ReportsAnotherImageSize) {
 TEST_F(Stream, ReportsFiveFramesPerSecond) {
   open();
   server_.show(six(), 5.0);
-  ASSERT_TRUE(read_until_reported(Kind::worse, "only 5 pictures a second"));
+  ASSERT_TRUE(read_until_reported(Kind::worse, "only 5 frames per second"));
   server_.show(six(), 100.0);
-  ASSERT_TRUE(read_until_reported(Kind::better, "a second again"));
+  ASSERT_TRUE(read_until_reported(Kind::better, "per second again"));
 }
 
 TEST_F(Stream, DropsAndReportsDamagedImages) {
@@ -205,8 +205,8 @@ TEST_F(Stream, DropsAndReportsDamagedImages) {
     return ++count == 50;
   }));
   server_.show(six(), 100.0);
-  ASSERT_TRUE(read_until_reported(Kind::better, "whole again"));
-  EXPECT_NE(source_->complaint().find("damaged pictures were left out"), std::string::npos);
+  ASSERT_TRUE(read_until_reported(Kind::better, "no longer damaged"));
+  EXPECT_NE(source_->complaint().find("damaged images were dropped"), std::string::npos);
 }
 
 TEST_F(Stream, OnlyDamagedImagesMeanCameraIsGone) {

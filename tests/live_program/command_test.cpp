@@ -130,7 +130,7 @@ TEST_F(LiveCommand, ClipOnWebServerEndsDespiteErrors) {
   e2e::Program program(once("http://127.0.0.1:" + std::to_string(server.port()) + "/clip.avi"));
   const e2e::Ended ended = end_of(program);
   EXPECT_EQ(ended.code, 0) << ended.words;
-  EXPECT_TRUE(has(ended.words, "its header promised 60")) << ended.words;
+  EXPECT_TRUE(has(ended.words, "its header states 60")) << ended.words;
 }
 
 TEST_F(LiveCommand, FailuresHaveExitCodes) {

@@ -10,12 +10,12 @@
 namespace telemime {
 namespace {
 
-constexpr double kFew = 10.0;      // pictures a second
-constexpr double kEnough = 12.0;   // so that it does not change to and fro
-constexpr double kShortest = 2.0;  // s over which they are counted
+constexpr double kFew = 10.0;      // frames per second
+constexpr double kEnough = 12.0;   // hysteresis
+constexpr double kShortest = 2.0;  // s, shortest interval of the measurement
 constexpr double kLongest = 3.0;
-constexpr double kSecond = 1.01;  // s, so that five a second are five intervals
-constexpr double kGap = 1.5;      // s without a picture: it stopped, and was not slow
+constexpr double kSecond = 1.01;  // s, so that five frames per second are five intervals
+constexpr double kGap = 1.5;      // s without an image: the camera stopped and was not slow
 constexpr std::size_t kDamages = 3;
 constexpr double kDamageSpan = 2.0;  // s
 constexpr double kWhole = 3.0;       // s
@@ -54,18 +54,18 @@ std::optional<SourceNews> CameraWatch::size(cv::Size size) {
   }
   last_ = size;
   if (size == first_) {
-    return SourceNews{Kind::better, "the camera's pictures have " + in_words(first_) + " pixels again",
+    return SourceNews{Kind::better, "the camera images have " + in_words(first_) + " pixels again",
                       Matter::size};
   }
-  const std::string change = "the camera's pictures now have " + in_words(size) + " pixels, not " +
-                             in_words(first_) + " as at first";
+  const std::string change =
+      "the camera images now have " + in_words(size) + " pixels instead of " + in_words(first_);
   if (same_shape(size, first_)) {
-    return SourceNews{Kind::worse, change + "; they are resized, and tracking goes on", Matter::size};
+    return SourceNews{Kind::worse, change + "; they are resized, and tracking continues", Matter::size};
   }
   return SourceNews{Kind::worse,
                     change +
-                        ", which is another shape: they are fitted in with black bars, and "
-                        "poses may be wrong. Set the camera back, or start again",
+                        ", which is another aspect ratio: they get black bars, and poses may be wrong. "
+                        "Restore the settings of the camera, or start again",
                     Matter::size};
 }
 
@@ -82,22 +82,22 @@ std::optional<SourceNews> CameraWatch::rate(double taken) {
     return std::nullopt;
   }
   const double now = static_cast<double>(taken_.size() - 1) / span;
-  // In words only the last second: the rate may have changed within the span.
+  // The message states the rate of the last second: it may have changed within the interval.
   const auto recent =
       std::find_if(taken_.begin(), taken_.end(), [taken](double time) { return taken - time < kSecond; });
   const double words =
       recent + 1 == taken_.end() ? now : static_cast<double>(taken_.end() - recent - 1) / (taken - *recent);
-  const std::string pictures = std::to_string(std::lround(words)) + " pictures a second";
+  const std::string pictures = std::to_string(std::lround(words)) + " frames per second";
   if (!few_ && now < kFew) {
     few_ = true;
     return SourceNews{
         Kind::worse,
-        "the camera gives only " + pictures + ": fast motion is lost. Many cameras are slow in dim light",
+        "the camera delivers only " + pictures + ": fast motion is lost. Many cameras are slow in dim light",
         Matter::rate};
   }
   if (few_ && now > kEnough) {
     few_ = false;
-    return SourceNews{Kind::better, "the camera gives " + pictures + " again", Matter::rate};
+    return SourceNews{Kind::better, "the camera delivers " + pictures + " again", Matter::rate};
   }
   return std::nullopt;
 }
@@ -108,27 +108,26 @@ std::optional<SourceNews> CameraWatch::damaged(double now) {
   while (damages_.size() > kDamages) {
     damages_.pop_front();
   }
-  if (damage_told_ || damages_.size() < kDamages || now - damages_.front() > kDamageSpan) {
+  if (damage_reported_ || damages_.size() < kDamages || now - damages_.front() > kDamageSpan) {
     return std::nullopt;
   }
-  damage_told_ = true;
-  return SourceNews{Kind::worse,
-                    "pictures of the camera are damaged and are left out: a bad cable or network?",
+  damage_reported_ = true;
+  return SourceNews{Kind::worse, "camera images are damaged and dropped: a bad cable or network?",
                     Matter::damage};
 }
 
 std::optional<SourceNews> CameraWatch::whole(double now) {
-  if (!damage_told_ || now - damages_.back() < kWhole) {
+  if (!damage_reported_ || now - damages_.back() < kWhole) {
     return std::nullopt;
   }
-  damage_told_ = false;
+  damage_reported_ = false;
   damages_.clear();
-  return SourceNews{Kind::better, "the camera's pictures are whole again", Matter::damage};
+  return SourceNews{Kind::better, "the camera images are no longer damaged", Matter::damage};
 }
 
 std::optional<SourceNews> CameraWatch::stopped(double now) {
   if (stopped_) {
-    return std::nullopt;  // it was opened and gave nothing
+    return std::nullopt;  // it was opened again but delivered nothing
   }
   stopped_ = true;
   ++interruptions_;
@@ -142,7 +141,7 @@ std::optional<SourceNews> CameraWatch::silent() {
     return std::nullopt;
   }
   gone_ = true;
-  return SourceNews{Kind::gone, "the camera gives no pictures now; it is waited for"};
+  return SourceNews{Kind::gone, "the camera delivers no images at the moment; waiting for it"};
 }
 
 void CameraWatch::given_up(std::size_t attempts) {
@@ -156,7 +155,7 @@ std::string CameraWatch::summary() const {
             ", last after " + seconds(stopped_at_) + "; " + outcome_);
   }
   if (all_damaged_ > 0) {
-    all.add(std::to_string(all_damaged_) + " damaged pictures were left out");
+    all.add(std::to_string(all_damaged_) + " damaged images were dropped");
   }
   return all.text();
 }

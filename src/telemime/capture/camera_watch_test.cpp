@@ -32,10 +32,10 @@ TEST(CameraWatch, AFewPicturesASecondAreToldOnceAndWhenItIsOver) {
   EXPECT_TRUE(at_rate(watch, time, 100, 25.0).empty());
   auto told = at_rate(watch, time, 50, 5.0);
   ASSERT_EQ(told.size(), 1U);
-  EXPECT_TRUE(says(told[0], Kind::worse, "only 5 pictures a second"));
+  EXPECT_TRUE(says(told[0], Kind::worse, "only 5 frames per second"));
   told = at_rate(watch, time, 100, 25.0);
   ASSERT_EQ(told.size(), 1U);
-  EXPECT_TRUE(says(told[0], Kind::better, "25 pictures a second again"));
+  EXPECT_TRUE(says(told[0], Kind::better, "25 frames per second again"));
 }
 
 TEST(CameraWatch, AGapOrEqualTimesAreNoRate) {
@@ -55,7 +55,7 @@ TEST(CameraWatch, SizesAreToldWhenTheyChange) {
   EXPECT_TRUE(says(watch.size({320, 240}), Kind::worse, "320x240"));
   EXPECT_FALSE(watch.size({320, 240}));
   const auto wide = watch.size({1280, 720});
-  EXPECT_TRUE(says(wide, Kind::worse, "another shape"));
+  EXPECT_TRUE(says(wide, Kind::worse, "another aspect ratio"));
   EXPECT_TRUE(says(watch.size({640, 480}), Kind::better, "640x480"));
 }
 
@@ -69,21 +69,21 @@ TEST(CameraWatch, DamageIsToldWhenThereIsMuchOfIt) {
   EXPECT_TRUE(says(watch.damaged(22.1), Kind::worse, "damaged"));
   EXPECT_FALSE(watch.damaged(22.2));
   EXPECT_FALSE(watch.whole(24.0));
-  EXPECT_TRUE(says(watch.whole(25.3), Kind::better, "whole again"));
+  EXPECT_TRUE(says(watch.whole(25.3), Kind::better, "no longer damaged"));
   EXPECT_FALSE(watch.whole(26.0));
-  EXPECT_EQ(watch.summary(), "6 damaged pictures were left out");
+  EXPECT_EQ(watch.summary(), "6 damaged images were dropped");
 }
 
 TEST(CameraWatch, AnInterruptionIsToldFromItsBeginningToItsEnd) {
   CameraWatch watch({640, 480}, 10.0);
   EXPECT_FALSE(watch.back(11.0));
   EXPECT_TRUE(says(watch.stopped(12.0), Kind::worse, "trying to open it again"));
-  EXPECT_TRUE(says(watch.silent(), Kind::gone, "no pictures"));
+  EXPECT_TRUE(says(watch.silent(), Kind::gone, "no images"));
   EXPECT_FALSE(watch.silent());
   EXPECT_FALSE(watch.stopped(20.0)) << "opened, and stopped without a picture";
   EXPECT_TRUE(says(watch.back(31.0), Kind::better, "20.0 s"));
   EXPECT_EQ(watch.summary(), "it stopped once, last after 2.0 s; it was opened again");
-  EXPECT_TRUE(says(watch.silent(), Kind::gone, "no pictures")) << "without a stop, too";
+  EXPECT_TRUE(says(watch.silent(), Kind::gone, "no images")) << "without a stop, too";
   EXPECT_TRUE(says(watch.back(40.0), Kind::better, "9.0 s"));
   watch.stopped(41.0);
   watch.given_up(8);

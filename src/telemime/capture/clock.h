@@ -5,13 +5,13 @@
 
 namespace telemime {
 
-/// Time as an argument, so that what depends on it can be tested without waiting.
+/// A clock as an argument, so that code that depends on time can be tested without waiting.
 struct Clock {
-  std::function<double()> now;             ///< seconds from some fixed start; never goes back
-  std::function<void(double)> wait_until;  ///< returns when now() has reached this many seconds
+  std::function<double()> now;             ///< seconds since a fixed start; never decreases
+  std::function<void(double)> wait_until;  ///< returns when now() has reached this time
 };
 
-/// The computer's monotonic clock: all of them in one program show the same time.
+/// The monotonic clock of the computer; all copies in a program show the same time.
 Clock monotonic_clock();
 
 }  // namespace telemime

@@ -144,8 +144,8 @@ class ImageSequence : public Source {
 
   static cv::Mat decode(const fs::path& file) {
     try {
-      return to_bgr8(cv::imread(file.string(), cv::IMREAD_COLOR));  // turns as the camera was held (EXIF)
-    } catch (const cv::Exception&) {  // for instance a header that asks for an impossible size
+      return to_bgr8(cv::imread(file.string(), cv::IMREAD_COLOR));  // rotates by EXIF orientation
+    } catch (const cv::Exception&) {  // for example a header with an impossible size
       return {};
     }
   }

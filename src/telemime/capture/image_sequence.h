@@ -11,13 +11,13 @@
 
 namespace telemime {
 
-/// The image files that a folder, a pattern or an image name stands for, in natural order (frame2 before
-/// frame10). Throws Error(input) when there are none.
+/// The image files of a folder, a pattern or an image name, in natural order (frame2 before frame10). Throws
+/// Error(input) if there are none.
 std::vector<std::filesystem::path> image_files(const std::string& input, InputKind kind);
 
-/// A sequence of image files at 25 frames a second. An image that cannot be read is left out: its index and
-/// time are skipped and a complaint names it; the same for numbers missing in a %d pattern.
-/// Throws Error(input) when no image can be read.
+/// A sequence of image files at 25 frames per second. For an image that cannot be read, and for numbers that
+/// are missing in a %d pattern, index and time are skipped, and complaint() names it. Throws Error(input) if
+/// no image can be read.
 std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind);
 
 }  // namespace telemime

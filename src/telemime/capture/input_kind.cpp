@@ -59,7 +59,7 @@ InputKind input_kind(const std::string& input) {
   if (std::filesystem::is_directory(path, ignored)) {
     return InputKind::folder;
   }
-  // A file may well be called "take[2].mp4": what exists is not a pattern.
+  // A file may be named "take[2].mp4": an existing file is not a pattern.
   if (!std::filesystem::exists(path, ignored) && is_pattern(path)) {
     return InputKind::pattern;
   }

@@ -5,7 +5,7 @@
 
 namespace telemime {
 
-/// What an input named by the user is taken for.
+/// Kind of an input that the user named.
 enum class InputKind {
   camera,      ///< an index: "0"
   device,      ///< "/dev/video0"
@@ -13,20 +13,20 @@ enum class InputKind {
   folder,      ///< a folder of images
   pattern,     ///< image files by number (frame_%04d.png) or by wildcard (shots/*.jpg)
   image,       ///< one image file: a sequence of one frame
-  video_file,  ///< everything else
+  video_file,  ///< any other name
 };
 
-/// Looks at the name, and at the file system where the name alone does not say. Never throws; a name that
-/// nothing else fits is a video file, whether it exists or not.
+/// Determines the kind from the name and, if that is ambiguous, from the file system. Never throws; any other
+/// name is a video file, whether it exists or not.
 InputKind input_kind(const std::string& input);
 
-/// "a camera index", "a video file", ...: for messages.
+/// The kind for messages: "a camera index", "a video file", ...
 std::string in_words(InputKind kind);
 
-/// The path inside a file:// URL; any other input as it is.
+/// The path of a file:// URL; any other input unchanged.
 std::string without_file_scheme(const std::string& input);
 
-/// True when the name ends as a kind of image that OpenCV reads (.png, .JPG, ...).
+/// Whether the name has the extension of an image that OpenCV reads (.png, .JPG, ...).
 bool has_image_extension(const std::string& name);
 
 }  // namespace telemime

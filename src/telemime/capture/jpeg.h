@@ -7,9 +7,9 @@
 
 namespace telemime {
 
-/// A JPEG file, as Motion JPEG holds one for each picture (also without Huffman tables), as (h x w) CV_8UC3,
-/// BGR, not turned. Empty when it is damaged in any way that shows, or has more than 2^26 pixels. Unlike
-/// cv::imdecode it hands out no picture that is half grey, and writes nothing to standard error.
+/// Decodes a JPEG file, also one of Motion JPEG without Huffman tables, to (h x w) CV_8UC3, BGR, not rotated.
+/// Empty if it is visibly damaged or has more than 2^26 pixels. Unlike cv::imdecode, it returns no half-grey
+/// images and writes nothing to standard error.
 cv::Mat decode_jpeg(std::span<const std::uint8_t> bytes);
 
 }  // namespace telemime

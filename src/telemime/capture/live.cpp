@@ -18,9 +18,9 @@
 namespace telemime {
 namespace {
 
-constexpr int kMostDamaged = 25;           // pictures in a row until the device is opened again
-constexpr int kFirstPictureAttempts = 20;  // some webcams hand out nothing while they warm up
-constexpr double kOldestStamp = 1.0;       // s; an older one of the driver is of another clock
+constexpr int kMostDamaged = 25;           // consecutive images until the device is opened again
+constexpr int kFirstPictureAttempts = 20;  // some webcams deliver nothing while they warm up
+constexpr double kOldestStamp = 1.0;       // s; an older time stamp of the driver is of another clock
 
 using Tell = std::function<void(const SourceNews&)>;
 
@@ -54,7 +54,7 @@ class Reader {
     changed_.notify_all();
   }
 
-  /// False when the thread is still at work after so long.
+  /// False if the thread is still running after this time.
   bool wait_for_end(double seconds) {
     std::unique_lock lock(mutex_);
     return changed_.wait_for(lock, in_seconds(seconds), [this] { return ended_; });
@@ -102,7 +102,7 @@ class Reader {
     }
   }
 
-  /// The reader's thread.
+  /// Function of the reader's thread.
   void read() {
     try {
       while (!stopped()) {
@@ -110,7 +110,7 @@ class Reader {
           break;
         }
       }
-    } catch (const std::exception& e) {  // for want of memory, say; nobody else could catch it
+    } catch (const std::exception& e) {  // for example out of memory; no one else could catch it
       fail(e.what());
     } catch (...) {
       fail("an unknown failure");
@@ -129,18 +129,18 @@ class Reader {
     notes_.add("reading it failed: " + why);
   }
 
-  /// False when the device has stopped, or gives nothing but damage.
+  /// False if the device has stopped or delivers only damaged images.
   bool read_one() {
     try {
       if (!device_.grab()) {
         return false;
       }
       stamp();
-    } catch (const cv::Exception&) {  // of the driver: it may be well again when it is opened anew
+    } catch (const cv::Exception&) {  // of the driver, which may work again once it is reopened
       return false;
     }
     cv::Size size;
-    cv::Mat picture;  // a new one each time: the last may still be in use
+    cv::Mat picture;  // a new one each time, because the last may still be in use
     try {
       cv::Mat read;
       if (device_.retrieve(read)) {
@@ -148,7 +148,7 @@ class Reader {
         size = picture.size();
         picture = picture.empty() ? picture : fitted(picture);
       }
-    } catch (const cv::Exception&) {  // of the decoder; the next picture may be whole
+    } catch (const cv::Exception&) {  // of the decoder; the next image may be intact
       picture.release();
     }
     if (picture.empty()) {
@@ -172,13 +172,13 @@ class Reader {
     taken_ = std::max(taken_, usable ? driver : now);
   }
 
-  /// As large as the first picture.
+  /// Resized to the size of the first image.
   cv::Mat fitted(const cv::Mat& picture) {
     const std::lock_guard lock(mutex_);
     return fit_to(picture, size_, notes_);
   }
 
-  /// `size`: that it had when it came.
+  /// `size`: its original size.
   void publish(const cv::Mat& picture, cv::Size size) {
     {
       const std::lock_guard lock(mutex_);
@@ -194,14 +194,14 @@ class Reader {
     changed_.notify_all();
   }
 
-  /// Under the lock.
+  /// Requires the lock.
   void note(std::optional<SourceNews> news) {
     if (tell_ && news) {
       news_.push_back(std::move(*news));
     }
   }
 
-  /// Tries to open the device again, with growing pauses. False: given up, or asked to stop.
+  /// Tries to open the device again, with growing pauses. False if it gave up or was stopped.
   bool reopen() {
     device_ = {};  // closes it; most drivers refuse a second opening
     {
@@ -216,7 +216,7 @@ class Reader {
       ++attempts_;
       try {
         device_ = open_();
-      } catch (const cv::Exception&) {  // an attempt that failed
+      } catch (const cv::Exception&) {  // a failed attempt
         device_ = {};
       }
       if (device_.grab) {
@@ -229,7 +229,7 @@ class Reader {
     return false;
   }
 
-  /// Nothing when there is no further attempt.
+  /// Empty if there is no further attempt.
   std::optional<double> next_pause() const {
     const std::vector<double>& pauses = options_.pauses;
     const std::lock_guard lock(mutex_);
@@ -240,7 +240,7 @@ class Reader {
     return pauses.empty() ? longest : std::min(longest, pauses[std::min(attempts_, pauses.size() - 1)]);
   }
 
-  /// Ends early when the source begins to be attended: its pauses are shorter. False when it is stopped.
+  /// Ends early if the source becomes attended, because its pauses are shorter then. False if it was stopped.
   bool pause(double seconds) {
     std::unique_lock lock(mutex_);
     const bool attended = tell_ != nullptr;
@@ -253,23 +253,23 @@ class Reader {
     return stop_;
   }
 
-  // Only the reader's thread touches these once it runs.
+  // Used by the reader's thread only, once it runs.
   OpenDevice open_;
   LiveDevice device_;
   std::size_t attempts_ = 0;
   std::int64_t index_ = 0;
-  int damaged_ = 0;  // pictures in a row
+  int damaged_ = 0;  // consecutive images
 
   // Constant once the reader's thread runs.
   LiveOptions options_;
   cv::Size size_;
   double fps_ = 0.0;
-  double start_;  // s of the clock, of the first picture
+  double start_;  // time of the first image, s
 
-  double taken_;   // of the reader's thread: of the last picture
-  double opened_;  // of the reader's thread: the device, last
+  double taken_;   // time of the last image; reader's thread only
+  double opened_;  // time at which the device was opened last; reader's thread only
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the following members
   std::condition_variable changed_;
   CameraWatch watch_;
   Notes notes_;
@@ -296,7 +296,7 @@ class LiveSource final : public Source {
       thread_.join();
       return;
     }
-    thread_.detach();  // a driver or a network that hangs; it ends by itself, and shares nothing with others
+    thread_.detach();  // a hanging driver or network; the thread ends by itself and shares nothing
     if (left_behind_) {
       left_behind_();
     }
@@ -332,7 +332,7 @@ cv::Mat first_picture(const LiveDevice& device, const LiveOptions& options) {
           return usable;
         }
       }
-    } catch (const cv::Exception&) {  // of the decoder: the next one may be whole
+    } catch (const cv::Exception&) {  // of the decoder; the next one may be intact
       continue;
     }
   }

@@ -187,7 +187,7 @@ TEST(LiveAttended, SilenceIsToldAndItsEnd) {
   });
   EXPECT_TRUE(source->next());
   EXPECT_TRUE(source->next());
-  EXPECT_TRUE(told.heard(Kind::gone, "no pictures"));
+  EXPECT_TRUE(told.heard(Kind::gone, "no images"));
   EXPECT_TRUE(told.heard(Kind::better, "is back"));
 }
 

@@ -47,7 +47,7 @@ class LoopedSource : public Source {
   std::unique_ptr<Source> file_;
   SourceInfo info_;
   std::string complaint_;
-  double passed_ = 0.0;  // s, at the first frame of this turn
+  double passed_ = 0.0;  // s, at the first frame of this repetition
   double last_ = 0.0;
   std::int64_t count_ = 0;
 };

@@ -8,9 +8,8 @@
 
 namespace telemime {
 
-/// A file again and again: when it ends, `open` opens it anew. Time and index go on rising, as if the camera
-/// had been running all the time. It ends when the file cannot be opened again or holds no frame. Throws what
-/// the first `open` throws.
+/// Repeats a file: `open` opens it again at its end. Time and index keep increasing, like those of a camera.
+/// Ends if the file cannot be opened again or has no frame. Throws what the first `open` throws.
 std::unique_ptr<Source> loop(std::function<std::unique_ptr<Source>()> open);
 
 }  // namespace telemime

@@ -61,7 +61,7 @@ bool natural_less(std::string_view a, std::string_view b) {
   if ((left_a == 0) != (left_b == 0)) {
     return left_a == 0;
   }
-  return a.size() != b.size() ? a.size() < b.size() : a < b;  // same but for leading zeros
+  return a.size() != b.size() ? a.size() < b.size() : a < b;  // equal except for leading zeros
 }
 
 }  // namespace telemime

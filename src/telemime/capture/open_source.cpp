@@ -60,7 +60,7 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
   }
   if (::access(device.c_str(), R_OK | W_OK) != 0) {
     throw cannot_read(
-        input, kind, "no right to use " + device,
+        input, kind, "no permission to use " + device,
         "Add yourself to the group that owns it (sudo adduser $USER video), then log in again.");
   }
   std::unique_ptr<Source> source = live_source(
@@ -80,17 +80,17 @@ std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& o
     throw cannot_read(shown, InputKind::stream, "no connection, or no video in it", remedy);
   }
   const bool finite = url.starts_with("http") && video.get(cv::CAP_PROP_FRAME_COUNT) > 0.0;
-  if (finite) {  // a file on a server: read all of it, and do not start again at its end
+  if (finite) {  // a file on a server: read all of it, and do not reconnect at its end
     return video_source(video, shown, InputKind::stream);
   }
   auto open = [url, patience = options.patience, opened = video]() mutable {
     const cv::VideoCapture first_time = std::exchange(opened, {});
     return stream_device(first_time.isOpened() ? first_time : connect_to_stream(url, patience));
   };
-  video = {};  // the source alone holds it now, and can close it
+  video = {};  // now only the source holds it and can close it
   std::unique_ptr<Source> source = live_source(shown, std::move(open), options);
   if (!source) {
-    throw cannot_read(shown, InputKind::stream, "connected, but no picture came", remedy);
+    throw cannot_read(shown, InputKind::stream, "connected, but no image was received", remedy);
   }
   return source;
 }

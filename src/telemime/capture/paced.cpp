@@ -38,7 +38,7 @@ class PacedSource : public Source {
     } while (upcoming_ && upcoming_->time <= elapsed && clock_.now() - began < kMostReading);
     newest->taken = *start_ + newest->time;
     if (upcoming_ && upcoming_->time <= elapsed) {
-      // Reading cannot keep up, and what is left out takes time, too: the file goes on slower.
+      // Reading cannot keep up, and dropping frames takes time, too: play the file more slowly.
       *start_ = clock_.now() - upcoming_->time;
     }
     return newest;
@@ -49,7 +49,7 @@ class PacedSource : public Source {
   Clock clock_;
   SourceInfo info_;
   std::optional<double> start_;    // seconds of the clock at the first frame
-  std::optional<Frame> upcoming_;  // read already, not handed out
+  std::optional<Frame> upcoming_;  // already read, not returned yet
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace telemime {
 
-/// Makes a file behave like a camera: a frame appears when its time has come (counted from the first call of
-/// next), the newest one wins, older ones are dropped. Time and index of the frames stay those of the file,
-/// so gaps in the index show what was dropped. The last frame is always handed out.
+/// Makes a file behave like a camera: a frame is available from its time on (relative to the first call of
+/// next), and next() returns the newest one and drops older ones. Times and indices remain those of the file,
+/// so gaps in the index show dropped frames. The last frame is always returned.
 std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock = monotonic_clock());
 
 }  // namespace telemime

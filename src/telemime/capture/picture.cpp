@@ -11,8 +11,8 @@
 namespace telemime {
 namespace {
 
-constexpr int smallest_side = 16;  // pixels; a head would be 2 pixels wide
-constexpr double slowest = 0.5;    // frames a second
+constexpr int smallest_side = 16;  // pixels: a head would be 2 pixels wide
+constexpr double slowest = 0.5;    // frames per second
 constexpr double fastest = 1000.0;
 constexpr double fallback_fps = 25.0;
 

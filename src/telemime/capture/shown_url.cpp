@@ -18,8 +18,7 @@ std::size_t host_of(const std::string& url, std::size_t start) {
   if (const std::size_t at = authority.rfind('@'); at != std::string_view::npos) {
     return start + at + 1;
   }
-  // A password may hold one of "/?#" that should have been written otherwise: no port stands behind the
-  // colon.
+  // A password may contain "/", "?" or "#" that should have been encoded; then no port follows the colon.
   const std::size_t colon = authority.find(':');
   if (colon == std::string_view::npos || authority.front() == '[' || is_port(authority.substr(colon + 1))) {
     return start;

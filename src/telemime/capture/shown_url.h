@@ -5,9 +5,9 @@
 
 namespace telemime {
 
-/// A stream's URL as it may be shown, kept in files and sent to pages: without "user:password@", and without
-/// what stands behind "?" or in the path from the first "name=value" on, where many cameras want their
-/// passwords. What is no URL stays as it is.
+/// The URL of a stream without secrets, for display, files and pages: without "user:password@", and without
+/// the query or the path from the first "name=value" on, where many cameras expect their passwords. Other
+/// text is returned unchanged.
 std::string shown_url(const std::string& url);
 
 }  // namespace telemime

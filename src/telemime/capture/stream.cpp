@@ -8,8 +8,8 @@
 namespace telemime {
 namespace {
 
-constexpr int kMostDamaged = 25;  // pictures in a row: then it has rather stopped
-constexpr double kSilent = 1.0;   // s, that no decoder needs to fail
+constexpr int kMostDamaged = 25;  // consecutive images: then the sender has probably stopped
+constexpr double kSilent = 1.0;   // s; no decoder takes this long to fail
 
 // A container's tag, or the beginning of the codec's name where there is no container, as over HTTP.
 bool is_motion_jpeg(const cv::VideoCapture& connection) {

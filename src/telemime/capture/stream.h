@@ -9,18 +9,18 @@
 
 namespace telemime {
 
-/// Connects to a stream through FFmpeg; waits `patience` s at most, and as long for each picture.
+/// Connects to a stream through FFmpeg. Connecting and each image time out after `patience` seconds.
 cv::VideoCapture connect_to_stream(const std::string& url, double patience);
 
-/// The stream as a device, from a connection that was made just now and not read from. Of Motion JPEG the
-/// pictures are taken undecoded: the time of arrival is known then, and other sizes and damage are seen. With
-/// other codecs FFmpeg decodes within grab(), pictures that cannot be decoded are passed over, and OpenCV 4.6
-/// does not see that the size changes: it goes on with the old one.
+/// The stream as a device, from a new connection that was not read yet. Images of Motion JPEG are received
+/// without decoding, so that their time of arrival is known and other sizes and damage are detected. With
+/// other codecs, FFmpeg decodes within grab() and skips damaged images, and OpenCV 4.6 does not detect
+/// changes of the size: it keeps the old one.
 LiveDevice stream_device(const cv::VideoCapture& connection, const Clock& clock = monotonic_clock());
 
-/// Calls `grab` until it succeeds, 25 times at most: false when it never does. A picture that cannot be
-/// decoded fails at once, and the next one may be whole. A failure that took more than a second (of `clock`)
-/// is a sender that has fallen silent: another try would only wait as long again.
+/// Calls `grab` until it succeeds, at most 25 times; false if it never does. An image that cannot be decoded
+/// fails at once, and the next one may succeed. A failure that took more than a second (of `clock`) means
+/// that the sender is silent, so it is not repeated.
 bool grab_past_damage(const std::function<bool()>& grab, const Clock& clock);
 
 }  // namespace telemime

@@ -18,17 +18,17 @@ inline void write_bytes(const std::string& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
 }
 
-/// A picture whose grey level tells its number apart after lossy coding: 10 + 20 * number.
+/// An image whose grey level, 10 + 20 * number, identifies its number after lossy coding.
 inline cv::Mat numbered_picture(int number, cv::Size size = {64, 48}) {
   return cv::Mat(size, CV_8UC3, cv::Scalar::all(10 + 20 * (number % 12)));
 }
 
-/// The number that numbered_picture (below 12) put into an image.
+/// The number (below 12) of an image made by numbered_picture.
 inline int number_of(const cv::Mat& image) {
   return static_cast<int>(std::lround((cv::mean(image)[0] - 10.0) / 20.0));
 }
 
-/// A Motion JPEG clip of `frames` numbered pictures.
+/// Writes a Motion JPEG clip of `frames` numbered images.
 inline void write_clip(const std::string& file, int frames, double fps = 20.0) {
   cv::VideoWriter writer(file, cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), fps,
                          {64, 48});

@@ -57,7 +57,7 @@ class VideoFile : public Source {
 
  private:
   cv::Mat decode() {
-    cv::Mat image;  // a new one each time: OpenCV would write over a frame that was handed out
+    cv::Mat image;  // a new one each time: OpenCV would overwrite a returned frame
     try {
       video_.read(image);
     } catch (const cv::Exception&) {
@@ -77,7 +77,7 @@ class VideoFile : public Source {
   void finish() {
     ended_ = true;
     if (ends_early(index_, info_.frames)) {
-      notes_.add("it ended after " + std::to_string(index_) + " frames, but its header promised " +
+      notes_.add("it ended after " + std::to_string(index_) + " frames, but its header states " +
                  std::to_string(info_.frames) + "; the file may be cut off or damaged");
     }
   }
@@ -87,8 +87,8 @@ class VideoFile : public Source {
   Notes notes_;
   cv::Mat first_;
   std::int64_t index_ = 0;
-  double stamp_ = 0.0;  // seconds, of the frame read last, as the file says
-  double time_ = 0.0;   // seconds, of the frame handed out last
+  double stamp_ = 0.0;  // time stamp of the last frame in the file, s
+  double time_ = 0.0;   // time of the last returned frame, s
   bool ended_ = false;
 };
 

@@ -10,13 +10,13 @@
 
 namespace telemime {
 
-/// Opens a video file. Every frame that can be decoded is handed out; times are those of the file where it
-/// has any, else index / fps. A file that ends well before the number of frames in its header draws a
-/// complaint. Throws Error(input): no such file, empty, unreadable, text, not a video, no frame in it.
+/// Opens a video file. All frames that can be decoded are returned; their times are those of the file, or
+/// index / fps if it has none. complaint() reports a file that ends well before the number of frames in its
+/// header. Throws Error(input) for a file that is missing, empty, unreadable, text, not a video, or without a
+/// frame.
 std::unique_ptr<Source> open_video_file(const std::string& path);
 
-/// The same (it shares the capture) for a video that is open already, such as a finite one behind a URL.
-/// `name` is for messages.
+/// A source for an open video, such as a finite one at a URL; it shares the capture. `name` is for messages.
 std::unique_ptr<Source> video_source(const cv::VideoCapture& video, const std::string& name, InputKind kind);
 
 }  // namespace telemime
