@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one evaluation of a pose costs: kinematics, rendering, contour, F, D_C and both, by working size.
+// Time of one evaluation of a pose: kinematics, rendering, contour, F, D_C and both, by working size.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -72,7 +72,7 @@ void evaluation(benchmark::State& state) {
   for ([[maybe_unused]] const auto step : state) {
     b.backend->evaluate(frame, b.model, b.poses, terms, b.scores);
   }
-  // The batch's time over its poses, in the unit of a rate.
+  // Poses per second.
   state.counters["evaluations/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()) * static_cast<double>(b.poses.size()),
                          benchmark::Counter::kIsRate);

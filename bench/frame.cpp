@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one picture costs: features by working size, and the whole way from picture to pose. The clip is made
-// by telemime's own generator, so that the numbers need no data.
+// Time of one frame: features by working size, and everything from image to pose. The clip is synthetic, so
+// that no data are needed.
 #include <benchmark/benchmark.h>
 
 #include <opencv2/core.hpp>

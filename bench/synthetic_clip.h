@@ -8,7 +8,7 @@
 
 namespace telemime {
 
-/// A dozen frames of the gesture joy at 320x240, and the empty room.
+/// Twelve frames of the gesture joy at 320x240, and frames of the empty background.
 struct SyntheticClip {
   Camera camera;
   std::vector<Frame> background;

@@ -29,6 +29,7 @@ int main() {
   const Pose poses[] = {truth, guess};
   Score scores[2];
   make_scalar_backend()->evaluate(frame, model, poses, Reduction::overlap, scores);
-  std::printf("F of the true pose %.3f, of a pose 11 degrees off %.3f\n", scores[0].region, scores[1].region);
-  return scores[0].region < scores[1].region ? 0 : 1;
+  std::printf("F of the true pose %.3f, of a pose 11 degrees off %.3f\n", scores[0].region(),
+              scores[1].region());
+  return scores[0].region() < scores[1].region() ? 0 : 1;
 }

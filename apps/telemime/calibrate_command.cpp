@@ -26,7 +26,7 @@ void run(const CalibrateArguments& arguments) {
   if (arguments.options.quiet) {
     return;
   }
-  std::cout << "calibrated: F " << person.score.region << ", D_C " << person.score.contour
+  std::cout << "calibrated: F " << person.score.region() << ", D_C " << person.score.contour()
             << " px; scale from " << person.scale_from << '\n';
   if (!person.refusal.empty()) {
     std::cout << "the arms keep average proportions: " << person.refusal << '\n';

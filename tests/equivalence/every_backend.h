@@ -23,12 +23,12 @@ inline void PrintTo(const BackendKind& kind, std::ostream* out) {
 
 }  // namespace telemime
 
-/// Every back end of kBackends beside `scalar`.
+/// Compares every back end of kBackends with `scalar`.
 namespace telemime::equivalence {
 
 using testing_poses::random_pose;
 
-/// Three people: the default one, one of other proportions, and a child with long sleeves.
+/// Three people: average, with other proportions, and a child with long sleeves.
 inline std::vector<Model> people() {
   Shape child;
   child.stature = 1.15;
@@ -52,12 +52,12 @@ inline std::vector<Score> scores_of(Backend& backend, const PreparedFrame& frame
   return scores;
 }
 
-/// How far scores are from those of `scalar`.
+/// Differences of scores from those of `scalar`.
 class Deviations {
  public:
   void add(const Score& score, const Score& definition) {
-    const double region = std::abs(score.region - definition.region);
-    const double contour = std::abs(score.contour - definition.contour);
+    const double region = std::abs(score.region() - definition.region());
+    const double contour = std::abs(score.contour() - definition.contour());
     ++poses_;
     region_ += region;
     contour_ += contour;
@@ -90,8 +90,8 @@ class Deviations {
   int most_points_ = 0;
 };
 
-/// What deviations may be, two to three times what they are: back ends round differently, and a pixel or a
-/// contour point near a border falls on one side or the other.
+/// Largest accepted deviations, two to three times the measured ones: back ends round differently, so that a
+/// pixel or contour point near a border may fall on either side.
 struct Tolerance {
   double mean_region;
   double mean_contour;  ///< px
@@ -101,7 +101,7 @@ struct Tolerance {
   int points;
 };
 
-/// A back end that cannot run here is skipped, with its reason; or fails, where TELEMIME_MUST_RUN names it.
+/// A back end that cannot run here is skipped with the reason, or fails if TELEMIME_MUST_RUN names it.
 class EveryBackend : public ::testing::TestWithParam<BackendKind> {
  protected:
   void SetUp() override {
@@ -114,7 +114,7 @@ class EveryBackend : public ::testing::TestWithParam<BackendKind> {
     backend_ = make_backend(GetParam().name);
   }
 
-  /// Adds to `deviations`; every score must be one that there can be.
+  /// Adds to `deviations` and checks that every score is possible.
   void compare(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                Deviations& deviations) {
     const std::vector<Score> scores = scores_of(*backend_, frame, model, poses);
@@ -132,9 +132,10 @@ class EveryBackend : public ::testing::TestWithParam<BackendKind> {
   }
 
   static void expect_possible(const Score& score, const PreparedFrame& frame) {
-    EXPECT_TRUE(score.region >= 0.0 && score.region <= 1.0) << score.region;
+    EXPECT_TRUE(score.region() >= 0.0 && score.region() <= 1.0) << score.region();
     // Back ends add in single precision.
-    EXPECT_TRUE(score.contour >= 0.0 && score.contour <= frame.distance_cap * (1.0 + 1e-5)) << score.contour;
+    EXPECT_TRUE(score.contour() >= 0.0 && score.contour() <= frame.distance_cap * (1.0 + 1e-5))
+        << score.contour();
     EXPECT_GE(score.reductions.contour_points, 0);
     for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
       EXPECT_GE(score.reductions.both[c], 0);

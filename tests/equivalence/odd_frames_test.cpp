@@ -45,7 +45,7 @@ TEST_P(OddFrames, NothingIsKnown) {
     const PreparedFrame frame = prepare(seen_, camera_);
     const std::array<std::int32_t, kSurfaceClassCount> none{};
     for (const Score& score : scores_of(*backend_, frame, model_, poses_)) {
-      EXPECT_EQ(score.region, 0.0) << label;
+      EXPECT_EQ(score.region(), 0.0) << label;
       EXPECT_EQ(score.reductions.observed, none);
       EXPECT_EQ(score.reductions.model, none);
       EXPECT_EQ(score.reductions.both, none);
@@ -71,7 +71,7 @@ TEST_P(OddFrames, ConstantDistance) {
     seen_.distance.setTo(distance);
     const PreparedFrame frame = prepare(seen_, camera_);
     for (const Score& score : scores_of(*backend_, frame, model_, poses_)) {
-      EXPECT_NEAR(score.contour, distance, 1e-5 * distance);
+      EXPECT_NEAR(score.contour(), distance, 1e-5 * distance);
     }
     expect_within("distance_" + std::to_string(distance), compared_with(seen_), kUsual);
   }

@@ -47,8 +47,8 @@ TEST_P(OddPlaces, WhollyOutsideOrBehindTheCamera) {
     Pose pose = random_pose(anatomical_limits(), random);
     pose.root = root;
     const Score score = scores_of(*backend_, frame, model_, {&pose, 1}).front();
-    EXPECT_EQ(score.region, 1.0);
-    EXPECT_EQ(score.contour, frame.distance_cap);
+    EXPECT_EQ(score.region(), 1.0);
+    EXPECT_EQ(score.contour(), frame.distance_cap);
     EXPECT_EQ(score.reductions.contour_points, 0);
     EXPECT_EQ(score.reductions.contour_sum, 0.0);
     EXPECT_EQ(score.reductions.model, (std::array<std::int32_t, kSurfaceClassCount>{}));

@@ -78,12 +78,12 @@ TEST_P(Typical, RankPosesNearTheTruthAlike) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       all.add(scores[i], definition[i]);
     }
-    const auto correlation = [&](double Score::*term) {
+    const auto correlation = [&](double (Score::*cost)() const) {
       std::vector<double> a;
       std::vector<double> b;
       for (std::size_t i = 0; i < poses.size(); ++i) {
-        a.push_back(scores[i].*term);
-        b.push_back(definition[i].*term);
+        a.push_back((scores[i].*cost)());
+        b.push_back((definition[i].*cost)());
       }
       return spearman(a, b);
     };

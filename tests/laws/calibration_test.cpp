@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calibration on frames that the model itself made, with a body of other proportions.
+// Calibration on frames rendered from a model with other proportions.
 #include "telemime/search/calibration.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@ namespace {
 using support::observe;
 using testing_poses::kDegree;
 
-// Arms longer or shorter than the stature's average by this factor. A bent elbow of one view tells little of
-// how an arm's length is shared between upper arm and forearm, so both have the same.
+// A person whose arms differ from the average by this factor. One view of a bent elbow hardly shows how an
+// arm's length is divided between upper arm and forearm, so both get the same factor.
 Shape person(double arms) {
   Shape shape;
   shape.stature = 1.76;
@@ -54,7 +54,7 @@ TEST(CalibrationLaw, FindsTheLengthsOfFreeArms) {
       EXPECT_NEAR(body.upper_arm_length[side] / truth.upper_arm_length[side], 1.0, 0.06) << arms;
       EXPECT_NEAR(body.forearm_length[side] / truth.forearm_length[side], 1.0, 0.06) << arms;
     }
-    EXPECT_LT(found.score.region, 0.06);
+    EXPECT_LT(found.score.region(), 0.06);
     EXPECT_TRUE(anatomical_limits().contains(found.pose));
     const JointPositions a = forward_kinematics(truth, arms_apart()).joints;
     const JointPositions b = forward_kinematics(body, found.pose).joints;
@@ -97,7 +97,7 @@ TEST(CalibrationLaw, RefusesAnArmThatLeavesThePicture) {
 
 TEST(CalibrationLaw, WithoutAFaceTheBodyMustFitBetter) {
   CalibrationConfig config;
-  config.worst_region = 1.1 * calibrated(person(1.0), arms_apart()).score.region;
+  config.worst_region = 1.1 * calibrated(person(1.0), arms_apart()).score.region();
   EXPECT_EQ(calibrated(person(1.0), arms_apart(), 1, config, true).refusal, "");
   const std::string refusal = calibrated(person(1.0), arms_apart(), 1, config, false).refusal;
   EXPECT_NE(refusal.find("does not fit"), std::string::npos) << refusal;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registration on frames that the model itself made.
+// Registration on frames rendered from the model.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using support::gestures;
 using support::observe;
 using testing_poses::kDegree;
 
-// Everything that one search needs; the true pose is the frame's.
+// Inputs of one search; the frame shows the true pose.
 class Search {
  public:
   explicit Search(const Pose& truth)
@@ -93,8 +93,8 @@ TEST(Registration, ComesBackToTheTruth) {
       before += search.error(start, false);
       across += search.error(found.pose, true);
       space += search.error(found.pose, false);
-      EXPECT_LT(found.score.region, 0.15);
-      EXPECT_LT(found.score.contour, 2.0);
+      EXPECT_LT(found.score.region(), 0.15);
+      EXPECT_LT(found.score.contour(), 2.0);
     }
   }
   EXPECT_LT(across / searches, 0.030) << "m across the view";
@@ -182,9 +182,9 @@ TEST(Registration, EveryMethodGetsNearerToThePicture) {
       none.iterations = 1;
       const RegistrationResult there = search.from(start, none);
       if (method != Method::edges) {
-        EXPECT_LT(found.score.region, there.score.region) << to_string(method) << config.blocks;
+        EXPECT_LT(found.score.region(), there.score.region()) << to_string(method) << config.blocks;
       }
-      EXPECT_LT(found.score.contour, there.score.contour) << to_string(method) << config.blocks;
+      EXPECT_LT(found.score.contour(), there.score.contour()) << to_string(method) << config.blocks;
     }
   }
 }
@@ -197,7 +197,7 @@ TEST(Registration, SameSeedSameResult) {
   const RegistrationResult a = search.from(start, RegistrationConfig{}, 11);
   const RegistrationResult b = search.from(start, RegistrationConfig{}, 11);
   EXPECT_EQ(a.pose.vector(), b.pose.vector());
-  EXPECT_EQ(a.score.region, b.score.region);
+  EXPECT_EQ(a.score.region(), b.score.region());
   EXPECT_EQ(a.region_evaluations, b.region_evaluations);
 }
 
@@ -238,7 +238,7 @@ TEST(Registration, FindsAnArmAgainThatIsFarAway) {
   EXPECT_LT(search.error(search.from(start, config).pose, true), 0.04);
 }
 
-TEST(Registration, AForearmThatWasLostIsBackWithinAThirdOfASecond) {
+TEST(Registration, LostForearmIsBackInAThirdOfASecond) {
   int cases = 0;
   int back = 0;
   int back_without = 0;
@@ -353,7 +353,7 @@ TEST(Registration, OneArmAtATimeTakesBothInTurn) {
   EXPECT_GT(right, 0);
 }
 
-TEST(Registration, ProposalsThatAreNoBetterLeaveThePoseAlone) {
+TEST(Registration, WorseProposalsLeaveThePoseAlone) {
   const Pose truth = gestures()[0];
   Search search(truth);
   RegistrationConfig still;
@@ -381,7 +381,7 @@ TEST(Registration, OnAnEmptyPictureGivesAPoseAllTheSame) {
   const RegistrationResult found = register_pose(objective, gestures()[0], config, random);
   EXPECT_TRUE(found.pose.vector().allFinite());
   EXPECT_TRUE(limits.contains(found.pose));
-  EXPECT_GT(found.score.region, 0.3);
+  EXPECT_GT(found.score.region(), 0.3);
 }
 
 }  // namespace

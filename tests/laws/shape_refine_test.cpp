@@ -57,7 +57,7 @@ TEST(ShapeRefineLaw, FindsUpperArmAndForearmApart) {
     Shape believed = person(0.88, 0.88);  // what one frame with foreshortened arms tells
     const auto frames = keyframes(truth, believed);
     const ShapeRefinement found =
-        refine_shape(make_scalar_backend, frames, believed, anatomical_limits(), {}, {});
+        refine_shape([] { return make_scalar_backend(); }, frames, believed, anatomical_limits(), {}, {});
     EXPECT_LT(worst_length_error(found.shape, truth), 0.06) << upper << " " << fore;
     EXPECT_LT(found.cost, found.cost_before);
     ASSERT_EQ(found.poses.size(), frames.size());
@@ -74,7 +74,8 @@ TEST(ShapeRefineLaw, SameFramesSameShape) {
   ShapeRefineConfig config;
   config.rounds = 1;
   const auto refine = [&] {
-    return refine_shape(make_scalar_backend, frames, believed, anatomical_limits(), {}, config);
+    return refine_shape([] { return make_scalar_backend(); }, frames, believed, anatomical_limits(), {},
+                        config);
   };
   const ShapeRefinement a = refine();
   const ShapeRefinement b = refine();
@@ -90,7 +91,7 @@ TEST(ShapeRefineLaw, WithoutARoundTheShapeStays) {
   ShapeRefineConfig config;
   config.rounds = 0;
   const ShapeRefinement found =
-      refine_shape(make_scalar_backend, frames, believed, anatomical_limits(), {}, config);
+      refine_shape([] { return make_scalar_backend(); }, frames, believed, anatomical_limits(), {}, config);
   EXPECT_EQ(found.shape[Segment::l_upper_arm].length, 0.95);
   EXPECT_EQ(found.cost, found.cost_before);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contribution of each heuristic of a particle filter: each left out, and each alone.
+// What each cue and each heuristic of a particle filter contributes: each left out, each heuristic also
+// alone.
 #include <algorithm>
 
 #include "lab/experiments/experiments.h"
@@ -37,7 +38,8 @@ FilterSweep measure_filter(Lab& lab, const std::string& name, FilterSetup setup,
   });
 }
 
-// The full filter, the filter without each heuristic of its list, each existing heuristic alone, and none.
+// The filter as it is, each cue left out, each heuristic of its list left out, each heuristic alone, and
+// none.
 std::vector<Variant> variants_of(Lab& lab, const FilterSetup& setup) {
   const auto heuristics = parse_heuristics(setup.filter.heuristics);
   std::vector<Variant> variants;
@@ -45,6 +47,12 @@ std::vector<Variant> variants_of(Lab& lab, const FilterSetup& setup) {
     variants.push_back({name, measure_filter(lab, name, setup, list)});
   };
   add("everything: " + list_of(heuristics, nullptr), setup.filter.heuristics);
+  for (std::size_t i = 0; i < setup.cues.size(); ++i) {
+    const std::string name = "without the cue " + std::string(setup.cues[i].name);
+    FilterSetup less = setup;
+    less.cues.enable(i, false);
+    variants.push_back({name, measure_filter(lab, name, less, setup.filter.heuristics)});
+  }
   for (const Heuristic* heuristic : heuristics) {
     add("without " + std::string(heuristic->name), list_of(heuristics, heuristic));
   }
@@ -138,9 +146,8 @@ Finding ablation(Lab& lab) {
   finding.notes = {
       "Means over the four gestures; in brackets the lowest and highest of the " +
           std::to_string(lab.seeds()) +
-          " seeds. 'Without' leaves one heuristic out of the full list; 'alone' is that heuristic and no "
-          "other. "
-          "The single searches start from the previous pose, without predicted motion.",
+          " seeds. 'Without' leaves one cue or heuristic out of everything; 'alone' is that heuristic and no "
+          "other. The single searches start from the last pose, without a prediction.",
       "Left out of the thesis's filter: " + cost_of_leaving_out(theirs, &FilterRun::error_3d, " mm") + "; " +
           cost_of_leaving_out(theirs, &FilterRun::mistracked, " frames") + ".",
       "Left out of ours: " + cost_of_leaving_out(own, &FilterRun::error_3d, " mm") + "; " +

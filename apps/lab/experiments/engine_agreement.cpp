@@ -72,12 +72,12 @@ Pair evaluate_both(Backend& reference, Backend& tested, const PreparedFrame& fra
   return scores;
 }
 
-double rank_correlation(const Pair& scores, double Score::*cost) {
+double rank_correlation(const Pair& scores, double (Score::*cost)() const) {
   const auto column = [&](const std::vector<Score>& of) {
     std::vector<double> values;
     values.reserve(of.size());
     for (const Score& score : of) {
-      values.push_back(score.*cost);
+      values.push_back((score.*cost)());
     }
     return values;
   };
@@ -171,8 +171,8 @@ Agreement compare_scores(Backend& reference, Backend& tested, std::size_t poses,
       const PreparedFrame frame = frame_of_model(model, drawn.back(), small_camera());
       const Pair scores = evaluate_both(reference, tested, frame, model, std::span(drawn).first(count));
       for (std::size_t i = 0; i < count; ++i) {
-        const double region = std::abs(scores.tested[i].region - scores.reference[i].region);
-        const double contour = std::abs(scores.tested[i].contour - scores.reference[i].contour);
+        const double region = std::abs(scores.tested[i].region() - scores.reference[i].region());
+        const double contour = std::abs(scores.tested[i].contour() - scores.reference[i].contour());
         result.region_max = std::max(result.region_max, region);
         result.contour_max = std::max(result.contour_max, contour);
         result.region_mean += region / static_cast<double>(poses);

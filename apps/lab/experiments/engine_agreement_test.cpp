@@ -76,31 +76,24 @@ TEST(CompareScores, ABackEndAgreesWithItself) {
   EXPECT_NEAR(ranks.contour_mean, 1.0, 1e-12);
 }
 
-// Adds to each score what it is told.
-class Shifted final : public Backend {
- public:
-  std::string_view name() const override { return "shifted"; }
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    inner_->evaluate(frame, model, poses, terms, scores);
-    for (Score& score : scores) {
-      score.region += 0.25;
-      score.contour = -score.contour;
-    }
-  }
-
- private:
-  std::unique_ptr<Backend> inner_ = make_scalar_backend();
-};
+// The built-in cues with F shifted and D_C negated.
+CueTable shifted_cues() {
+  std::array cues = kCues;
+  cues[cue::kRegion].cost = [](const CueInput& in) { return non_overlapping_ratio(in.reductions) + 0.25; };
+  cues[cue::kContour].cost = [](const CueInput& in) {
+    return -mean_edge_distance(in.reductions, in.frame.distance_cap);
+  };
+  return CueTable(cues);
+}
 
 TEST(CompareScores, FindsDifferences) {
   const auto reference = make_scalar_backend();
-  Shifted shifted;
-  const Agreement scores = compare_scores(*reference, shifted, 50, 1);
+  const auto shifted = make_scalar_backend(shifted_cues());
+  const Agreement scores = compare_scores(*reference, *shifted, 50, 1);
   EXPECT_NEAR(scores.region_max, 0.25, 1e-12);
   EXPECT_NEAR(scores.region_mean, 0.25, 1e-12);
   EXPECT_GT(scores.contour_max, scores.contour_mean);
-  const RankAgreement ranks = compare_ranks(*reference, shifted, 2, 1);
+  const RankAgreement ranks = compare_ranks(*reference, *shifted, 2, 1);
   EXPECT_NEAR(ranks.region_min, 1.0, 1e-9);
   EXPECT_NEAR(ranks.contour_mean, -1.0, 1e-9);
 }

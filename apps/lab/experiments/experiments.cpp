@@ -67,7 +67,7 @@ constexpr std::array<Experiment, 34> kExperiments = {{
     {"F4-33", "Real clips: mistracked frames", "Do all heuristics together lose real people less often?",
      real_clips},
     {"T4-1", "Time of overlap histograms", "How long do so many overlap histograms take?", overlap_times},
-    {"ablation", "Each heuristic left out", "What is each heuristic of a filter good for?", ablation},
+    {"ablation", "Each cue and heuristic left out", "What does each cue and heuristic contribute?", ablation},
     {"levers", "Each part of the program left out", "What is each part of the whole program good for?",
      levers},
 }};

@@ -146,7 +146,8 @@ Fit fit_of(const std::vector<Sample>& samples, const Camera& camera, const Sprea
   Fit fit;
   for (const Sample& sample : samples) {
     const auto covariance =
-        model_covariance({sample.body, camera, sample.region, model.size}, sample.pose, model);
+        model_covariance({.body = sample.body, .camera = camera, .region = sample.region, .size = model.size},
+                         sample.pose, model);
     for (const Joint joint : joints) {
       const auto j = static_cast<std::size_t>(joint);
       if (sample.error[j]) {
@@ -216,8 +217,8 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
     collect(clip, folder, config, samples);
   }
   FilterModel model = load_filter_model(config.filter.model);
-  model.sigma_region = mean_of(samples.sigma_region);
-  model.sigma_contour = mean_of(samples.sigma_contour);
+  model.sigma[cue::kRegion] = mean_of(samples.sigma_region);
+  model.sigma[cue::kContour] = mean_of(samples.sigma_contour);
   // Two standard deviations reach all but the fastest hundredth of the changes.
   const auto half_of_largest = [](const std::vector<double>& ways) {
     // A number that never changed must still be positive, as the file format requires.

@@ -43,7 +43,7 @@ const std::array<Lever, 15> kLevers = {{
        c.image.height = 480;
      }},
     {"image", "no contours in the search",
-     [](Config& c) { each_weights(c, [](ObjectiveWeights& w) { w.contour = 0.0; }); }},
+     [](Config& c) { each_weights(c, [](ObjectiveWeights& w) { w.cues[cue::kContour] = 0.0; }); }},
     {"prior", "segments may intersect",
      [](Config& c) {
        c.filter.invalid = 0.0;

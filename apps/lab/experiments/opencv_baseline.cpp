@@ -6,9 +6,6 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
-#include "telemime/core/errors.h"
-#include "telemime/likelihood/cues/all.h"
-
 namespace telemime {
 namespace {
 
@@ -24,26 +21,20 @@ class OpencvBaseline final : public Backend {
  public:
   std::string_view name() const override { return "opencv"; }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    if (poses.size() != scores.size()) {
-      throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
-    }
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
     cv::compare(frame.labels, kSurfaceClassCount, known_, cv::CMP_LE);
     for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
       cv::compare(frame.labels, c + 1, observed_[c], cv::CMP_EQ);
     }
     for (std::size_t i = 0; i < poses.size(); ++i) {
       draw(frame, model, poses[i]);
-      Score score;
       if (wants(terms, Reduction::overlap)) {
-        count_overlap(frame, score.reductions);
-        score.region = non_overlapping_ratio(score.reductions);
+        count_overlap(counts[i]);
       }
       if (wants(terms, Reduction::contour)) {
-        score.contour = contour_distance(frame, score.reductions);
+        sum_contour(frame, counts[i]);
       }
-      scores[i] = score;
     }
   }
 
@@ -113,8 +104,7 @@ class OpencvBaseline final : public Backend {
     }
   }
 
-  void count_overlap(const PreparedFrame& frame, Reductions& r) {
-    r.observed = frame.observed;
+  void count_overlap(Reductions& r) {
     cv::bitwise_and(plane_, kClasses, classes_);
     for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
       cv::compare(classes_, c + 1, mask_, cv::CMP_EQ);
@@ -125,11 +115,10 @@ class OpencvBaseline final : public Backend {
     }
   }
 
-  double contour_distance(const PreparedFrame& frame, Reductions& r) {
+  void sum_contour(const PreparedFrame& frame, Reductions& r) {
     cv::compare(plane_, kContour, mask_, cv::CMP_GT);
     r.contour_points = cv::countNonZero(mask_);
     r.contour_sum = cv::mean(frame.distance, mask_)[0] * r.contour_points;
-    return mean_edge_distance(r, frame.distance_cap);
   }
 
   std::vector<cv::Point> points_;  ///< projected vertices

@@ -27,7 +27,7 @@ TEST(OpencvBaseline, BothComeNearToTheDefinition) {
       scalar->evaluate(frame, model, poses, Reduction::all, exact);
       double mean = 0.0;
       for (std::size_t i = 0; i < poses.size(); ++i) {
-        const double difference = std::abs(near[i].region - exact[i].region);
+        const double difference = std::abs(near[i].region() - exact[i].region());
         mean += difference / static_cast<double>(poses.size());
         // Most at the true pose, where all that it draws differently is an error.
         EXPECT_LT(difference, 0.13) << camera.width << ", pose " << i;
@@ -35,7 +35,7 @@ TEST(OpencvBaseline, BothComeNearToTheDefinition) {
         EXPECT_EQ(near[i].reductions.observed, exact[i].reductions.observed);
       }
       EXPECT_LT(mean, 0.05) << camera.width;
-      EXPECT_LT(near.front().contour, near[1].contour) << "the true pose has the smallest distance";
+      EXPECT_LT(near.front().contour(), near[1].contour()) << "the true pose has the smallest distance";
     }
   }
 }
@@ -51,8 +51,8 @@ TEST(OpencvBaseline, BodyOutOfThePictureOverlapsNothing) {
   std::vector<Score> scores(2);
   make_opencv_baseline()->evaluate(frame, model, gone, Reduction::all, scores);
   for (const Score& score : scores) {
-    EXPECT_EQ(score.region, 1.0);
-    EXPECT_EQ(score.contour, frame.distance_cap);
+    EXPECT_EQ(score.region(), 1.0);
+    EXPECT_EQ(score.contour(), frame.distance_cap);
   }
   EXPECT_THROW(make_opencv_baseline()->evaluate(frame, model, gone, Reduction::all, {}), Error);
 }
@@ -66,7 +66,7 @@ TEST(OpencvBaseline, IgnoredPixelsCountNowhere) {
   frame.observed = {};
   Score score;
   make_opencv_baseline()->evaluate(frame, model, {&pose, 1}, Reduction::overlap, {&score, 1});
-  EXPECT_EQ(score.region, 0.0);
+  EXPECT_EQ(score.region(), 0.0);
 }
 
 }  // namespace

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "lab/experiments/opencv_baseline.h"
-#include "telemime/core/errors.h"
-#include "telemime/likelihood/cues/all.h"
 
 namespace telemime {
 namespace {
@@ -20,23 +18,17 @@ class LiteralOpencv final : public Backend {
  public:
   std::string_view name() const override { return "opencv, each step its call"; }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    if (poses.size() != scores.size()) {
-      throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
-    }
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       project(frame.camera, model, forward_kinematics(model.body, poses[i]));
       draw(frame, model.mesh);
-      Score score;
       if (wants(terms, Reduction::overlap)) {
-        score.region = count(frame, score.reductions);
+        count_overlap(frame, counts[i]);
       }
       if (wants(terms, Reduction::contour)) {
-        look_up(frame, score.reductions);
-        score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
+        look_up(frame, counts[i]);
       }
-      scores[i] = score;
     }
   }
 
@@ -108,8 +100,7 @@ class LiteralOpencv final : public Backend {
   }
 
   // Equation 2.5 with images for sets.
-  double count(const PreparedFrame& frame, Reductions& r) const {
-    r.observed = frame.observed;
+  void count_overlap(const PreparedFrame& frame, Reductions& r) const {
     const cv::Mat known = frame.labels <= static_cast<double>(kSurfaceClassCount);
     for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
       const auto label = static_cast<double>(c + 1);
@@ -117,7 +108,6 @@ class LiteralOpencv final : public Backend {
       r.model[c] = cv::countNonZero(model);
       r.both[c] = cv::countNonZero(model & (frame.labels == label));
     }
-    return non_overlapping_ratio(r);
   }
 
   void look_up(const PreparedFrame& frame, Reductions& r) const {

@@ -75,8 +75,8 @@ class Recorder {
     complete(motion, sequence_.model.body, sequence_.camera);
     const FrameMeans errors = mean_errors(motion, sequence_.camera, sequence_.truth, t);
     trace_.frame.push_back(static_cast<double>(t));
-    trace_.region.push_back(score.region);
-    trace_.contour.push_back(score.contour);
+    trace_.region.push_back(score.region());
+    trace_.contour.push_back(score.contour());
     trace_.error_2d.push_back(errors.error_2d);
     trace_.error_3d.push_back(errors.error_3d);
     trace_.evaluations.push_back(evaluations);
@@ -191,16 +191,16 @@ Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig&
 }
 
 FilterSetup reference_setup(const std::string& heuristics) {
-  return {reference_filter(heuristics), reference_registration(), 0.0};
+  return {.filter = reference_filter(heuristics), .search = reference_registration(), .velocity = 0.0};
 }
 
 FilterSetup our_setup() {
   const Config config;
-  return {config.filter, config.registration, config.tracking.velocity};
+  return {.filter = config.filter, .search = config.registration, .velocity = config.tracking.velocity};
 }
 
 Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, std::uint64_t seed) {
-  Evaluators evaluators("simd", 1);
+  Evaluators evaluators("simd", 1, setup.cues);
   ParticleFilter filter(setup.filter, setup.search, sequence.limits, evaluators, seed);
   Recorder recorder(sequence);
   std::vector<double> effective;

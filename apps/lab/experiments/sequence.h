@@ -78,11 +78,12 @@ std::size_t count_mistracked(const Trace& trace, const PeakThresholds& peaks);
 Trace track_sequence(const PreparedSequence& sequence, const RegistrationConfig& config, std::uint64_t seed,
                      const std::string& backend = "scalar");
 
-/// A particle filter and what it is run with.
+/// A particle filter and its inputs.
 struct FilterSetup {
   FilterConfig filter;
-  RegistrationConfig search;  ///< of the filter's local search
-  double velocity = 0.0;      ///< share of the last motion of the arms that is expected again
+  RegistrationConfig search;  ///< the filter's local search
+  double velocity = 0.0;      ///< share of the arms' last motion that is predicted to continue
+  CueTable cues = {};         ///< what the image is compared by
 };
 
 /// The thesis's filter with these heuristics alone; none is CONDENSATION.

@@ -9,33 +9,42 @@
 
 namespace telemime {
 
-/// The machine's clock, s from some moment on.
+/// Monotonic clock of the machine, s.
 double steady_seconds();
 
 struct BackendOptions {
-  /// Threads that share a batch, where the back end can; 0: as many as the machine has.
+  /// Threads that share a batch, in back ends that support it; 0: as many as the machine has.
   int threads = 1;
-  /// The clock by which `auto` measures, s.
+  /// Clock with which `auto` measures, s.
   std::function<double()> seconds = steady_seconds;
+  CueTable cues = {};
 };
 
 /// A back end by name.
 struct BackendKind {
   std::string_view name;
-  std::string_view what;  ///< for help and documents
+  std::string_view what;  ///< for help and documentation
   std::unique_ptr<Backend> (*make)(const BackendOptions& options);
-  /// Why it cannot run here, in words; empty: it can.
+  /// Why it cannot run here, for messages; empty: it can.
   std::string (*missing)();
 };
 
-/// Every back end, one line each.
+/// All back ends, one line each.
 inline constexpr std::size_t kBackendCount = 5;
 extern const std::array<BackendKind, kBackendCount> kBackends;
 
 /// "simd, opencl, ...".
 std::string backend_names();
 
-/// Throws Error(usage): for an unknown name with the choices, for one that cannot run here with the reason.
+/// Makes a back end by name. Throws Error(usage) for an unknown name, with the choices, and for a back end
+/// that cannot run here, with the reason.
 std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options = {});
+
+/// Gives each batch to the faster of two back ends. Which one that is, is measured once for every image size
+/// and every batch size (in powers of two), with the first batch of its kind; that batch's scores are those
+/// of `processor`. `seconds` is a clock. The two agree up to rounding, so that results may differ from run to
+/// run where both are about equally fast.
+std::unique_ptr<Backend> make_auto_backend(std::unique_ptr<Backend> processor,
+                                           std::unique_ptr<Backend> device, std::function<double()> seconds);
 
 }  // namespace telemime

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/likelihood/auto_backend.h"
+#include "telemime/likelihood/all.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,43 +17,48 @@ class AutoBackend final : public Backend {
  public:
   AutoBackend(std::unique_ptr<Backend> processor, std::unique_ptr<Backend> device,
               std::function<double()> seconds)
-      : processor_(std::move(processor)), device_(std::move(device)), seconds_(std::move(seconds)) {}
+      : Backend(processor->cues()),
+        processor_(std::move(processor)),
+        device_(std::move(device)),
+        seconds_(std::move(seconds)) {}
 
   std::string_view name() const override { return "auto"; }
   std::optional<DeviceTimes> device_times() const override {
     return on_device_ ? device_->device_times() : std::nullopt;
   }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
     on_device_ = false;
     const Kind kind{frame.camera.width, frame.camera.height, std::bit_width(poses.size()), terms};
     const auto known = device_is_faster_.find(kind);
     if (known == device_is_faster_.end()) {
-      device_is_faster_[kind] = measure(frame, model, poses, terms, scores);
+      device_is_faster_[kind] = measure(frame, model, poses, terms, counts);
       return;
     }
     on_device_ = known->second;
-    (on_device_ ? *device_ : *processor_).evaluate(frame, model, poses, terms, scores);
+    (on_device_ ? *device_ : *processor_).count(frame, model, poses, terms, counts);
   }
 
  private:
   using Kind = std::tuple<int, int, int, Reduction>;
 
-  // The second run of each counts: the first one takes memory and may compile.
+  // The second run of each is measured: the first one allocates memory and may compile the kernel.
   bool measure(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-               std::span<Score> scores) {
+               std::span<Reductions> counts) {
     const auto seconds_of = [&](Backend& backend) {
-      backend.evaluate(frame, model, poses, terms, scores);
+      backend.count(frame, model, poses, terms, counts);
+      std::fill(counts.begin(), counts.end(), Reductions{});
       const double begin = seconds_();
-      backend.evaluate(frame, model, poses, terms, scores);
+      backend.count(frame, model, poses, terms, counts);
       return seconds_() - begin;
     };
     double device = std::numeric_limits<double>::infinity();
     try {
       device = seconds_of(*device_);
-    } catch (const Error&) {  // what the device cannot do, the processor does
+    } catch (const Error&) {  // the processor evaluates what the device cannot
     }
+    std::fill(counts.begin(), counts.end(), Reductions{});
     return device < seconds_of(*processor_);
   }
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/likelihood/auto_backend.h"
+#include "telemime/likelihood/all.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "telemime/likelihood/all.h"
 
 namespace telemime {
 namespace {
@@ -17,18 +15,20 @@ struct Clock {
   int device_batches = 0;
 };
 
-// Costs a start and so much for each pose; its scores say who made them.
+// Takes a fixed time and a time for each pose; D_C says which of the two back ends counted.
 class Worker final : public Backend {
  public:
   Worker(Clock& clock, int& batches, double start, double each, double mark)
       : clock_(clock), batches_(batches), start_(start), each_(each), mark_(mark) {}
   std::string_view name() const override { return "worker"; }
-  void evaluate(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
-                std::span<Score> scores) override {
+  void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
+             std::span<Reductions> counts) override {
     ++batches_;
     clock_.now += start_ + each_ * static_cast<double>(poses.size());
-    for (Score& score : scores) {
-      score.region = mark_;
+    for (Reductions& r : counts) {
+      EXPECT_EQ(r.contour_points, 0) << "counts come in empty";
+      r.contour_sum = mark_;
+      r.contour_points = 1;
     }
   }
   std::optional<DeviceTimes> device_times() const override { return DeviceTimes{start_, each_, 0.0}; }
@@ -49,7 +49,7 @@ class Auto : public ::testing::Test {
     const std::vector<Pose> poses(size);
     std::vector<Score> scores(size);
     backend_->evaluate(frame_, model_, poses, Reduction::all, scores);
-    return scores.empty() ? 0.0 : scores.front().region;
+    return scores.empty() ? 0.0 : scores.front().contour();
   }
 
   Clock clock_;

@@ -5,67 +5,56 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "telemime/body/body.h"
-#include "telemime/body/mesh.h"
-#include "telemime/core/camera.h"
-#include "telemime/image/frame_features.h"
-#include "telemime/likelihood/cues/reductions.h"
-#include "telemime/likelihood/device_times.h"
-#include "telemime/likelihood/tiled_planes.h"
+#include "telemime/likelihood/cues/table.h"
+#include "telemime/likelihood/gpu/device.h"
+#include "telemime/likelihood/prepared_frame.h"
 
 namespace telemime {
 
-/// The person as the likelihood sees them: skeleton and surface.
-struct Model {
-  Body body;
-  BodyMesh mesh;
-};
-
-Model make_model(const Shape& shape);
-
-/// One frame made ready for evaluation by prepare(); its parts belong together and are not to be changed.
-/// Holds no pose; may be used by many threads.
-struct PreparedFrame {
-  Camera camera;     ///< of the working image
-  cv::Mat labels;    ///< (h x w) CV_8UC1, Label
-  cv::Mat distance;  ///< (h x w) CV_32FC1, px
-  std::array<std::int32_t, kSurfaceClassCount> observed{};
-  double distance_cap = 0.0;  ///< px, the largest value of the distance map
-  TiledPlanes tiles;          ///< labels and distance once more, for back ends that read them by tiles
-};
-
-/// F and D_C of one pose (algorithms: 4.1, 4.2).
+/// How one pose agrees with one frame.
 struct Score {
-  double region = 1.0;   ///< F, in [0, 1]
-  double contour = 0.0;  ///< D_C, px of the working image
+  /// Cost of each cue, by its position in the table. A cue that was not asked for keeps its number from here.
+  CueValues costs = {1.0};
   Reductions reductions;
+
+  double region() const { return costs[cue::kRegion]; }    ///< F, in [0, 1] (thesis 2.4.4.3)
+  double contour() const { return costs[cue::kContour]; }  ///< D_C, px of the working image (thesis 3.5)
 };
 
-/// Evaluates batches of poses. One virtual call a batch, no hidden current frame. Implementations must agree
-/// with `scalar`, which is the definition.
+/// Evaluates batches of poses: an implementation counts reductions, the cues of its table turn them into
+/// costs. One virtual call a batch, no hidden current frame. Implementations must agree with `scalar`, which
+/// is the definition. Not to be used by two threads at a time.
 class Backend {
  public:
-  Backend() = default;
+  explicit Backend(CueTable cues = {}) : cues_(std::move(cues)) {}
   Backend(const Backend&) = delete;
   Backend& operator=(const Backend&) = delete;
   virtual ~Backend() = default;
   virtual std::string_view name() const = 0;
-  /// scores[i] for poses[i]; terms that are not asked for keep their defaults. Sizes must match.
-  virtual void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-                        Reduction terms, std::span<Score> scores) = 0;
-  /// Of the last batch; nothing from back ends that run on the processor.
+  const CueTable& cues() const { return cues_; }
+
+  /// scores[i] of poses[i], by all cues whose reductions `terms` contains. Throws Error(usage) when the sizes
+  /// differ.
+  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+                std::span<Score> scores);
+
+  /// Adds to counts[i], which come in as Reductions{}, what `terms` asks for of poses[i]. The sizes are
+  /// equal. `observed` is left to evaluate().
+  virtual void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+                     Reduction terms, std::span<Reductions> counts) = 0;
+
+  /// Times of the last batch; none from back ends that run on the processor.
   virtual std::optional<DeviceTimes> device_times() const { return std::nullopt; }
+
+ private:
+  CueTable cues_;
+  std::vector<Reductions> counts_;
 };
 
-/// `camera` is the one of the working image of the features. Throws Error(usage) when they do not
-/// match.
-PreparedFrame prepare(const FrameFeatures& features, const Camera& camera);
-
-/// The same into a frame whose memory is used again.
-void prepare(const FrameFeatures& features, const Camera& camera, PreparedFrame& frame);
-
 /// The definition: exact z-buffered meshes, one pose after the other.
-std::unique_ptr<Backend> make_scalar_backend();
+std::unique_ptr<Backend> make_scalar_backend(CueTable cues = {});
 
 }  // namespace telemime

@@ -63,8 +63,8 @@ class Likelihood : public ::testing::Test {
 };
 
 void expect_same(const Score& a, const Score& b) {
-  ASSERT_EQ(a.region, b.region);
-  ASSERT_EQ(a.contour, b.contour);
+  ASSERT_EQ(a.region(), b.region());
+  ASSERT_EQ(a.contour(), b.contour());
   ASSERT_EQ(a.reductions.observed, b.reductions.observed);
   ASSERT_EQ(a.reductions.model, b.reductions.model);
   ASSERT_EQ(a.reductions.both, b.reductions.both);
@@ -74,8 +74,8 @@ void expect_same(const Score& a, const Score& b) {
 
 TEST_F(Likelihood, TruePoseOfAPerfectPictureScoresZero) {
   const Score s = evaluate({middle_pose()}).front();
-  EXPECT_EQ(s.region, 0.0);
-  EXPECT_EQ(s.contour, 0.0);
+  EXPECT_EQ(s.region(), 0.0);
+  EXPECT_EQ(s.contour(), 0.0);
   EXPECT_GT(s.reductions.contour_points, 100);
   EXPECT_EQ(s.reductions.both, s.reductions.observed);
 }
@@ -102,10 +102,10 @@ TEST_F(Likelihood, ScoresFollowFromTheReductions) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     const Score s = evaluate({random_pose(anatomical_limits(), random, 0.5)}).front();
-    ASSERT_EQ(s.region, non_overlapping_ratio(s.reductions));
-    ASSERT_EQ(s.contour, mean_edge_distance(s.reductions, frame_.distance_cap));
-    ASSERT_GT(s.region, 0.0);
-    ASSERT_LE(s.contour, kCap);
+    ASSERT_EQ(s.region(), non_overlapping_ratio(s.reductions));
+    ASSERT_EQ(s.contour(), mean_edge_distance(s.reductions, frame_.distance_cap));
+    ASSERT_GT(s.region(), 0.0);
+    ASSERT_LE(s.contour(), kCap);
   }
 }
 
@@ -115,13 +115,13 @@ TEST_F(Likelihood, TermsThatAreNotAskedForKeepTheirDefaults) {
   const Score all = evaluate({pose}).front();
   const Score region = evaluate({pose}, Reduction::overlap).front();
   const Score contour = evaluate({pose}, Reduction::contour).front();
-  EXPECT_EQ(region.region, all.region);
-  EXPECT_EQ(region.contour, Score{}.contour);
+  EXPECT_EQ(region.region(), all.region());
+  EXPECT_EQ(region.contour(), Score{}.contour());
   EXPECT_EQ(region.reductions.contour_points, 0);
-  EXPECT_EQ(contour.contour, all.contour);
-  EXPECT_EQ(contour.region, Score{}.region);
-  EXPECT_GT(all.region, 0.0);
-  EXPECT_GT(all.contour, 0.0);
+  EXPECT_EQ(contour.contour(), all.contour());
+  EXPECT_EQ(contour.region(), Score{}.region());
+  EXPECT_GT(all.region(), 0.0);
+  EXPECT_GT(all.contour(), 0.0);
 }
 
 TEST_F(Likelihood, KnownDistanceMapGivesItsMean) {
@@ -140,7 +140,7 @@ TEST_F(Likelihood, KnownDistanceMapGivesItsMean) {
   for (const Eigen::Vector2f& p : contour) {
     mean += std::round(p.x()) / static_cast<double>(contour.size());
   }
-  EXPECT_NEAR(evaluate({middle_pose()}).front().contour, mean, 1e-9);
+  EXPECT_NEAR(evaluate({middle_pose()}).front().contour(), mean, 1e-9);
   EXPECT_EQ(frame_.distance_cap, 159.0);
 }
 
@@ -150,8 +150,8 @@ TEST_F(Likelihood, BodyOutOfThePictureOverlapsNothing) {
   Pose behind = middle_pose();
   behind.root.z() = -3.0;
   for (const Score& s : evaluate({gone, behind})) {
-    EXPECT_EQ(s.region, 1.0);
-    EXPECT_EQ(s.contour, frame_.distance_cap);
+    EXPECT_EQ(s.region(), 1.0);
+    EXPECT_EQ(s.contour(), frame_.distance_cap);
     EXPECT_EQ(s.reductions.model, (std::array<std::int32_t, kSurfaceClassCount>{}));
   }
 }
@@ -162,7 +162,7 @@ TEST_F(Likelihood, IgnoredPixelsCountNowhere) {
   seen_.labels(cv::Rect(0, 0, 80, 120)).setTo(255);
   frame_ = prepare(seen_, camera_);
   const Score s = evaluate({middle_pose()}).front();
-  EXPECT_EQ(s.region, 0.0);
+  EXPECT_EQ(s.region(), 0.0);
   EXPECT_EQ(s.reductions.model, s.reductions.observed);
   EXPECT_EQ(s.reductions.both, s.reductions.observed);
   for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
@@ -172,10 +172,10 @@ TEST_F(Likelihood, IgnoredPixelsCountNowhere) {
   Pose lowered = middle_pose();  // moves only the arm that nobody knows about
   lowered[Angle::r_elbow_flexion] = -0.5;
   lowered[Angle::r_shoulder_abduct] = -0.3;
-  EXPECT_EQ(evaluate({lowered}).front().region, 0.0);
+  EXPECT_EQ(evaluate({lowered}).front().region(), 0.0);
   seen_.labels.setTo(255);
   frame_ = prepare(seen_, camera_);
-  EXPECT_EQ(evaluate({middle_pose()}).front().region, 0.0) << "nothing is known, nothing is wrong";
+  EXPECT_EQ(evaluate({middle_pose()}).front().region(), 0.0) << "nothing is known, nothing is wrong";
 }
 
 TEST_F(Likelihood, EvaluationLeavesTheFrameAlone) {
@@ -203,8 +203,8 @@ TEST_F(Likelihood, PrepareTakesPiecesOfBiggerImages) {
   seen_.labels = big_labels(piece);
   seen_.distance = big_distance(piece);
   frame_ = prepare(seen_, camera_);
-  EXPECT_EQ(evaluate({middle_pose()}).front().region, 0.0);
-  EXPECT_EQ(evaluate({middle_pose()}).front().contour, 0.0);
+  EXPECT_EQ(evaluate({middle_pose()}).front().region(), 0.0);
+  EXPECT_EQ(evaluate({middle_pose()}).front().contour(), 0.0);
 }
 
 TEST_F(Likelihood, PrepareRefusesWhatDoesNotMatchTheCamera) {

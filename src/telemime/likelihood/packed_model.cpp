@@ -54,7 +54,7 @@ void pack_segment(const BodyMesh& mesh, std::size_t s, std::uint32_t begin, Pack
   segment.lanes = stack.sides * segment.stride;
   if (stack.rings == 0 || segment.stride >= 64 || vertices_of(stack) > PackedSegment::kMostLanes) {
     throw Error(ErrorKind::usage, "the mesh of " + std::string(kSegmentNames[s]) +
-                                      " is no stack of rings or has too many of them");
+                                      " is not a stack of rings, or has too many of them");
   }
   const std::uint32_t first = mesh.vertex_range[s].begin;
   const std::uint32_t ends = first + stack.rings * stack.sides;

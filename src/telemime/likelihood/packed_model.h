@@ -10,28 +10,27 @@
 
 namespace telemime {
 
-/// A person's surface laid out for processors that do many things at once. A segment is a grid of vertices,
-/// one side after the other: from its top end down its rings to its bottom end (each end is a ring that is
-/// one point). The first side stands once more at the end. So the quadrilateral of lane i always has the
-/// corners i, i + stride (on the next side) and, below them, i + 1 and i + stride + 1: nothing has to be
-/// looked up, and the sides that face away lie together. The last lane of each side holds none; `quads` says
-/// which do.
+/// A person's surface laid out for vector processors. A segment is a grid of vertices, one side after the
+/// other: from its top end down its rings to its bottom end (each end is a ring of one point). The first side
+/// is repeated at the end. The quadrilateral of lane i therefore has the corners i, i + stride (on the next
+/// side) and, below them, i + 1 and i + stride + 1: no indices are needed, and sides that face away are
+/// adjacent. The last lane of each side has no quadrilateral; `quads` says which lanes have one.
 struct PackedSegment {
   static constexpr std::uint32_t kMostLanes = 256;
   using LaneSet = std::array<std::uint64_t, kMostLanes / 64>;
 
-  std::uint32_t begin = 0;   ///< of its vertices and lanes in the model's arrays, a multiple of 16
+  std::uint32_t begin = 0;   ///< first of its vertices and lanes in the model's arrays, a multiple of 16
   std::uint32_t lanes = 0;   ///< sides x stride; there are `stride` more vertices
   std::uint32_t stride = 0;  ///< rings + 2, at most 63
-  LaneSet quads{};           ///< lanes that hold a quadrilateral
-  LaneSet top{};             ///< those at the top end: (a, b, c) is no triangle
-  LaneSet bottom{};          ///< those at the bottom end: (b, d, c) is none
+  LaneSet quads{};           ///< lanes with a quadrilateral
+  LaneSet top{};             ///< those at the top end: they have no triangle (a, b, c)
+  LaneSet bottom{};          ///< those at the bottom end: they have no triangle (b, d, c)
 };
 
 /// Distances of the skeleton (m, body frame; see Body).
 struct PackedSkeleton {
   std::array<float, 3> neck_from_root{};
-  std::array<std::array<float, 3>, 2> shoulder_from_root{};  ///< of an arm that hangs
+  std::array<std::array<float, 3>, 2> shoulder_from_root{};  ///< with hanging arms
   float clavicle_lift = 0.0F;
   float clavicle_reach = 0.0F;
   std::array<float, 2> upper_arm{};
@@ -39,14 +38,14 @@ struct PackedSkeleton {
   bool operator==(const PackedSkeleton&) const = default;
 };
 
-/// Everything about a person that an evaluation needs.
+/// All data of a person that an evaluation needs.
 struct PackedModel {
   /// Bits of a surface class in the lowest five bits of a depth: 8 times the class.
   static constexpr std::uint32_t kClassShift = 3;
   /// Marks of lanes at a segment's ends.
   static constexpr std::uint32_t kTop = 0x100;
   static constexpr std::uint32_t kBottom = 0x200;
-  /// Lanes that a vector load may touch behind a segment's last one.
+  /// Number of lanes that a vector load may read after a segment's last one.
   static constexpr std::uint32_t kPadding = 48;
 
   PackedSkeleton skeleton;
@@ -55,12 +54,12 @@ struct PackedModel {
   std::vector<std::uint32_t> surface;  ///< by lane: the strip's class << kClassShift, and marks
 };
 
-/// Packs into `out`, whose memory is used again. The mesh must be one of make_mesh(). Throws Error(usage) for
-/// a segment of more than kMostLanes.
+/// Packs a mesh made by make_mesh() into `out`, whose memory is reused. Throws Error(usage) for a segment of
+/// more than kMostLanes.
 void pack(const Body& body, const BodyMesh& mesh, PackedModel& out);
 
-/// Keeps the last packed model: a search asks for the same one again and again. Compares the contents, so
-/// that a model that was changed in place is packed anew.
+/// Caches the last packed model, since a search uses the same one repeatedly. Compares the contents, so that
+/// a model that was changed in place is packed again.
 class PackedModelCache {
  public:
   const PackedModel& of(const Body& body, const BodyMesh& mesh);

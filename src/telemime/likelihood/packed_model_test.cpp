@@ -67,7 +67,7 @@ float area(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vect
   return (b - a).cross(c - a).norm();
 }
 
-TEST(PackedModel, SegmentsFollowEachOtherWithRoomForVectors) {
+TEST(PackedModel, SegmentsArePaddedForVectors) {
   for (const Model& model : models()) {
     const PackedModel p = packed(model);
     std::uint32_t end = 0;

@@ -7,10 +7,10 @@
 
 namespace telemime {
 
-/// Where pixels lie in planes of 4 x 4 tiles: tile after tile from left to right and from the top down, the
-/// 16 pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of a projected
-/// surface touch few tiles. The grid is `kMargin` tiles wider and higher than the image, so that blocks of
-/// tiles that begin in it end in the grid.
+/// Memory layout of planes in tiles of 4 x 4 pixels: tile after tile from left to right and from top to
+/// bottom, the 16 pixels of a tile in rows. A tile of 32-bit numbers fills one cache line, and most pieces of
+/// a projected surface touch few tiles. The grid is `kMargin` tiles wider and higher than the image, so that
+/// blocks of tiles that begin in the image end in the grid.
 struct TileGrid {
   static constexpr int kSide = 4;
   static constexpr int kPixels = kSide * kSide;
@@ -33,9 +33,9 @@ struct TileGrid {
 
 TileGrid tile_grid(int width, int height);
 
-/// What an evaluation reads of a frame, in tiles.
+/// Planes of a frame that an evaluation reads, in tiles.
 struct TiledPlanes {
-  /// Codes of labels: 8 times the class (0: background), or this: the pixel counts nowhere.
+  /// Code of a pixel that counts nowhere; other labels have 8 times their class (0: background).
   static constexpr std::uint8_t kUnknown = 0x80;
 
   TileGrid grid;
@@ -43,8 +43,8 @@ struct TiledPlanes {
   std::vector<float> distance;       ///< px; 0 outside the image; one more number at the end
 };
 
-/// Lays labels (h x w, CV_8UC1) and distance map (h x w, CV_32FC1) out in tiles. The memory of `out` is used
-/// again.
+/// Copies labels (h x w, CV_8UC1) and distance map (h x w, CV_32FC1) into tiles. The memory of `out` is
+/// reused.
 void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out);
 
 }  // namespace telemime

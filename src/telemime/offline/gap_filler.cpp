@@ -9,7 +9,7 @@ namespace telemime {
 
 GapFiller::GapFiller(const Tracker& tracker)
     : tracker_(tracker),
-      evaluators_(tracker.config().backend, tracker.config().threads),
+      evaluators_(tracker.config().backend, tracker.config().threads, tracker.config().cues),
       seeds_(tracker.config().seed ^ 0x67617073ULL) {}
 
 std::size_t GapFiller::push(GapFrame frame) {
@@ -66,8 +66,8 @@ std::size_t GapFiller::fill() {
                                              .time_step = steps});
     motion.state = TrackState::tracking;
     motion.pose = result.pose;
-    motion.region_score = result.score.region;
-    motion.contour_score = result.score.contour;
+    motion.region_score = result.score.region();
+    motion.contour_score = result.score.contour();
     motion.evaluations += result.evaluations;
     motion.spread = tracker_.spread(filter, result);
     complete(motion, tracker_.model().body, tracker_.camera());
@@ -77,7 +77,7 @@ std::size_t GapFiller::fill() {
       frame.stretch = StretchFrame{std::move(*waiting_[t].seen), result.heading, std::move(poses), count};
     }
     followed.push_back(std::move(frame));
-    const bool fits = result.score.region <= config.tracking.lost_region;
+    const bool fits = result.score.region() <= config.tracking.lost_region;
     good = fits ? followed.size() : good;
     bad_for = fits ? 0.0 : bad_for + steps;
     bad_frames = fits ? 0 : bad_frames + 1;

@@ -70,7 +70,7 @@ Portrait portrait_of(const Config& config, Backend& backend, const JointLimits& 
     Objective objective(backend, candidate.keyframe.frame, model, limits);
     candidate.keyframe.pose =
         initialise_pose(objective, candidate.head, config.calibration, config.registration, random);
-    candidate.keyframe.region = objective.score(candidate.keyframe.pose, Reduction::overlap).region;
+    candidate.keyframe.region = objective.score(candidate.keyframe.pose, Reduction::overlap).region();
   }
   std::swap(portrait.candidates.front(), portrait.candidates[where]);
   portrait.candidates.front().keyframe.pose = fit.pose;
@@ -83,18 +83,18 @@ Portrait portrait_of(const Config& config, Backend& backend, const JointLimits& 
 std::vector<Portrait> portraits_of(const Config& config, const std::string& backend_name,
                                    const JointLimits& limits, Portrait first) {
   constexpr double kMuchBetter = 0.8;
-  const auto backend = make_backend(backend_name);
+  const auto backend = make_backend(backend_name, {.cues = config.cues});
   Random random(config.seed);
   std::vector<std::pair<std::size_t, Calibration>> fits;
   bool better = false;
   for (const std::size_t i : best_portraits(first.candidates)) {
     fits.emplace_back(i, calibrate(*backend, first.candidates[i].keyframe.frame, first.candidates[i].head,
                                    limits, config.calibration, config.registration, random));
-    better = better || fits.back().second.score.region <= kMuchBetter * first.start.person.score.region;
+    better = better || fits.back().second.score.region() <= kMuchBetter * first.start.person.score.region();
   }
   std::vector<Portrait> portraits;
   for (const auto& [where, fit] : fits) {
-    if (better && fit.score.region < first.start.person.score.region) {
+    if (better && fit.score.region() < first.start.person.score.region()) {
       portraits.push_back(portrait_of(config, *backend, limits, first, fit, where, random));
     }
   }
@@ -128,8 +128,8 @@ std::optional<LookAhead> refined(const Config& config, const std::string& backen
   // The pose in the first frame is needed for the new shape, too.
   keyframes.insert(keyframes.begin(), all.front());
   const ShapeRefinement refined =
-      refine_shape([&backend] { return make_backend(backend); }, keyframes, portrait.start.person.shape,
-                   limits, config.calibration.shape, config.calibration.refine);
+      refine_shape([&] { return make_backend(backend, {.cues = config.cues}); }, keyframes,
+                   portrait.start.person.shape, limits, config.calibration.shape, config.calibration.refine);
   found.start.person.shape = refined.shape;
   found.start.pose = refined.poses.front();
   found.cost_before = refined.cost_before;

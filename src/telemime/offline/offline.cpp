@@ -14,7 +14,7 @@ namespace telemime {
 OfflineTracker::OfflineTracker(const Config& config, const JointLimits& limits)
     : config_(config),
       limits_(limits),
-      evaluators_(config.backend, config.threads),
+      evaluators_(config.backend, config.threads, config.cues),
       seeds_(config.seed ^ 0x6f66666c696e65ULL) {}
 
 std::optional<OfflineFrame> OfflineTracker::next(const Model& model, const Camera& camera) {
@@ -73,7 +73,11 @@ void OfflineTracker::decide(std::size_t frames, std::size_t keep, const Model& m
   for (std::size_t t = 0; t < frames; ++t) {
     stretch.push_back(&*waiting_[t].stretch);
   }
-  const TrajectoryContext context{model, limits_, config_.registration, config_.offline, evaluators_};
+  const TrajectoryContext context{.model = model,
+                                  .limits = limits_,
+                                  .search = config_.registration,
+                                  .config = config_.offline,
+                                  .evaluators = evaluators_};
   const std::vector<Pose> poses = best_trajectory(context, stretch, before_ ? &*before_ : nullptr, seeds_);
   for (std::size_t t = 0; t < keep; ++t) {
     MotionFrame& motion = waiting_[t].motion;
@@ -85,8 +89,8 @@ void OfflineTracker::decide(std::size_t frames, std::size_t keep, const Model& m
     }
     Score score;
     evaluators_.evaluate(stretch[t]->frame, model, {&poses[t], 1}, {&score, 1});
-    motion.region_score = score.region;
-    motion.contour_score = score.contour;
+    motion.region_score = score.region();
+    motion.contour_score = score.contour();
     motion.evaluations += config_.offline.sweeps * config_.offline.evaluations;
   }
   decided_ = keep;

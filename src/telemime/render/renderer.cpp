@@ -11,7 +11,7 @@ namespace telemime {
 namespace {
 
 constexpr float kNearest = 0.05F;
-// Pixels that fill() tests at once.
+// Number of pixels that fill() tests at once.
 constexpr int kLanes = 4;
 
 void clear(Rendering& out, const Camera& camera, const BodyMesh& mesh) {
@@ -19,7 +19,7 @@ void clear(Rendering& out, const Camera& camera, const BodyMesh& mesh) {
   if (out.width != camera.width || out.height != camera.height) {
     out.width = camera.width;
     out.height = camera.height;
-    // fill_lanes() touches, without changing them, up to four pixels beyond the last one.
+    // fill_lanes() reads and rewrites, unchanged, up to four pixels after the last one.
     out.surface.assign(pixels + kLanes, 0);
     out.inverse_depth.assign(pixels + kLanes, 0.0F);
   } else {
@@ -62,8 +62,8 @@ void project(SegmentSet which, const BodyMesh& mesh, const Kinematics& kinematic
   }
 }
 
-// Roundings without a call into the C library: the program must run on processors that have no instruction
-// for them. Exact for |x| < 2^23; fill() and occluding_contour() leave larger ones out before.
+// Rounding without calls into the C library, also for processors without rounding instructions. Exact for |x|
+// < 2^23; fill() and occluding_contour() drop larger coordinates before.
 int floor_of(float x) {
   const int whole = static_cast<int>(x);
   return whole - (static_cast<float>(whole) > x ? 1 : 0);
@@ -72,22 +72,22 @@ int ceil_of(float x) {
   const int whole = static_cast<int>(x);
   return whole + (static_cast<float>(whole) < x ? 1 : 0);
 }
-// Half away from zero, as std::lround.
+// Rounds half away from zero, as std::lround does.
 int nearest_to(float x) {
   const int whole = static_cast<int>(x);
   const float rest = x - static_cast<float>(whole);
   return whole + (rest >= 0.5F ? 1 : 0) - (rest <= -0.5F ? 1 : 0);
 }
 
-// Four rows or pixels at once. Most triangles are only a few pixels large: loops over single ones would spend
-// their time on guessing wrongly where they end.
+// Four rows or pixels at once. Most triangles are only a few pixels large: loops over single pixels would
+// spend their time on mispredicted ends.
 using Floats = float __attribute__((vector_size(16)));
 using Ints = std::int32_t __attribute__((vector_size(16)));
 
 Floats floats(Ints x) {
   return __builtin_convertvector(x, Floats);
 }
-// Roundings of four numbers; a comparison gives -1 where it holds.
+// Rounding of four numbers; a comparison gives -1 where it is true.
 Ints floors(Floats x) {
   const Ints whole = __builtin_convertvector(x, Ints);
   return whole + (floats(whole) > x);
@@ -96,7 +96,7 @@ Ints ceils(Floats x) {
   const Ints whole = __builtin_convertvector(x, Ints);
   return whole - (floats(whole) < x);
 }
-// As std::max and std::min: the first one where the second is not a number.
+// As std::max and std::min: the first argument where the second is not a number.
 Floats larger(Floats a, Floats b) {
   return a < b ? b : a;
 }
@@ -104,15 +104,15 @@ Floats smaller(Floats a, Floats b) {
   return b < a ? b : a;
 }
 
-// Where the line of a triangle's edge crosses a row: x = slope * y + offset.
+// Intersection of a triangle's edge with a row: x = slope * y + offset.
 struct Crossing {
   float slope = 0.0F;
   float offset = 0.0F;
   Floats at(Floats y) const { return slope * y + offset; }
 };
 
-// The inside of a front-facing triangle lies right of edges that go down and left of edges that go up. Of
-// three edges at most two bound the same side; the unused one bounds nothing. Horizontal edges bound no row.
+// The inside of a front-facing triangle is right of edges that go down and left of edges that go up. At most
+// two of the three edges bound the same side; unused bounds are infinite. Horizontal edges bound no row.
 struct RowBounds {
   Crossing left[2] = {{0.0F, -std::numeric_limits<float>::infinity()},
                       {0.0F, -std::numeric_limits<float>::infinity()}};
@@ -131,7 +131,7 @@ struct RowBounds {
   }
 };
 
-// The bytes of `classes` lie in memory in the order of the pixels.
+// The bytes of `classes` are in the order of the pixels in memory.
 static_assert(std::endian::native == std::endian::little);
 
 // The z-buffer test for the pixels x..x+3 up to `last`; 1/z = w_row + w_x * x.
@@ -144,7 +144,7 @@ void fill_lanes(float* depth, std::uint8_t* plane, int x, int last, float w_row,
   const Ints nearer = (w > before) & (at <= last);
   const Floats after = nearer ? w : before;
   std::memcpy(depth, &after, sizeof after);
-  // The lanes' masks side by side in one word, a byte each.
+  // Pack the masks of the lanes into one word, one byte each.
   Ints bytes = nearer & Ints{0x000000FF, 0x0000FF00, 0x00FF0000, ~0x00FFFFFF};
   bytes |= __builtin_shufflevector(bytes, bytes, 2, 3, 0, 1);
   bytes |= __builtin_shufflevector(bytes, bytes, 1, 0, 3, 2);
@@ -157,6 +157,7 @@ void fill_lanes(float* depth, std::uint8_t* plane, int x, int last, float w_row,
 
 void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, float area,
           std::uint8_t surface, Rendering& out) {
+  // Rows and columns of the triangle inside the image.
   const float low_y = std::min({a.y(), b.y(), c.y()});
   const float high_y = std::max({a.y(), b.y(), c.y()});
   const float low_x = std::min({a.x(), b.x(), c.x()});
@@ -176,11 +177,11 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
   if (y0 > y1 || first_x > last_x) {
     return;
   }
+  // Bounds of each row from the edges, and the plane of 1/z, which is linear in the image.
   RowBounds bounds;
   bounds.add(a, b);
   bounds.add(b, c);
   bounds.add(c, a);
-  // 1/z is linear in the image.
   const float inverse_area = 1.0F / area;
   const float w_x = ((b.z() - a.z()) * (c.y() - a.y()) - (c.z() - a.z()) * (b.y() - a.y())) * inverse_area;
   const float w_y = ((c.z() - a.z()) * (b.x() - a.x()) - (b.z() - a.z()) * (c.x() - a.x())) * inverse_area;
@@ -191,6 +192,7 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
   out.top = std::min(out.top, y0);
   out.bottom = std::max(out.bottom, y1 + 1);
 
+  // Four rows at a time, four pixels of a row at a time.
   const auto width = static_cast<std::size_t>(out.width);
   const std::size_t first = static_cast<std::size_t>(y0) * width;
   float* depth = out.inverse_depth.data() + first;
@@ -199,7 +201,7 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
     const Floats fy = floats(Ints{0, 1, 2, 3} + y);
     Floats low = larger(larger(Floats{} + bound_low, bounds.left[0].at(fy)), bounds.left[1].at(fy));
     Floats high = smaller(smaller(Floats{} + bound_high, bounds.right[0].at(fy)), bounds.right[1].at(fy));
-    // Rows that miss the triangle stay empty, and near enough to be rounded.
+    // Rows that miss the triangle stay empty but small enough to be rounded.
     low = smaller(low, Floats{} + (bound_high + 1.0F));
     high = larger(high, Floats{} + (bound_low - 1.0F));
     const Ints x0 = ceils(low);
@@ -208,7 +210,7 @@ void fill(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vecto
     const int rows = std::min(kLanes, y1 + 1 - y);
     for (int k = 0; k < rows; ++k, depth += width, plane += width) {
       int x = x0[k];
-      do {  // at least once, because an empty row is rare and harmless
+      do {  // at least once: an empty row is rare and harmless
         fill_lanes(depth + x, plane + x, x, x1[k], w_row[k], w_x, surface);
         x += kLanes;
       } while (x <= x1[k]);
@@ -257,13 +259,14 @@ void render_segments(SegmentSet which, const BodyMesh& mesh, const Kinematics& k
 }
 
 void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::vector<Eigen::Vector2f>& out) {
-  // The contour of a segment lies about half a limb's thickness behind its nearest surface: what is hidden by
-  // less than this (m) is hidden by the segment itself or where two segments join.
+  // The contour of a segment is about half a limb's thickness behind its nearest surface: a point that is
+  // hidden by less than this (m) is hidden by its own segment or at a joint.
   constexpr float kThickness = 0.015F;
   const auto width = static_cast<float>(rendering.width);
   const auto height = static_cast<float>(rendering.height);
   out.clear();
   for (const MeshEdge& edge : mesh.edges) {
+    // Only edges between a front-facing and a back-facing triangle.
     if (rendering.facing[edge.triangle[0]] * rendering.facing[edge.triangle[1]] != -1) {
       continue;
     }
@@ -274,6 +277,7 @@ void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::ve
     if (!(length < 4096.0F)) {
       continue;
     }
+    // About one sample per pixel; keep those inside the image that nothing hides.
     const int steps = std::max(1, nearest_to(length));
     for (int i = 0; i < steps; ++i) {
       const Eigen::Vector3f p = a + d * ((static_cast<float>(i) + 0.5F) / static_cast<float>(steps));
@@ -288,7 +292,7 @@ void occluding_contour(const BodyMesh& mesh, const Rendering& rendering, std::ve
       const float nearest =
           rendering.inverse_depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(rendering.width) +
                                   static_cast<std::size_t>(x)];
-      // Depth of the sample minus depth of what the pixel shows, without dividing: 1/p.z - 1/nearest.
+      // Depth of the sample minus depth of the pixel, 1/p.z - 1/nearest, without dividing.
       if (nearest - p.z() > kThickness * nearest * p.z()) {
         continue;
       }

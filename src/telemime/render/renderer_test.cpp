@@ -320,7 +320,7 @@ TEST(Renderer, MovingThePrincipalPointMovesThePicture) {
   EXPECT_NE(a.surface, b.surface);
 }
 
-TEST(Renderer, MovingTheBodyAcrossAndThePrincipalPointBackChangesNothing) {
+TEST(Renderer, ShiftOfBodyAndPrincipalPointCancels) {
   Camera camera = small_camera();
   Scene scene;
   add_plate(scene, Segment::chest, 0.25, 2.0, 0.0, SurfaceClass::arms);

@@ -73,7 +73,7 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
     const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)];
     Pose arm = straight;
     set_arm_angles(arm, side, arm_through(body, straight, side, elbow, wrist, limits));
-    // What the limits cut off by little is still near the direction.
+    // A pose that the limits clamp only a little still points near the wanted direction.
     if (limits.contains(arm, 0.15)) {
       arm = limits.clamp(arm);
       if (interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {

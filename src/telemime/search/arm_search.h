@@ -9,24 +9,24 @@
 namespace telemime {
 
 struct ArmSearchConfig {
-  int samples = 400;  ///< random arms that are tried
-  int kept = 4;       ///< best ones that are refined
+  int samples = 400;  ///< random arms that are evaluated
+  int kept = 4;       ///< number of best arms that are refined
   int refine = 60;    ///< evaluations of each refinement
 };
 
-/// A random arm inside the limits that does not enter the body: direction of the upper arm, bend of the elbow
-/// and swivel drawn so that hands before the body are likelier than behind it.
+/// A random arm inside the limits and outside the body. Directions of upper arm and forearm are drawn so that
+/// hands in front of the body are likelier than behind it.
 Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random);
 
-/// The same arm with other forearms: the elbow stays (but for some centimetres where
-/// limits clamp), the hand is straight, and the forearm points in
-/// directions spread evenly (a Fibonacci lattice, turned at random) over all that lies before the chest and a
-/// little behind. Those outside the limits or inside the body are left out: at most `count` poses.
+/// The same arm with other forearms: the elbow stays (up to some centimetres where limits clamp), the hand is
+/// straight, and the forearms point in evenly spread directions (a Fibonacci lattice, rotated at random) in
+/// front of the chest and a little behind it. At most `count` poses: those outside the limits or inside the
+/// body are dropped.
 std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                               int count, Random& random);
 
-/// Looks for one arm everywhere, not only near where it was: random arms, the best refined by a simplex.
-/// Never worse than the arm that came in. For the first frame and for recovery.
+/// Searches one arm globally, for the first frame and for recovery: random arms, of which the best are
+/// refined by a simplex. Never costs more than the arm of `pose`.
 Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,
                 const ArmSearchConfig& config, Random& random);
 

@@ -94,7 +94,7 @@ TEST(ForearmFan, TurnsTheForearmAboutTheElbowAlone) {
   EXPECT_GT(poses, 2 * 20 * 2 * 10U) << "of 40 each";
 }
 
-TEST(ForearmFan, HasADirectionNearEveryForearmBeforeTheChest) {
+TEST(ForearmFan, HasADirectionNearEveryForwardForearm) {
   const Body body = make_body(Shape{});
   const JointLimits limits = anatomical_limits();
   Random random(6);

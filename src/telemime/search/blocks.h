@@ -12,8 +12,7 @@
 
 namespace telemime {
 
-/// A part of the pose as a search space of its own: the other parts stay as they are in the pose that it was
-/// made from.
+/// One part of the pose as a search space. The other parts keep the values of the pose it was made from.
 struct SearchBlock {
   std::string_view name;
   Eigen::VectorXd start;
@@ -22,35 +21,35 @@ struct SearchBlock {
   std::function<Pose(const Eigen::VectorXd&)> decode;
 };
 
-/// All 23 pose numbers (m and rad): the search of the reference.
+/// All 23 pose numbers (m and rad): the search space of the thesis.
 SearchBlock whole_block(const Pose& pose, const JointLimits& limits, double factor);
 
-/// Root translation and rotation, neck (9 numbers). The wrists stay where they are as far as they can be
-/// reached, so that trunk and arms are searched independently of each other.
+/// Root translation and rotation, and neck (9 numbers). The wrists keep their positions as far as they are in
+/// reach, so that trunk and arms are searched independently.
 SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& limits, double factor);
 
 /// One arm in end-effector space: the wrist along its viewing ray (x/z, y/z, z), swivel, and the hand's
-/// flexion, pivot and twisting (7 numbers). A wrist out of reach is drawn into reach.
+/// flexion, pivot and twisting (7 numbers). A wrist out of reach is moved to the nearest point in reach.
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor);
 
 /// The hand's three numbers in arm_block and bones_block: flexion, pivot, twisting.
 std::array<Angle, 3> hand_angles(Side side);
 
-/// A point of arm_block() as a pose.
+/// Pose that belongs to a point of arm_block().
 Pose with_arm(const Body& body, const Pose& pose, Side side, const Eigen::VectorXd& point,
               const JointLimits& limits);
 
-/// One arm by the directions of its bones: upper arm and forearm each turned within the image plane and in
-/// depth (rad), and the hand's flexion, pivot and twisting (7 numbers). The forearm keeps its direction when
-/// the upper arm turns.
+/// One arm by the directions of its bones: rotations of upper arm and forearm in the image plane and in depth
+/// (rad), and the hand's flexion, pivot and twisting (7 numbers). The forearm keeps its direction when the
+/// upper arm turns.
 SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                         double factor);
 
-/// Some of a block's numbers, from `first` on; the others keep their start. The block may go away.
+/// `count` of a block's numbers from `first` on; the others keep their start. Does not refer to `block`.
 SearchBlock part_of(const SearchBlock& block, Eigen::Index first, Eigen::Index count);
 
-/// The pose with one wrist moved there and the swivel set; out of reach: as near as the arm comes.
+/// The pose with one wrist and swivel at the target, or at the nearest point in reach.
 Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
                 const JointLimits& limits);
 

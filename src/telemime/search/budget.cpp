@@ -113,7 +113,7 @@ Allocation best_allocation(const QuadraticFit& fit, double alpha, double beta, d
 
 Split split_for_budget(double budget_ms, double alpha_ms, double beta_ms, const QuadraticFit& fit) {
   const Allocation best = best_allocation(fit, alpha_ms, beta_ms, budget_ms);
-  // A little above, so that 0.1 * 30 is still 3 after division and multiplication.
+  // Slightly more, so that 0.1 * 30 is still 3 after division and multiplication.
   constexpr double kRounding = 1e-9;
   constexpr double kMost = 1e6;
   Split split;

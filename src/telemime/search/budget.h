@@ -13,8 +13,8 @@
 
 namespace telemime {
 
-/// Mean 2-D error (mm) after x region and y edge evaluations a frame (thesis equation 3.19):
-/// z = A + B x + C y + D x^2 + F y^2 + G x y. Only measured for 0 <= x, y <= `limit`.
+/// Mean 2-D error (mm) after x region and y edge evaluations per frame (thesis equation 3.19):
+/// z = A + B x + C y + D x^2 + F y^2 + G x y. Fitted to measurements with 0 <= x, y <= `limit`.
 struct QuadraticFit {
   double a = 0.0, b = 0.0, c = 0.0, d = 0.0, f = 0.0, g = 0.0;
   double limit = std::numeric_limits<double>::infinity();  ///< evaluations
@@ -44,10 +44,10 @@ struct Allocation {
   double edge = 0.0;
 };
 
-/// The point of alpha x + beta y = rho, x, y >= 0 with the smallest z (thesis 3.6.2.2; the line's quadratic
-/// is solved directly, its ends included). On a tie, more regions. Where rho buys more than the fit was
-/// measured for, the best split inside its limit is stretched. alpha, beta > 0 and rho >= 0 in one unit of
-/// time; throws Error(usage) otherwise.
+/// The point of alpha x + beta y = rho, x, y >= 0 with the smallest z (thesis 3.6.2.2; the quadratic on the
+/// line is solved directly, its ends included). A tie gives more region evaluations. If rho allows more than
+/// the fit was measured for, the best split inside its limit is scaled up. alpha, beta > 0 and rho >= 0 in
+/// one unit of time; throws Error(usage) otherwise.
 Allocation best_allocation(const QuadraticFit& fit, double alpha, double beta, double rho);
 
 /// Whole evaluations of each step that fit into a budget.
@@ -59,10 +59,10 @@ struct Split {
   double region_share() const { return total() > 0 ? static_cast<double>(region) / total() : 1.0; }
 };
 
-/// best_allocation rounded down, so that it never takes longer than `budget_ms`. Times in ms.
+/// best_allocation rounded down, so that it never exceeds `budget_ms`. Times in ms.
 Split split_for_budget(double budget_ms, double alpha_ms, double beta_ms, const QuadraticFit& fit);
 
-/// What one evaluation costs on this machine at one working size.
+/// Time of one evaluation on this machine at one working size.
 struct EvaluationCost {
   int width = 0;
   int height = 0;
@@ -70,13 +70,13 @@ struct EvaluationCost {
   double edge_ms = 0.0;    ///< beta: one D_C
 };
 
-/// What `telemime-lab tune` measures and writes.
+/// Result of `telemime-lab tune`.
 struct Tuning {
   QuadraticFit fit;
   std::vector<EvaluationCost> costs;
 
-  /// The cost at this size; a size that was not measured takes that of the nearest one in pixels. Throws
-  /// Error(config) when none was.
+  /// The cost at this size, or at the measured size nearest to it in pixels. Throws Error(config) without
+  /// any.
   EvaluationCost cost_at(int width, int height) const;
 };
 
@@ -84,14 +84,14 @@ struct Tuning {
 /// the file and what is wrong.
 Tuning read_tuning(const std::filesystem::path& file);
 
-/// The JSON text; with `budget_ms` > 0 also the split of each size.
+/// The tuning as JSON text; with `budget_ms` > 0 also the split for each size.
 std::string tuning_json(const Tuning& tuning, double budget_ms);
 
-/// The frame in which the model itself stands in this pose: labels and distance map without any error, so
-/// that F is 0 there. For measurements and tests.
+/// A frame rendered from the model in this pose: labels and distance map are exact, so that F is 0 there. For
+/// measurements and tests.
 PreparedFrame frame_of_model(const Model& model, const Pose& pose, const Camera& camera);
 
-/// Person at 1.2 m, forearms raised before the body: `count` poses about there, as a search would try them.
+/// `count` random poses about a person at 1.2 m with raised forearms, as a search would evaluate them.
 std::vector<Pose> typical_poses(std::size_t count, Random& random);
 
 /// Median over `repeats` passes of the time of one F and of one D_C evaluation, over typical poses, at the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the budget that measures: what an F and a D_C cost here.
+// Measures the time of one F and one D_C evaluation on this machine.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -23,7 +23,7 @@ PreparedFrame frame_of_model(const Model& model, const Pose& pose, const Camera&
     seen.edges.at<std::uint8_t>(static_cast<int>(std::lround(p.y())), static_cast<int>(std::lround(p.x()))) =
         255;
   }
-  constexpr double kCapAt160 = 10.0;  // as in the features of a picture
+  constexpr double kCapAt160 = 10.0;  // as in feature extraction
   seen.distance = distance_map(seen.edges, kCapAt160 * camera.width / 160.0);
   return prepare(seen, camera);
 }
@@ -53,7 +53,7 @@ EvaluationCost measure_cost(Backend& backend, const Model& model, const Camera& 
   std::vector<Score> scores(poses.size());
   const auto median_ms = [&](Reduction terms) {
     std::vector<double> times;
-    backend.evaluate(frame, model, poses, terms, scores);  // warms up
+    backend.evaluate(frame, model, poses, terms, scores);  // warm-up
     for (int i = 0; i < std::max(1, repeats); ++i) {
       const double start = seconds();
       for (std::size_t k = 0; k < poses.size(); ++k) {  // one by one, as the search asks for them

@@ -71,7 +71,7 @@ TEST(BestAllocation, SolvesACaseByHand) {
   EXPECT_NEAR(best.edge, 20.0, 1e-9);
 }
 
-TEST(BestAllocation, TakesTheEndOfTheLineWhenTheMinimumLiesBeyondIt) {
+TEST(BestAllocation, TakesTheEndWhenTheMinimumLiesBeyond) {
   const QuadraticFit regions{0.0, -1.0, -0.1, 0.0, 0.0, 0.0, kInfinity};
   EXPECT_NEAR(best_allocation(regions, 2.0, 1.0, 100.0).region, 50.0, 1e-9);
   EXPECT_NEAR(best_allocation(regions, 2.0, 1.0, 100.0).edge, 0.0, 1e-9);
@@ -123,7 +123,7 @@ TEST(BestAllocation, RefusesCostsThatAreNotPositive) {
   EXPECT_THROW(best_allocation({}, 1.0, 1.0, std::nan("")), Error);
 }
 
-TEST(SplitForBudget, NeverTakesLongerAndWastesLessThanOneOfEach) {
+TEST(SplitForBudget, StaysInTheBudgetAndWastesLittle) {
   Random random(3);
   const QuadraticFit fit{100.0, -0.3, -0.2, 4e-4, 3e-4, 1e-4, 500.0};
   for (int trial = 0; trial < 300; ++trial) {
@@ -209,10 +209,10 @@ TEST(FrameOfModel, TheModelFitsItsOwnFrame) {
   const PreparedFrame frame = frame_of_model(model, poses[0], Camera{}.scaled_to(160, 120));
   std::vector<Score> scores(2);
   backend->evaluate(frame, model, poses, Reduction::all, scores);
-  EXPECT_EQ(scores[0].region, 0.0);
-  EXPECT_NEAR(scores[0].contour, 0.0, 1e-6);
-  EXPECT_GT(scores[1].region, 0.0);
-  EXPECT_GT(scores[1].contour, 0.0);
+  EXPECT_EQ(scores[0].region(), 0.0);
+  EXPECT_NEAR(scores[0].contour(), 0.0, 1e-6);
+  EXPECT_GT(scores[1].region(), 0.0);
+  EXPECT_GT(scores[1].contour(), 0.0);
 }
 
 }  // namespace

@@ -17,14 +17,11 @@ constexpr double kCrown = 0.271;
 constexpr double kAhead = 0.045;
 constexpr double kDesignStature = 1.70;
 
-ObjectiveWeights search_weights() {
-  ObjectiveWeights weights;
-  weights.contour = 0.15;
-  weights.natural = 0.04;
-  return weights;
+ObjectiveWeights search_weights(const CueTable& cues) {
+  return {.cues = step_weights(cues, &Cue::edge_step), .natural = 0.04};
 }
 
-// Pose alignment without memory of earlier frames.
+// Registration without a prediction from earlier frames.
 RegistrationConfig alignment(const RegistrationConfig& registration, int iterations, double fronto_parallel) {
   RegistrationConfig config = registration;
   config.iterations = iterations;
@@ -49,7 +46,7 @@ HeadGeometry head_geometry(const Body& body) {
               Eigen::Vector3d(0.0, 0.5 * (kCrown + kChin) * size * s.length, kAhead * size * s.height)};
 }
 
-// Is some part of the arm outside the image, or before the chest or head?
+// Why the arm cannot be fitted: a part of it is outside the image or in front of the chest. Empty: it can.
 std::string arm_problem(const Model& model, const Pose& pose, const Camera& camera, Side side) {
   const Kinematics k = forward_kinematics(model.body, pose);
   const bool left = side == Side::left;
@@ -62,13 +59,13 @@ std::string arm_problem(const Model& model, const Pose& pose, const Camera& came
     }
     const Eigen::Vector2d p = camera.project(k.joints[j]);
     if (p.x() < 0 || p.y() < 0 || p.x() > camera.width - 1 || p.y() > camera.height - 1) {
-      return "the " + name + " arm leaves the picture";
+      return "the " + name + " arm leaves the image";
     }
     const double low = std::min(l.x(), r.x());
     const double high = std::max(l.x(), r.x());
     const double margin = 0.1 * (high - low);
     if (j != Joint::l_elbow && j != Joint::r_elbow && p.x() > low + margin && p.x() < high - margin) {
-      return "the " + name + " hand is before the body";
+      return "the " + name + " hand is in front of the body";
     }
   }
   return {};
@@ -120,9 +117,11 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
   const Body& body = objective.model().body;
   const Camera& camera = objective.frame().camera;
   const HeadGeometry g = head_geometry(body);
-  const ObjectiveWeights weights = search_weights();
+  const ObjectiveWeights weights = search_weights(objective.cues());
   const Pose placed = place_at_head(body, head, camera);
   const double z_head = placed.root.z() - g.centre_from_root.z();
+  // Translation (thesis 3.3): the distance near the one from the head's height at which head and clothes
+  // overlap best. The arms are not known yet, so they do not count.
   Pose best = placed;
   double best_cost = std::numeric_limits<double>::infinity();
   for (int i = -6; i <= 6; ++i) {
@@ -131,7 +130,6 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
     pose.root = camera.ray(head.centre) * z - camera_from_body_at_rest() * g.centre_from_root;
     set_arm_angles(pose, Side::left, {0.0, 0.0, 0.3, -0.3});
     set_arm_angles(pose, Side::right, {0.0, 0.0, -0.3, -0.3});
-    // Head and clothes decide the distance: where the arms are is not known yet.
     const Score s = objective.score(pose, Reduction::overlap);
     double cost = 0.05 * std::abs(static_cast<double>(i)) / 6.0;
     for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
@@ -143,6 +141,7 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
       best = pose;
     }
   }
+  // Pose: each arm globally, twice, since they can cover each other; then all numbers together.
   for (int round = 0; round < 2; ++round) {
     ArmSearchConfig arms = config.arms;
     arms.samples = round == 0 ? arms.samples : arms.samples / 4;
@@ -157,6 +156,7 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
                       const RegistrationConfig& registration, Random& random) {
   Calibration result;
   result.shape.stature = config.stature.value_or(kDesignStature);
+  // Translation and pose with the average body.
   Model model = make_model(result.shape);
   {
     Objective objective(backend, frame, model, limits);
@@ -167,6 +167,7 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
             .pose;
     result.evaluations += objective.evaluations();
   }
+  // Shape adjustment and pose alignment in turn.
   const RegistrationConfig align = alignment(registration, config.pose_iterations, config.fronto_parallel);
   for (int round = 0; round < config.rounds; ++round) {
     const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, limits, config.shape);
@@ -179,16 +180,17 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
     result.score = registered.score;
     result.evaluations += objective.evaluations();
   }
+  // Whether this frame shows what the fit needs.
   for (const Side side : {Side::left, Side::right}) {
     if (result.refusal.empty()) {
       result.refusal = arm_problem(model, result.pose, frame.camera, side);
     }
   }
-  // An outline without a face may be somebody's side.
+  // A head without a face may be in profile.
   constexpr double kFaceless = 0.85;
   const double worst = config.worst_region * (head.detected ? 1.0 : kFaceless);
-  if (result.refusal.empty() && result.score.region > worst) {
-    result.refusal = "the body does not fit the picture (F " + std::to_string(result.score.region) + ")";
+  if (result.refusal.empty() && result.score.region() > worst) {
+    result.refusal = "the body does not fit the image (F " + std::to_string(result.score.region()) + ")";
   }
   return result;
 }

@@ -18,11 +18,11 @@ struct CalibrationConfig {
   ArmSearchConfig arms;
   ShapeFitConfig shape;
   ShapeRefineConfig refine;
-  int look_ahead = 150;           ///< frames of a file that the shape is fitted to; 0: the first one only
-  int rounds = 2;                 ///< of pose alignment and shape adjustment
+  int look_ahead = 150;           ///< frames of a file from which the shape is fitted; 0: the first one only
+  int rounds = 2;                 ///< rounds of pose alignment and shape adjustment
   int pose_iterations = 800;      ///< evaluations of each pose alignment
   double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image
-  double worst_region = 0.45;     ///< F above which the fit is refused; less where no face is seen
+  double worst_region = 0.45;     ///< F above which the fit is refused; 0.85 of it without a face
 
   void validate() const;
 };
@@ -32,21 +32,21 @@ struct Calibration {
   Pose pose;
   Score score;
   int evaluations = 0;
-  /// Why the shape of the arms could not be fitted here ("the left arm covers the chest"); empty: all was.
+  /// Why the arms could not be fitted in this frame, for messages; empty: they were.
   std::string refusal;
 };
 
-/// Places an average body behind the head in the image: distance from the head's height, the trunk upright
-/// and facing the camera, the arms hanging (thesis 3.3, "model translation").
+/// Places an average body at the head in the image: distance from the head's height, trunk upright and turned
+/// to the camera, arms hanging (thesis 3.3, "model translation").
 Pose place_at_head(const Body& body, const HeadRegion& head, const Camera& camera);
 
-/// Pose of a person whose shape is known, from nothing but the head: depth that minimises F, then arms
-/// everywhere, then all together.
+/// Pose of a person of known shape from the position of the head alone: the depth that minimises F, then a
+/// global search of each arm, then registration of the whole pose.
 Pose initialise_pose(Objective& objective, const HeadRegion& head, const CalibrationConfig& config,
                      const RegistrationConfig& registration, Random& random);
 
-/// The three steps of thesis 3.3 on one frame: translation, pose, shape. Refuses (keeps the average arms)
-/// when the arms are not free of the body or of the image's edge, and says why.
+/// The three steps of thesis 3.3 on one frame: translation, pose, shape. When an arm covers the body or
+/// leaves the image, the result says so in `refusal`.
 Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRegion& head,
                       const JointLimits& limits, const CalibrationConfig& config,
                       const RegistrationConfig& registration, Random& random);

@@ -88,6 +88,25 @@ double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, dou
   return sum / 4.0;
 }
 
+CueValues step_weights(const CueTable& cues, double Cue::*step) {
+  CueValues weights{};
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    weights[i] = cues[i].*step;
+  }
+  return weights;
+}
+
+double add_cue_costs(double cost, const Backend& backend, const PreparedFrame& frame,
+                     const CueValues& weights, const Score& score) {
+  const CueTable& cues = backend.cues();
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    if (weights[i] > 0.0 && cues[i].enabled) {
+      cost += weights[i] * score.costs[i] / in_cost_units(cues[i], cues[i].scale, frame.camera);
+    }
+  }
+  return cost;
+}
+
 Prior prior_at(const Body& body, const Pose& pose, double heading) {
   return {Prior::Prediction{pose, forward_kinematics(body, pose).joints}, heading};
 }
@@ -117,14 +136,11 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
     cost += weights.temporal > 0.0 ? weights.temporal * distance_from_predicted(k, joints) : 0.0;
     cost += weights.trunk > 0.0 ? weights.trunk * trunk_change(pose, predicted) : 0.0;
   }
-  const bool region = weights.region > 0.0;
-  const bool contour = weights.contour > 0.0;
-  const Score s = score(pose, region && contour ? Reduction::all
-                              : region          ? Reduction::overlap
-                                                : Reduction::contour);
-  cost += region ? weights.region * s.region : 0.0;
-  cost += contour ? weights.contour * s.contour / (weights.contour_scale * frame_.camera.width) : 0.0;
-  return cost;
+  Reduction needs = Reduction::none;
+  for (std::size_t i = 0; i < cues().size(); ++i) {
+    needs = weights.cues[i] > 0.0 && cues()[i].enabled ? needs | cues()[i].needs : needs;
+  }
+  return add_cue_costs(cost, backend_, frame_, weights.cues, score(pose, needs));
 }
 
 Score Objective::score(const Pose& pose, Reduction terms) {

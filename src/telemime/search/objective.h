@@ -9,14 +9,22 @@
 
 namespace telemime {
 
+/// Default weights of the built-in cues, or of those in a table, in one step: `step` is &Cue::region_step or
+/// &Cue::edge_step.
+constexpr CueValues step_weights(double Cue::*step) {
+  CueValues weights{};
+  for (std::size_t i = 0; i < kCues.size(); ++i) {
+    weights[i] = kCues[i].*step;
+  }
+  return weights;
+}
+CueValues step_weights(const CueTable& cues, double Cue::*step);
+
 /// Weights of the terms that a search minimises: the cues' costs and what is known without the image.
 struct ObjectiveWeights {
-  double region = 1.0;   ///< of F
-  double contour = 0.0;  ///< of D_C over contour_scale
-  double contour_scale =
-      0.02;              ///< D_C is divided by this share of the image's width, so that it is of F's size
-  double invalid = 4.0;  ///< per metre of interpenetration
-  double natural = 0.0;  ///< of natural_cost
+  CueValues cues = step_weights(&Cue::region_step);  ///< of each cue's cost over Cue::scale
+  double invalid = 4.0;                              ///< per metre of interpenetration
+  double natural = 0.0;                              ///< of natural_cost
   /// Of distance_from_predicted: the squared distance (in 0.15 m) of elbows and wrists from their prediction.
   double temporal = 0.0;
   /// Of the squared difference (in 0.03 m and 0.1 rad) between the trunk and its prediction.
@@ -40,6 +48,10 @@ double distance_from_predicted(const Kinematics& kinematics, const JointPosition
 /// `velocity` (0 to 1) of their last motion, inside the limits. The trunk stays, because extrapolating its
 /// small motion would only add noise.
 Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits);
+
+/// Weighted costs of all enabled cues, added to `cost` one after the other.
+double add_cue_costs(double cost, const Backend& backend, const PreparedFrame& frame,
+                     const CueValues& weights, const Score& score);
 
 /// What is known about a pose before the image is evaluated.
 struct Prior {
@@ -69,12 +81,13 @@ class Objective {
 
   /// Cost of the pose. Angles outside the limits add a cost in proportion.
   double operator()(const Pose& pose, const ObjectiveWeights& weights);
-  /// F and D_C of the pose; counts as one evaluation.
+  /// Score by the cues whose reductions `terms` contains; counts as one evaluation.
   Score score(const Pose& pose, Reduction terms);
 
   const Model& model() const { return model_; }
   const JointLimits& limits() const { return limits_; }
   const PreparedFrame& frame() const { return frame_; }
+  const CueTable& cues() const { return backend_.cues(); }
   int evaluations() const { return evaluations_; }
 
  private:

@@ -15,8 +15,9 @@ namespace telemime {
 namespace {
 
 constexpr int kFlips = 3;
-// Between the wrists (m) of a proposal and of the arm itself: what is nearer belongs to the same valley of
-// the cost mostly, and would hide the others. And between two proposals that are both worth a search.
+// Least distance (m) of a proposal's wrist from the present one: nearer proposals mostly lead to the same
+// minimum and would displace the others. And least distance between the wrists of two proposals that are both
+// searched.
 constexpr double kAway = 0.15;
 constexpr double kApart = 0.10;
 constexpr double kTolerance = 1e-4;
@@ -45,9 +46,9 @@ Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
   return forward_kinematics(body, pose).joints[side == Side::left ? Joint::l_wrist : Joint::r_wrist];
 }
 
-// The cheapest ones whose wrists are away from that of `here` and apart from each other's.
-std::vector<Candidate> unlike(std::vector<Candidate> candidates, const Body& body, const Pose& here,
-                              Side side, int count) {
+// The cheapest candidates whose wrists are kAway from that of `here` and kApart from each other.
+std::vector<Candidate> distinct(std::vector<Candidate> candidates, const Body& body, const Pose& here,
+                                Side side, int count) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   const Eigen::Vector3d own = wrist_of(body, here, side);
@@ -68,8 +69,8 @@ std::vector<Candidate> unlike(std::vector<Candidate> candidates, const Body& bod
   return kept;
 }
 
-std::vector<Pose> arms_from_elsewhere(const Objective& objective, const Pose& from, Side side,
-                                      const ProposalConfig& config, Random& random) {
+std::vector<Pose> proposed_arms(const Objective& objective, const Pose& from, Side side,
+                                const ProposalConfig& config, Random& random) {
   const Body& body = objective.model().body;
   const JointLimits& limits = objective.limits();
   std::vector<Pose> arms = forearm_fan(body, from, side, limits, config.directions, random);
@@ -103,7 +104,7 @@ ProposalConfig ProposalConfig::within(int most) const {
   if (evaluations() <= most) {
     return less;
   }
-  constexpr int kFewest = 8;  // directions; fewer find nothing
+  constexpr int kFewest = 8;  // directions; fewer rarely find a lost arm
   for (double share = static_cast<double>(most) / evaluations(); share > 0.0; share -= 0.02) {
     const auto shared = [&](int whole) { return static_cast<int>(std::floor(whole * share)); };
     less.directions = shared(directions);
@@ -147,7 +148,8 @@ Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWei
   for (const Side side : {Side::left, Side::right}) {
     upright = with_wrist(body, upright, side, arm_target(body, start, side), limits);
   }
-  // The arms fit the trunk that they were followed with: both get a short search before they are compared.
+  // The arms fit the trunk with which they were tracked: both candidates get a short search before the
+  // comparison.
   const auto settled = [&](const Pose& pose) {
     Candidate best = {pose, objective(pose, weights)};
     for (const Side side : {Side::left, Side::right}) {
@@ -175,14 +177,16 @@ Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeight
     return bones_block(body, pose, side, limits, simplex_factor);
   };
   for (const Side side : sides) {
+    // Evaluate all proposals and keep the best that differ.
     std::vector<Candidate> others;
-    for (const Pose& arm : arms_from_elsewhere(objective, best.pose, side, config, random)) {
+    for (const Pose& arm : proposed_arms(objective, best.pose, side, config, random)) {
       others.push_back({arm, objective(arm, weights)});
     }
-    others = unlike(std::move(others), body, best.pose, side, config.kept);
+    others = distinct(std::move(others), body, best.pose, side, config.kept);
     if (others.empty()) {
       continue;
     }
+    // Turn their forearms, then search the best one and the present arm further.
     for (Candidate& other : others) {
       other = searched(objective, other, part_of(bones(other.pose, side), 2, 2), weights, config.turns);
     }

@@ -22,11 +22,11 @@ struct Candidate {
   Pose pose;
 };
 
-// A group of numbers that are fitted together: added to the logarithm of scales, to the sleeve or to the
+// Numbers that are fitted together. They are added to logarithms of scales, to the sleeve or to the
 // translation.
 struct Group {
   std::vector<double> steps;
-  std::vector<double> reach;  // how far each may go from the start
+  std::vector<double> reach;  // largest change of each
   std::function<Candidate(const Candidate&, const Eigen::VectorXd&)> apply;
 };
 
@@ -58,9 +58,9 @@ Group head_group() {
 // How far a relaxed forearm points toward the camera when the arms are held parallel to the image.
 constexpr double kRelaxedSlope = 15.0 * std::numbers::pi / 180.0;
 
-// The arm of a person who holds it parallel to the image: in-plane directions turned by two angles from where
-// the pose has them, the forearm sloping a little toward the camera. Lengths and directions can then be
-// fitted together, without the foreshortening that would hide a wrong length.
+// Lays an arm parallel to the image plane: its in-plane directions are those of the pose turned by two
+// angles; the forearm slopes a little towards the camera. Lengths and directions can then be fitted together
+// without the foreshortening that would hide a wrong length.
 void flatten_arm(const Body& body, const JointLimits& limits, Side side, double turn_upper, double turn_fore,
                  Pose& pose) {
   const auto i = static_cast<std::size_t>(side);
@@ -117,7 +117,7 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
            square(std::log(s.height) / config.girth_spread) + square(std::log(s.width) / config.girth_spread);
   }
   sum /= static_cast<double>(3 * kSegmentCount);
-  // A nearly straight arm shows its whole length but not where the elbow is: people's proportions decide.
+  // A nearly straight arm shows its whole length but not where the elbow is: average proportions decide.
   sum += square(std::log(shape[Segment::l_upper_arm].length / shape[Segment::l_forearm].length) /
                 config.ratio_spread);
   sum += square(std::log(shape[Segment::r_upper_arm].length / shape[Segment::r_forearm].length) /
@@ -135,8 +135,11 @@ ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& sh
     groups.push_back(arms_group({Side::right}, limits));
   }
   Candidate best = {shape, pose};
+  CueValues weights = step_weights(backend.cues(), &Cue::edge_step);
+  weights[cue::kContour] = config.contour_weight;
   ShapeFit fit;
   for (const Group& group : groups) {
+    // Cost of a change: all cues, and the deviation from the average body.
     const auto n = static_cast<Eigen::Index>(group.steps.size());
     const Eigen::VectorXd steps = Eigen::Map<const Eigen::VectorXd>(group.steps.data(), n);
     const Eigen::VectorXd reach = Eigen::Map<const Eigen::VectorXd>(group.reach.data(), n);
@@ -144,11 +147,11 @@ ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& sh
       const Candidate c = group.apply(best, x);
       const Model model = make_model(c.shape);
       Score s;
-      backend.evaluate(frame, model, {&c.pose, 1}, Reduction::all, {&s, 1});
-      const double scale_px = 0.02 * frame.camera.width;
-      return s.region + config.contour_weight * s.contour / scale_px +
+      backend.evaluate(frame, model, {&c.pose, 1}, backend.cues().needs(), {&s, 1});
+      return add_cue_costs(0.0, backend, frame, weights, s) +
              config.prior_weight * shape_prior(c.shape, config);
     };
+    // Minimise it, and continue from the result with the next group.
     SimplexOptions options;
     options.max_evaluations = config.iterations * static_cast<int>(n) / 6;
     const Bounds bounds = {-reach, reach};

@@ -22,7 +22,7 @@ double square(double x) {
 
 using ArmPoints = Eigen::Matrix<double, 3, 4>;
 
-// Elbows and wrists from the middle of the shoulders.
+// Elbows and wrists relative to the middle of the shoulders, m.
 ArmPoints arm_points(const Body& body, const Pose& pose) {
   const JointPositions j = forward_kinematics(body, pose).joints;
   const Eigen::Vector3d middle = mid_shoulders(j);
@@ -31,8 +31,8 @@ ArmPoints arm_points(const Body& body, const Pose& pose) {
   return points.colwise() - middle;
 }
 
-// The point at `length` from `parent` on the viewing ray of `seen`, on the side of `parent` on which `seen`
-// was; when the ray passes too far away, the point of the sphere nearest to it.
+// The point at the distance `length` from `parent` on the viewing ray of `seen`, on the same side of `parent`
+// as `seen`. When the ray passes too far away: the point of that sphere nearest to the ray.
 Eigen::Vector3d on_ray(const Eigen::Vector3d& seen, const Eigen::Vector3d& old_parent,
                        const Eigen::Vector3d& parent, double length) {
   const Eigen::Vector3d ray = seen.normalized();
@@ -55,8 +55,8 @@ void both(Shape& shape, Segment left, Segment right, double length, double girth
   }
 }
 
-// Directions in which lengths are searched one after the other: the whole arm, its share between upper arm
-// and forearm, the hand, the shoulders.
+// Changes of lengths that are searched one after the other: the whole arm, its division into upper arm and
+// forearm, the hand, the shoulders.
 using LengthChange = void (*)(Shape&, double);
 constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) {
@@ -73,7 +73,7 @@ constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) { s[Segment::chest].width *= std::exp(x); }, 0.04},
 }};
 
-// Logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
+// Changes the logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
 Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
   Shape to = from;
   both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
@@ -83,7 +83,7 @@ Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
   return to;
 }
 
-// A shape with the best poses that were found for it.
+// A shape and the best poses that were found with it.
 struct Fitted {
   Shape shape;
   std::vector<Pose> poses;
@@ -100,8 +100,8 @@ class Refiner {
     }
   }
 
-  // The cost of a shape. Each keyframe's pose is carried over from `from` (or keeps its angles, whichever
-  // fits better); with `iterations`, each arm is then searched anew.
+  // Evaluates a shape. Each keyframe starts from its pose in `from`, carried over or with the same angles,
+  // whichever fits better; with `iterations` > 0 each arm is then searched.
   Fitted fit(const Fitted& from, const Shape& shape, int iterations) {
     const Model model = make_model(shape);
     const Body old_body = make_body(from.shape);
@@ -127,7 +127,7 @@ class Refiner {
   int evaluations() const { return evaluations_; }
 
  private:
-  // People's arms differ less than what single frames make of them.
+  // Proportions of arms vary less over people than estimates from single frames do.
   double prior(const Shape& shape) const {
     const SegmentScale& upper = shape[Segment::l_upper_arm];
     const SegmentScale& fore = shape[Segment::l_forearm];
@@ -143,9 +143,9 @@ class Refiner {
 
   std::pair<Pose, double> best_pose(Objective& objective, const std::array<Pose, 2>& starts,
                                     int iterations) const {
-    ObjectiveWeights weights;
-    weights.contour = config_.contour_weight;
-    weights.natural = config_.natural_weight;
+    ObjectiveWeights weights{.cues = step_weights(objective.cues(), &Cue::edge_step),
+                             .natural = config_.natural_weight};
+    weights.cues[cue::kContour] = config_.contour_weight;
     std::pair<Pose, double> best = {starts[0], objective(starts[0], weights)};
     if (const double other = objective(starts[1], weights); other < best.second) {
       best = {starts[1], other};
@@ -175,8 +175,8 @@ class Refiner {
   int evaluations_ = 0;
 };
 
-// The minimum of the parabola through costs at -2, -1, 0, 1, 2 (least squares), within that range. The costs
-// are noisy, because the poses' searches end early: a parabola through five of them is less so.
+// Minimum of the least-squares parabola through the costs at -2, -1, 0, 1, 2, within that range. The costs
+// are noisy, because the searches of the poses end early; the parabola smooths them.
 double minimum_of_parabola(const std::array<double, 5>& cost) {
   const double slope = (-2.0 * cost[0] - cost[1] + cost[3] + 2.0 * cost[4]) / 10.0;
   const double bend = (2.0 * cost[0] - cost[1] - 2.0 * cost[2] - cost[3] + 2.0 * cost[4]) / 14.0;
@@ -202,7 +202,7 @@ Fitted search_length(Refiner& refiner, const Fitted& from, LengthChange change, 
                                                                  : tried[static_cast<std::size_t>(lowest)];
 }
 
-// Girths move no joint: the poses are not searched anew.
+// Girths move no joint, so the poses are not searched again.
 Fitted search_girths(Refiner& refiner, const Fitted& from, double step, int shapes) {
   const Eigen::VectorXd reach = Eigen::Vector4d(0.5, 0.5, 0.5, 1.0);
   const Bounds bounds = {-reach, reach};
@@ -236,6 +236,7 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
   if (candidates.empty() || count == 0) {
     return picked;
   }
+  // Good candidates: both arms visible, and F at most 1.1 times the median.
   std::vector<double> regions;
   std::vector<ArmPoints> points;
   for (const Keyframe& k : candidates) {
@@ -256,6 +257,7 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
   if (picked.empty()) {
     return picked;
   }
+  // Farthest-point sampling over the positions of the arms.
   while (picked.size() < count) {
     std::size_t farthest = picked.front();
     for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -304,6 +306,7 @@ ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const K
   for (const Keyframe& k : keyframes) {
     best.poses.push_back(k.pose);
   }
+  // Coordinate descent: each length, then all girths, with smaller steps in each round.
   ShapeRefinement result;
   best = refiner.fit(best, shape, config.pose_iterations);
   result.cost_before = best.cost;

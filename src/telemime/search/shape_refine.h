@@ -12,16 +12,16 @@ namespace telemime {
 
 /// Settings of refine_shape.
 struct ShapeRefineConfig {
-  int keyframes = 8;             ///< frames that the shape is fitted to at once
-  int rounds = 2;                ///< over all lengths, each with half the step of the one before
-  int pose_iterations = 100;     ///< evaluations that each arm of each keyframe gets for each length tried
-  int shapes = 60;               ///< girths and sleeves that are tried in each round
-  double contour_weight = 0.15;  ///< of D_C beside F
-  double natural_weight = 0.02;  ///< of natural_cost in each keyframe
-  double prior_weight = 0.002;   ///< of the squared deviations (over their spreads) from average arms
+  int keyframes = 8;             ///< frames to which the shape is fitted at once
+  int rounds = 2;                ///< rounds over all lengths, each with half the step of the one before
+  int pose_iterations = 100;     ///< evaluations per arm, keyframe and length
+  int shapes = 60;               ///< girths and sleeves that are evaluated in each round
+  double contour_weight = 0.15;  ///< weight of D_C beside F
+  double natural_weight = 0.02;  ///< weight of natural_cost in each keyframe
+  double prior_weight = 0.002;   ///< weight of the squared deviations (in spreads) from average arms
 };
 
-/// A frame with the pose that was found in it.
+/// A frame and the pose that was estimated in it.
 struct Keyframe {
   PreparedFrame frame;
   Pose pose;
@@ -30,7 +30,7 @@ struct Keyframe {
 
 struct ShapeRefinement {
   Shape shape;
-  std::vector<Pose> poses;  ///< of the keyframes, for the new shape
+  std::vector<Pose> poses;  ///< of the keyframes, with the new shape
   double cost_before = 0.0;
   double cost = 0.0;  ///< mean over the keyframes, prior included
   int evaluations = 0;
@@ -38,28 +38,28 @@ struct ShapeRefinement {
 
 using BackendMaker = std::function<std::unique_ptr<Backend>()>;
 
-/// Are elbows, wrists and hands inside the image?
+/// Whether elbows, wrists and hands are inside the image.
 bool shows_arms(const Body& body, const Keyframe& keyframe);
 
-/// Picks at most `count` of the candidates: the first good one, then always the one whose arms are farthest
-/// from those picked. Good ones show both arms and do not fit much worse than the others. Returns their
-/// indices in rising order.
+/// Indices, in rising order, of at most `count` candidates: the first good one, then repeatedly the one whose
+/// arms are farthest from those already picked. A good candidate shows both arms and has an F of at most 1.1
+/// times the median.
 std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyframe> candidates,
                                         std::size_t count);
 
-/// The pose with the same trunk for another body: elbows and wrists stay on their viewing rays, at the depth
-/// that the new lengths ask for, on the side (nearer or farther than their parent joint) on which they were.
+/// The pose for a body of other lengths: the trunk stays; elbows and wrists stay on their viewing rays, at
+/// the depth that the new lengths require, on the same side (nearer or farther) of their parent joint.
 Pose carry_pose(const Body& from, const Body& to, const Pose& pose, const JointLimits& limits);
 
-/// `trunk` with its arms laid so that elbows and wrists stay on the viewing rays on which `pose` of the body
-/// `from` has them, as carry_pose does.
+/// The pose `trunk` with arms whose elbows and wrists are on the viewing rays on which `pose` of the body
+/// `from` has them, as in carry_pose.
 Pose carry_arms(const Body& from, const Pose& pose, const Body& to, const Pose& trunk,
                 const JointLimits& limits);
 
-/// Fits limb lengths, shoulder width, girths and sleeve to several frames at once, each with a pose of its
-/// own. One frame shows a limb foreshortened and a straight arm hides where its elbow is; frames with
-/// different poses together do not. Keyframes are worked on in parallel; the result
-/// does not depend on the number of threads. `shape` comes back when nothing better is found.
+/// Fits limb lengths, shoulder width, girths and sleeve to several frames at once, each with its own pose. In
+/// one frame limbs are foreshortened and a straight arm hides its elbow; several frames with different poses
+/// determine the lengths. Keyframes are processed in parallel; the result does not depend on the number of
+/// threads. Returns `shape` when nothing better is found.
 ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const Keyframe> keyframes,
                              const Shape& shape, const JointLimits& limits, const ShapeFitConfig& spreads,
                              const ShapeRefineConfig& config);

@@ -108,7 +108,7 @@ TEST(CarryPose, ArmsTooShortReachAsFarAsTheyCan) {
   EXPECT_NEAR((j[Joint::l_wrist] - j[Joint::l_elbow]).norm(), other.forearm_length[0], 1e-6);
 }
 
-TEST(CarryArms, ArmsStayWhereTheyAreSeenWhileTheTrunkTurnsAndMoves) {
+TEST(CarryArms, ArmsStayInTheImageWhenTheTrunkMoves) {
   const Camera camera = camera_from_field_of_view(640, 480, 60.0);
   const Body body = make_body(Shape{});
   const Pose pose = with_arms(40 * kDegree, -70 * kDegree);

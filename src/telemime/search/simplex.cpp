@@ -68,28 +68,32 @@ SimplexResult minimise(const std::function<double(const Eigen::VectorXd&)>& cost
   };
   const auto by_cost = [](const Vertex& a, const Vertex& b) { return a.cost < b.cost; };
 
+  // Evaluate the start; stable sorting keeps equal vertices in order, so that equal input gives equal
+  // results.
   std::vector<Vertex>& s = result.simplex;
   for (const Eigen::VectorXd& point : start) {
     if (result.evaluations < std::max(1, options.max_evaluations)) {
       s.push_back(evaluate(point));
     }
   }
-  // Stable sorting keeps equal vertices in a fixed order: same input, same path.
   std::stable_sort(s.begin(), s.end(), by_cost);
   const bool complete = s.size() == start.size();
   while (complete && result.evaluations < options.max_evaluations) {
+    // Converged when best and worst differ by less than the tolerance.
     const double spread = s.back().cost - s.front().cost;
     if (spread <= options.tolerance * 0.5 * (std::abs(s.back().cost) + std::abs(s.front().cost)) ||
         !(spread > 0.0)) {
       result.reason = StopReason::converged;
       break;
     }
+    // Centroid of all vertices but the worst.
     Eigen::VectorXd centre = Eigen::VectorXd::Zero(s.front().point.size());
     for (std::size_t i = 0; i + 1 < s.size(); ++i) {
       centre += s[i].point;
     }
     centre /= static_cast<double>(s.size() - 1);
 
+    // Replace the worst vertex: reflect, expand, contract or shrink.
     Vertex& worst = s.back();
     const Vertex& second_worst = s[s.size() - 2];
     const Vertex reflected = evaluate(centre + options.reflection * (centre - worst.point));

@@ -7,7 +7,7 @@
 
 namespace telemime {
 
-/// Box in which a search stays. Both vectors have the size of the search space.
+/// Bounds of a search space; both vectors have its dimension.
 struct Bounds {
   Eigen::VectorXd low;
   Eigen::VectorXd high;
@@ -38,20 +38,20 @@ struct SimplexResult {
   const Vertex& best() const { return simplex.front(); }
 };
 
-/// The start point and one vertex along each axis, a step away: steps may be negative, and are turned around
-/// where they would leave the bounds. All inside.
+/// n + 1 points inside the bounds: the start and one vertex one step away along each axis. Steps may be
+/// negative; a step that would leave the bounds is reversed.
 std::vector<Eigen::VectorXd> axis_simplex(const Eigen::VectorXd& start, const Eigen::VectorXd& steps,
                                           const Bounds& bounds);
 
-/// The simplex shrunk or blown up about its best vertex so that its extent along no axis is below `least`:
-/// the edge step starts from the region step's last simplex, which may have collapsed (thesis 3.5.4).
+/// Points of the simplex for a second search, with an extent of at least `least` along every axis: the edge
+/// step starts from the region step's last simplex, which may have collapsed (thesis 3.5.4).
 std::vector<Eigen::VectorXd> restart_simplex(const std::vector<Vertex>& simplex, const Eigen::VectorXd& least,
                                              const Bounds& bounds);
 
-/// Downhill simplex (Nelder & Mead 1965; thesis 2.4.4.4 with the standard ordering) inside a box: trial
-/// points are projected onto it. `start` holds n + 1 points. The number of evaluations never exceeds the
-/// limit, unless the limit is below n + 1: then only that many vertices are evaluated and the best of them
-/// comes back. Deterministic. Throws Error(usage) on an empty start, or sizes that do not match.
+/// Downhill simplex (Nelder & Mead 1965; thesis 2.4.4.4 with the standard ordering) inside bounds, onto which
+/// trial points are projected. `start` holds n + 1 points. Evaluations never exceed the limit; with a limit
+/// below n + 1 only that many vertices are evaluated and the best is returned. Deterministic. Throws
+/// Error(usage) for an empty start and for sizes that do not match.
 SimplexResult minimise(const std::function<double(const Eigen::VectorXd&)>& cost,
                        const std::vector<Eigen::VectorXd>& start, const Bounds& bounds,
                        const SimplexOptions& options);

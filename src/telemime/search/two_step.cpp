@@ -14,15 +14,15 @@ namespace {
 
 constexpr std::size_t kParts = 3;  // trunk, left arm, right arm
 
-// What a step leaves to the next: the pose, and the extent of each block's last simplex.
+// Result of one step: the pose, and the last simplex of each block.
 struct StepResult {
   Pose pose;
   std::vector<std::vector<Vertex>> simplexes;
   bool converged = true;
 };
 
-// Arms are searched by their bones in even rounds and by their wrist in odd ones: the first moves the forearm
-// without the elbow, the second slides the wrist along its viewing ray.
+// Arms are searched by their bones in even rounds and by their wrist in odd rounds: the first moves the
+// forearm without the elbow, the second slides the wrist along its viewing ray.
 SearchBlock make_block(std::size_t part, int round, const Objective& objective, const Pose& pose,
                        double factor) {
   const Body& body = objective.model().body;
@@ -35,12 +35,12 @@ SearchBlock make_block(std::size_t part, int round, const Objective& objective, 
                         : arm_block(body, pose, side, limits, factor);
 }
 
-// How far the first simplex reaches along each axis.
+// Extent of the first simplex along each axis.
 Eigen::VectorXd first_steps(const SearchBlock& block, const std::vector<Vertex>* last, double shrink) {
   if (last == nullptr || last->size() < 2) {
     return block.steps;
   }
-  // The last simplex's extent, laid about where this block is now (other blocks may have moved on).
+  // The extent of the last simplex, centred on the block's present start: other blocks may have moved since.
   Eigen::VectorXd extent = block.steps * shrink;
   for (const Vertex& v : *last) {
     extent = extent.cwiseMax((v.point - last->front().point).cwiseAbs().cwiseMin(block.steps));
@@ -68,8 +68,8 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
     const auto* last = before != nullptr ? &before->simplexes[part] : nullptr;
     Eigen::VectorXd steps = first_steps(block, last, shrink);
     if (config.blocks && part == 0) {
-      // Where the face points is hardly seen: it would drift from frame to frame to the side on which the
-      // simplex always begins. Arms are seen; chance makes them less steady.
+      // Regions and contours hardly show where the trunk is turned: it would drift towards the side on which
+      // the simplex always begins. Arms are visible; random steps would only make them less steady.
       steps = either_way(steps, random);
     }
     SimplexOptions options;
@@ -82,10 +82,12 @@ StepResult run_step(Objective& objective, const Pose& start, const RegistrationC
     result.simplexes[part] = found.simplex;
     result.converged = result.converged && found.reason == StopReason::converged;
   };
+  // Reference: one simplex over all numbers.
   if (!config.blocks) {
     search(whole_block(start, objective.limits(), config.simplex_factor), 0, budget);
     return result;
   }
+  // Trunk and arms in turn; each round starts with half the step of the round before.
   const int first = objective.evaluations();
   constexpr std::array<double, kParts> kShare = {0.2, 0.4, 0.4};
   for (int round = 0; round < config.rounds; ++round) {
@@ -105,10 +107,10 @@ bool is_bent(const Pose& pose) {
                    std::abs(pose[Angle::root_tilt])}) > kUpright;
 }
 
-// For both arms where the evaluations would be enough for one in full, else for one at random.
+// Proposals for both arms if there are enough evaluations for one arm in full, else for one arm at random.
 Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& config, int budget,
              Random& random) {
-  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk, before any search
+  constexpr int kBeside = 3;  // evaluations of the start and of the upright trunk before any search
   const int most = std::min(static_cast<int>(std::floor(config.proposal_share * budget)), budget - kBeside);
   const bool upright = config.proposals.upright && most >= kBeside;
   const int settle = upright && is_bent(start) ? most / 8 : 0;
@@ -142,10 +144,10 @@ void RegistrationConfig::validate() const {
   require(proposal_share >= 0.0 && proposal_share <= 1.0, "proposal_share must be between 0 and 1");
   require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
   for (const ObjectiveWeights* w : {&region, &edge}) {
-    require(w->region >= 0.0 && w->contour >= 0.0 && w->invalid >= 0.0 && w->natural >= 0.0 &&
-                w->temporal >= 0.0 && w->trunk >= 0.0 && w->fronto_parallel >= 0.0,
+    require(std::all_of(w->cues.begin(), w->cues.end(), [](double weight) { return weight >= 0.0; }) &&
+                w->invalid >= 0.0 && w->natural >= 0.0 && w->temporal >= 0.0 && w->trunk >= 0.0 &&
+                w->fronto_parallel >= 0.0,
             "weights must not be negative");
-    require(w->contour_scale > 0.0, "contour_scale must be positive");
   }
 }
 
@@ -158,13 +160,26 @@ RegistrationConfig for_time_step(RegistrationConfig config, double frames) {
   return config;
 }
 
+RegistrationConfig with_cues(RegistrationConfig config, const CueTable& cues) {
+  for (std::size_t i = kCues.size(); i < cues.size(); ++i) {
+    config.region.cues[i] = cues[i].region_step;
+    config.edge.cues[i] = cues[i].edge_step;
+  }
+  return config;
+}
+
 RegistrationConfig reference_registration() {
   RegistrationConfig config;
+  const auto only = [](std::size_t index) {
+    CueValues weights{};
+    weights[index] = 1.0;
+    return weights;
+  };
   config.blocks = false;
   config.region_share = 0.5;
   config.proposals = no_proposals();
-  config.region = {1.0, 0.0, 0.02, 4.0, 0.0, 0.0, 0.0};
-  config.edge = {0.0, 1.0, 0.02, 4.0, 0.0, 0.0, 0.0};
+  config.region = {.cues = only(cue::kRegion)};
+  config.edge = {.cues = only(cue::kContour)};
   return config;
 }
 
@@ -173,7 +188,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   const double share = config.method == Method::regions ? 1.0
                        : config.method == Method::edges ? 0.0
                                                         : config.region_share;
-  // The last evaluation scores the pose that is returned.
+  // Divide the evaluations; the last one scores the pose that is returned.
   const int budget = std::max(1, config.iterations - 1);
   const int region_budget = static_cast<int>(std::lround(share * budget));
 
@@ -181,6 +196,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   StepResult step;
   step.pose = start;
   step.simplexes.resize(kParts);
+  // Region step: minimise F (thesis equation 2.5) from the best proposal.
   int before = objective.evaluations();
   auto clock = std::chrono::steady_clock::now();
   if (region_budget > 0) {
@@ -191,6 +207,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   result.region_evaluations = objective.evaluations() - before;
   result.region_ms = milliseconds_since(clock);
 
+  // Edge step: minimise D_C (thesis equation 3.13) from the extent of the last simplex (thesis 3.5.4).
   before = objective.evaluations();
   clock = std::chrono::steady_clock::now();
   if (budget - region_budget > 0) {
@@ -200,7 +217,7 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   result.edge_evaluations = objective.evaluations() - before;
   result.edge_ms = milliseconds_since(clock);
   result.pose = objective.limits().clamp(step.pose);
-  result.score = objective.score(result.pose, Reduction::all);
+  result.score = objective.score(result.pose, objective.cues().needs());
   result.converged = step.converged;
   return result;
 }

@@ -15,37 +15,51 @@ enum class Method { regions, edges, two_step };
 
 struct RegistrationConfig {
   Method method = Method::two_step;
-  /// Cost evaluations a frame, both steps together.
+  /// Cost evaluations per frame, for both steps together.
   int iterations = 2000;
-  /// Share of them that goes to the region step in two_step; negative: the split that `tune` fitted.
+  /// Share (0 to 1) of them that the region step of two_step gets.
   double region_share = 0.6;
-  /// Initial simplex size, times each number's typical frame-to-frame change (thesis Fig. 2-22).
+  /// Size of the initial simplex, in typical frame-to-frame changes of each number (thesis Fig. 2-22).
   double simplex_factor = 1.5;
-  /// Least size of the edge step's simplex, same unit, when the region step's has collapsed.
+  /// Least size of the edge step's first simplex, in the same unit: that of the region step may have
+  /// collapsed.
   double edge_factor = 0.4;
-  /// false: one simplex over all 23 numbers (the reference). true: trunk, left and right arm in turn.
+  /// true: trunk, left arm and right arm are searched in turn; false: one simplex over all 23 numbers
+  /// (thesis).
   bool blocks = true;
   /// Rounds over the blocks within a step.
   int rounds = 2;
-  /// The region step's objective.
-  ObjectiveWeights region{1.0, 0.0, 0.02, 4.0, 0.04, 0.020, 0.002};
-  /// The edge step's objective: D_C, with F beside it so that the contours do not leave their regions.
-  ObjectiveWeights edge{1.0, 0.15, 0.02, 4.0, 0.04, 0.020, 0.002};
+  /// Objective of the region step.
+  ObjectiveWeights region{.cues = step_weights(&Cue::region_step),
+                          .invalid = 4.0,
+                          .natural = 0.04,
+                          .temporal = 0.020,
+                          .trunk = 0.002};
+  /// Objective of the edge step: D_C together with F, so that the contours do not leave their regions.
+  ObjectiveWeights edge{.cues = step_weights(&Cue::edge_step),
+                        .invalid = 4.0,
+                        .natural = 0.04,
+                        .temporal = 0.020,
+                        .trunk = 0.002};
   double tolerance = 1e-4;
   ProposalConfig proposals;
-  /// Of the region step's evaluations, what the proposals may use at most: both arms have fewer proposals in
-  /// proportion; where it is less than one arm would have in full, one at random has its turn.
+  /// Largest share (0 to 1) of the region step's evaluations that proposals may use. A smaller share reduces
+  /// the proposals of both arms; below what one arm needs in full, only one arm, chosen at random, gets
+  /// proposals.
   double proposal_share = 0.65;
 
-  /// Throws Error(config) with what to change.
+  /// Throws Error(config) that says what to change.
   void validate() const;
 };
 
-/// The same for frames that are `frames` times 1/25 s apart: people have moved further, and less is known of
-/// where they are expected. 1 changes nothing.
+/// The same for frames that are `frames` times 1/25 s apart: simplexes grow and predictions weigh less. 1
+/// changes nothing.
 RegistrationConfig for_time_step(RegistrationConfig config, double frames);
 
-/// The search as the thesis has it: one simplex, F alone, then D_C alone, no prior.
+/// The same with the default weights of all cues in the table that are not built in.
+RegistrationConfig with_cues(RegistrationConfig config, const CueTable& cues);
+
+/// The search of the thesis: one simplex, first F alone, then D_C alone, without a prior.
 RegistrationConfig reference_registration();
 
 struct RegistrationResult {
@@ -55,11 +69,11 @@ struct RegistrationResult {
   int edge_evaluations = 0;
   double region_ms = 0.0;
   double edge_ms = 0.0;
-  bool converged = false;  ///< every simplex converged before its iterations were spent
+  bool converged = false;  ///< whether every simplex converged within its evaluations
 };
 
-/// Two-step registration (thesis 2.4.4.4, 3.5.4) from a pose near the right one: minimise F, then D_C,
-/// starting the edge step from the region step's last simplex.
+/// Two-step registration (thesis 2.4.4.4, 3.5.4) from a pose near the true one: minimises F, then D_C; the
+/// edge step starts with the extent of the region step's last simplex.
 RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config,
                                  Random& random);
 

@@ -33,8 +33,8 @@ TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
   // One simplex, F alone, then D_C alone, and nothing that the thesis does not have.
   EXPECT_FALSE(reference.blocks);
   EXPECT_FALSE(reference.proposals.any_arms());
-  EXPECT_EQ(reference.region.contour, 0.0);
-  EXPECT_EQ(reference.edge.region, 0.0);
+  EXPECT_EQ(reference.region.cues[cue::kContour], 0.0);
+  EXPECT_EQ(reference.edge.cues[cue::kRegion], 0.0);
   for (const ObjectiveWeights& w : {reference.region, reference.edge}) {
     EXPECT_EQ(w.natural, 0.0);
     EXPECT_EQ(w.temporal, 0.0);
@@ -56,10 +56,9 @@ TEST(RegistrationConfig, RefusesValuesByName) {
       {"proposals", [](auto& c) { c.proposals.directions = -1; }},
       {"proposal_share", [=](auto& c) { c.proposal_share = nan; }},
       {"tolerance", [](auto& c) { c.tolerance = -1e-9; }},
-      {"weights", [](auto& c) { c.region.region = -1.0; }},
-      {"weights", [=](auto& c) { c.edge.contour = nan; }},
+      {"weights", [](auto& c) { c.region.cues[cue::kRegion] = -1.0; }},
+      {"weights", [=](auto& c) { c.edge.cues[cue::kContour] = nan; }},
       {"weights", [](auto& c) { c.edge.fronto_parallel = -1.0; }},
-      {"contour_scale", [](auto& c) { c.edge.contour_scale = 0.0; }},
   };
   for (const auto& [name, spoil] : faults) {
     RegistrationConfig config;

@@ -81,9 +81,9 @@ void each_setting(C& c, Visit&& visit) {
   visit("registration/proposals/margin", c.registration.proposals.margin);
   visit("registration/tolerance", c.registration.tolerance);
   const auto weights = [&](const std::string& step, auto& w) {
-    visit(step + "/region", w.region);
-    visit(step + "/contour", w.contour);
-    visit(step + "/contour_scale", w.contour_scale);
+    for (std::size_t i = 0; i < kCues.size(); ++i) {
+      visit(step + "/" + std::string(kCues[i].name), w.cues[i]);
+    }
     visit(step + "/invalid", w.invalid);
     visit(step + "/natural", w.natural);
     visit(step + "/temporal", w.temporal);
@@ -245,6 +245,11 @@ void Config::validate() const {
   require(tracking.patience >= 1 && tracking.retry_every >= 1 && tracking.calibration_patience >= 0,
           "tracking.patience, retry_every and calibration_patience must be positive");
   require(tracking.velocity >= 0.0 && tracking.velocity <= 1.0, "tracking.velocity must be between 0 and 1");
+}
+
+void add_cue(Config& config, const Cue& cue) {
+  config.cues.add(cue);
+  config.registration = with_cues(config.registration, config.cues);
 }
 
 FilterConfig filter_of(const Config& config) {

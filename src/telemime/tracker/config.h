@@ -52,12 +52,16 @@ struct Config {
   SmoothingOptions smoothing;
   bool look_back = false;  ///< `track --offline`: decide with the frames that come after, too
   TrajectoryConfig offline;
+  CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file
 
   /// The working image has as many pixels as one of 320x240 by default, in the input's shape (fitted_to).
   Config();
   /// Throws Error(config) with what to change.
   void validate() const;
 };
+
+/// Adds a cue of the program's own with its default weights. Throws Error(usage) as CueTable::add does.
+void add_cue(Config& config, const Cue& cue);
 
 /// The particle filter that tracking.method asks for: with condensation the thesis's, without heuristics,
 /// with the particles, model, diffusion and estimate that are set.

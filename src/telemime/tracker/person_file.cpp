@@ -66,7 +66,7 @@ void save_person(const PersonFile& p, const std::filesystem::path& file) {
                      {"scale_from", p.person.scale_from},
                      {"height_given", p.person.height_given},
                      {"refusal", p.person.refusal},
-                     {"F", p.person.score.region},
+                     {"F", p.person.score.region()},
                      {"camera",
                       {{"width", c.width},
                        {"height", c.height},

@@ -63,11 +63,11 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       working_camera_(camera.scaled_to(config_.image.width, config_.image.height)),
       limits_(load_limits(config.limits)),
       features_(config_.image),
-      backend_(make_backend(config.backend)),
+      backend_(make_backend(config.backend, {.cues = config.cues})),
       random_(config.seed) {
   if (config_.tracking.method != "two-step") {
     config_.filter = filter_of(config_);
-    evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads);
+    evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads, config_.cues);
     filter_ = std::make_unique<ParticleFilter>(config_.filter, config_.registration, limits_, *evaluators_,
                                                config_.seed);
   }
@@ -209,7 +209,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
     phase_ = Phase::tracking;
     previous_ = known_->pose;
     Objective objective(*backend_, prepared, model_, limits_);
-    adopt(known_->pose, objective.score(known_->pose, Reduction::all), result);
+    adopt(known_->pose, objective.score(known_->pose, objective.cues().needs()), result);
     return;
   }
   if (!calibration_) {
@@ -229,7 +229,7 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
                                       config_.registration, random_);
     result.motion.evaluations += fit.evaluations;
     const bool patient = waited_ < config_.tracking.calibration_patience;
-    if (fit.score.region > config_.tracking.found_region || (!fit.refusal.empty() && patient)) {
+    if (fit.score.region() > config_.tracking.found_region || (!fit.refusal.empty() && patient)) {
       lose("waiting for a better first frame: " + fit.refusal, result);
       return;
     }
@@ -244,9 +244,9 @@ void Tracker::search(const SeenFrame& seen, TrackedFrame& result) {
   Objective objective(*backend_, prepared, model_, limits_);
   const Pose found =
       initialise_pose(objective, *features.head, config_.calibration, config_.registration, random_);
-  const Score score = objective.score(found, Reduction::all);
+  const Score score = objective.score(found, objective.cues().needs());
   result.motion.evaluations += objective.evaluations();
-  if (score.region > config_.tracking.found_region) {
+  if (score.region() > config_.tracking.found_region) {
     lose("somebody is there, but the body does not fit", result);
     return;
   }
@@ -292,7 +292,7 @@ void Tracker::follow_with_filter(const SeenFrame& seen, TrackedFrame& result) {
 
 PoseSpread Tracker::spread(const ParticleFilter& filter, const FilterResult& found) const {
   const SpreadModel& spread = filter.numbers().spread;
-  return spread_of({model_.body, working_camera_, found.score.region,
+  return spread_of({model_.body, working_camera_, found.score.region(),
                     calibration_ && calibration_->height_given ? spread.size_given : spread.size},
                    filter.particles(), found.pose, spread);
 }
@@ -302,7 +302,7 @@ void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& res
     lose("nobody is in the picture", result);
     return;
   }
-  const bool bad = score.region > config_.tracking.lost_region || !seen.features.head;
+  const bool bad = score.region() > config_.tracking.lost_region || !seen.features.head;
   bad_frames_ = bad ? bad_frames_ + 1 : 0;
   bad_for_ = bad ? bad_for_ + steps_ : 0.0;
   // At a few frames a second one bad frame lasts as long as the patience.
@@ -313,8 +313,8 @@ void Tracker::watch(const SeenFrame& seen, const Score& score, TrackedFrame& res
 
 void Tracker::adopt(const Pose& pose, const Score& score, TrackedFrame& result) {
   pose_ = pose;
-  result.motion.region_score = score.region;
-  result.motion.contour_score = score.contour;
+  result.motion.region_score = score.region();
+  result.motion.contour_score = score.contour();
   result.note.clear();
 }
 

@@ -13,19 +13,19 @@
 
 namespace telemime {
 
-Evaluators::Evaluators(const std::string& backend, int threads)
+Evaluators::Evaluators(const std::string& backend, int threads, const CueTable& cues)
     : threads_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
-  batch_ = make_backend(backend, {threads_});
+  batch_ = make_backend(backend, {.threads = threads_, .cues = cues});
   // Single poses are too few for a device.
   const std::string single = backend == "scalar" ? "scalar" : "simd";
   for (int i = 0; i < threads_; ++i) {
-    singles_.push_back(make_backend(single));
+    singles_.push_back(make_backend(single, {.cues = cues}));
   }
 }
 
 void Evaluators::evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                           std::span<Score> scores) {
-  batch_->evaluate(frame, model, poses, Reduction::all, scores);
+  batch_->evaluate(frame, model, poses, cues().needs(), scores);
 }
 
 void Evaluators::each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work) {
@@ -44,9 +44,17 @@ Random FilterContext::random(std::uint64_t purpose, std::uint64_t index) const {
 }
 
 double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
-  const double region = score.region / c.numbers.sigma_region;
-  const double contour = score.contour / (c.numbers.sigma_contour * c.frame.camera.width);
-  double sum = -0.5 * c.config.trust * (region * region + contour * contour);
+  // Equation 4.12: the costs of the cues are independent and normally distributed.
+  const CueTable& cues = c.evaluators.cues();
+  double squares = 0.0;
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    if (cues[i].enabled) {
+      const double deviation = score.costs[i] / in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
+      squares += deviation * deviation;
+    }
+  }
+  double sum = -0.5 * c.config.trust * squares;
+  // What is known without the image.
   if (c.config.invalid <= 0.0 && c.config.natural <= 0.0 && c.config.temporal <= 0.0) {
     return sum;
   }

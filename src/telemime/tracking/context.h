@@ -17,16 +17,26 @@
 
 namespace telemime {
 
-/// Back ends of the filter: one for batches, one for each thread that searches on its own.
+/// Streams of random numbers of one frame (FilterContext::random). Each purpose has its own, so that
+/// switching a heuristic off does not change the draws of the others.
+namespace purpose {
+inline constexpr std::uint64_t kResampling = 1;
+inline constexpr std::uint64_t kDiffusion = 2;
+inline constexpr std::uint64_t kSimplex = 3;
+inline constexpr std::uint64_t kHeadingSearch = 4;
+}  // namespace purpose
+
+/// Back ends of the filter: one for batches and one for each thread that runs a local search.
 class Evaluators {
  public:
   /// `threads` 0: as many as the machine has. Throws as make_backend does.
-  Evaluators(const std::string& backend, int threads);
+  Evaluators(const std::string& backend, int threads, const CueTable& cues = {});
 
-  /// All scores of all poses, in batches; does not depend on the number of threads.
+  const CueTable& cues() const { return batch_->cues(); }
+  /// Scores of all poses by all cues, in one batch; they do not depend on the number of threads.
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                 std::span<Score> scores);
-  /// work(i, back end) for all i below `count`, on all threads. Exceptions come out.
+  /// Calls work(i, back end) for all i below `count`, on all threads. Exceptions are passed on.
   void each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work);
 
  private:
@@ -52,14 +62,15 @@ struct FilterContext {
   /// Joints of `predicted`, m, camera frame; computed once a frame rather than once a particle.
   JointPositions predicted_joints = forward_kinematics(model.body, predicted).joints;
 
-  /// A generator of its own for each purpose and particle.
+  /// A separate generator for each purpose and particle.
   Random random(std::uint64_t purpose, std::uint64_t index = 0) const;
 };
 
-/// log p(z | x) of equation 4.12 with what FilterConfig knows without the image.
+/// Log likelihood log p(z | x): the sum over all enabled cues of thesis equation 4.12, and the terms that do
+/// not depend on the image (FilterConfig::natural, temporal, invalid).
 double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score);
 
-/// Scores and log likelihoods of the particles that have none.
+/// Computes scores and log likelihoods of the particles that are not measured yet.
 void measure(const FilterContext& context, std::span<Particle> particles);
 
 }  // namespace telemime

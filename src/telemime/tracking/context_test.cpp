@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "telemime/body/interpenetration.h"
-#include "telemime/tracking/purposes.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
@@ -21,8 +20,8 @@ using testing_scene::Scene;
 
 Score score_of(double region, double contour) {
   Score score;
-  score.region = region;
-  score.contour = contour;
+  score.costs[cue::kRegion] = region;
+  score.costs[cue::kContour] = contour;
   return score;
 }
 
@@ -31,8 +30,8 @@ Scene image_alone() {
   Scene scene;
   scene.config.invalid = scene.config.natural = scene.config.temporal = 0.0;
   scene.config.trust = 1.0;
-  scene.numbers.sigma_region = 0.1;
-  scene.numbers.sigma_contour = 0.05;  // 6 px of 120
+  scene.numbers.sigma[cue::kRegion] = 0.1;
+  scene.numbers.sigma[cue::kContour] = 0.05;  // 6 px of 120
   return scene;
 }
 
@@ -43,6 +42,25 @@ TEST(LogLikelihood, IsThatOfTwoGaussians) {
   EXPECT_EQ(log_likelihood(scene.context(), both_arms_seen(), score_of(0.0, 0.0)), 0.0);
   scene.config.trust = 0.1;
   EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.05 * 13.0, 1e-12);
+}
+
+TEST(LogLikelihood, CountsAddedAndDisabledCues) {
+  CueTable cues;
+  cues.add({.name = "constant",
+            .what = "always 1",
+            .unit = CueUnit::pixels,
+            .sigma = 0.005,
+            .cost = [](const CueInput&) { return 1.2; }});
+  Scene scene = image_alone();
+  scene.numbers.sigma[kCues.size()] = load_filter_model("", cues).sigma[kCues.size()];
+  Score score = score_of(0.3, 12.0);
+  score.costs[kCues.size()] = 1.2;  // 2 sigma of a picture 120 pixels wide
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (9.0 + 4.0), 1e-12);
+  scene.evaluators = Evaluators("scalar", 1, cues);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (9.0 + 4.0 + 4.0), 1e-12);
+  cues.enable(cue::kRegion, false);
+  scene.evaluators = Evaluators("scalar", 1, cues);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (4.0 + 4.0), 1e-12);
 }
 
 TEST(LogLikelihood, TakesOffWhatIsKnownWithoutTheImage) {
@@ -88,8 +106,8 @@ TEST(Measure, GivesEachItsOwnScoreAndLeavesTheOthers) {
     }
     Score alone;
     backend->evaluate(scene.frame, scene.model, {&particles[i].pose, 1}, Reduction::all, {&alone, 1});
-    EXPECT_EQ(particles[i].score.region, alone.region) << i;
-    EXPECT_EQ(particles[i].score.contour, alone.contour) << i;
+    EXPECT_EQ(particles[i].score.region(), alone.region()) << i;
+    EXPECT_EQ(particles[i].score.contour(), alone.contour()) << i;
     EXPECT_EQ(particles[i].log_likelihood, log_likelihood(context, particles[i].pose, alone)) << i;
   }
   EXPECT_GT(particles[0].log_likelihood, particles[6].log_likelihood);

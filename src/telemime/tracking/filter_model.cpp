@@ -22,7 +22,7 @@ constexpr const char* kDefault =
 #include "filter_model.inc"
     ;
 
-// The unit of a pose number in the file: mm, then degrees.
+// Unit of a pose number in the file: mm for the root's position, degrees for angles.
 double unit_of(std::size_t index) {
   return index < 3 ? kMillimetre : kDegree;
 }
@@ -44,20 +44,22 @@ double positive(const Json& json, const std::string& key, const std::string& nam
 }  // namespace
 
 FilterModel default_filter_model() {
-  return parse_filter_model(kDefault, "data/filter.json");
+  return load_filter_model("");
 }
 
-FilterModel parse_filter_model(const std::string& text, const std::string& name) {
+FilterModel parse_filter_model(const std::string& text, const std::string& name, const CueTable& cues) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("format") || json["format"] != "telemime-filter") {
-    throw Error(ErrorKind::config, name + " is no file of the filter's numbers",
+    throw Error(ErrorKind::config, name + " is not a filter model",
                 "It must be a JSON object with \"format\": \"telemime-filter\".");
   }
   const Json none = Json::object();
   const auto group = [&](const char* key) -> const Json& { return json.contains(key) ? json[key] : none; };
   FilterModel model;
-  model.sigma_region = positive(json, "sigma_F", name);
-  model.sigma_contour = positive(json, "sigma_D_share_of_width", name);
+  for (std::size_t i = 0; i < cues.size(); ++i) {
+    const std::string key(cues[i].sigma_key);
+    model.sigma[i] = key.empty() ? cues[i].sigma : positive(json, key, name);
+  }
   for (std::size_t i = 0; i < kPoseSize; ++i) {
     model.change[static_cast<Eigen::Index>(i)] = positive(group("change"), name_of(i), name) * unit_of(i);
   }
@@ -80,29 +82,31 @@ FilterModel parse_filter_model(const std::string& text, const std::string& name)
   return model;
 }
 
-FilterModel load_filter_model(const std::string& file) {
+FilterModel load_filter_model(const std::string& file, const CueTable& cues) {
   if (file.empty()) {
-    return default_filter_model();
+    return parse_filter_model(kDefault, "data/filter.json", cues);
   }
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file)) {
-    throw Error(ErrorKind::config, "the filter's numbers, " + file + ", cannot be opened",
+    throw Error(ErrorKind::config, "the filter model " + file + " cannot be opened",
                 "Check the path and its permissions.");
   }
-  return parse_filter_model(std::string(std::istreambuf_iterator<char>(in), {}), file);
+  return parse_filter_model(std::string(std::istreambuf_iterator<char>(in), {}), file, cues);
 }
 
 std::string to_json_text(const FilterModel& model, const std::string& note) {
-  // Four digits: the estimates are no better.
+  // The estimates are not more precise than four digits.
   const auto digits = [](double value) {
     std::ostringstream text;
     text << std::setprecision(4) << value;
     return std::stod(text.str());
   };
-  Json json = {{"format", "telemime-filter"},
-               {"note", note},
-               {"sigma_F", digits(model.sigma_region)},
-               {"sigma_D_share_of_width", digits(model.sigma_contour)}};
+  Json json = {{"format", "telemime-filter"}, {"note", note}};
+  for (std::size_t i = 0; i < kCues.size(); ++i) {
+    if (!kCues[i].sigma_key.empty()) {
+      json[std::string(kCues[i].sigma_key)] = digits(model.sigma[i]);
+    }
+  }
   for (std::size_t i = 0; i < kPoseSize; ++i) {
     json["change"][name_of(i)] = digits(model.change[static_cast<Eigen::Index>(i)] / unit_of(i));
   }

@@ -51,8 +51,8 @@ TEST(FilterModel, TheBuiltInNumbersAreThere) {
   EXPECT_TRUE((model.change.array() > 0.0).all());
   EXPECT_LT(model.change.tail<kAngleCount>().maxCoeff(), 0.5) << "rad from one frame to the next";
   EXPECT_LT(model.change.head<3>().maxCoeff(), 0.05) << "m from one frame to the next";
-  EXPECT_GT(model.sigma_region, 0.0);
-  EXPECT_LT(model.sigma_region, 0.5);
+  EXPECT_GT(model.sigma[cue::kRegion], 0.0);
+  EXPECT_LT(model.sigma[cue::kRegion], 0.5);
   EXPECT_EQ(model.wrist_across, 0.070) << "thesis 4.4.2.3";
   EXPECT_EQ(model.wrist_along, 0.150) << "thesis 4.4.2.3";
   EXPECT_GT(model.spread.size, model.spread.size_given);
@@ -60,8 +60,8 @@ TEST(FilterModel, TheBuiltInNumbersAreThere) {
 
 TEST(FilterModel, ReadsBackWhatItWrote) {
   FilterModel model;
-  model.sigma_region = 0.0123;
-  model.sigma_contour = 0.0045;
+  model.sigma[cue::kRegion] = 0.0123;
+  model.sigma[cue::kContour] = 0.0045;
   for (Eigen::Index i = 0; i < model.change.size(); ++i) {
     model.change[i] = 0.001 * static_cast<double>(1 + i);
   }
@@ -71,8 +71,8 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   model.swivel = 0.2;
   model.spread = {0.004, 0.2, 0.06, 0.13, 0.02, 0.11, 0.07, 0.03};
   const FilterModel read = parse_filter_model(to_json_text(model, "note"), "written");
-  EXPECT_DOUBLE_EQ(read.sigma_region, model.sigma_region);
-  EXPECT_DOUBLE_EQ(read.sigma_contour, model.sigma_contour);
+  EXPECT_DOUBLE_EQ(read.sigma[cue::kRegion], model.sigma[cue::kRegion]);
+  EXPECT_DOUBLE_EQ(read.sigma[cue::kContour], model.sigma[cue::kContour]);
   // Written with four digits.
   EXPECT_LT(((read.change - model.change).cwiseAbs().cwiseQuotient(model.change)).maxCoeff(), 0.6e-3);
   EXPECT_EQ(read.motion, model.motion);
@@ -118,7 +118,7 @@ TEST(FilterModel, NamesTheNumberThatIsMissingOrWrong) {
   }
 }
 
-TEST(FilterModel, NamesTheFirstNumberOfAGroupThatIsMissingOrNone) {
+TEST(FilterModel, NamesTheFirstMissingNumberOfAGroup) {
   for (const auto& [group, key] :
        {std::pair{"change", "root_x"}, std::pair{"motion", "trunk"},
         std::pair{"end_effector", "wrist_across_mm"}, std::pair{"spread", "trunk_mm"}}) {
@@ -148,10 +148,10 @@ TEST(FilterModel, AreReadFromAFile) {
   const telemime::ScratchFolder folder;
   const auto file = folder.path() / "mine.json";
   FilterModel model = default_filter_model();
-  model.sigma_region = 0.25;
+  model.sigma[cue::kRegion] = 0.25;
   std::ofstream(file) << to_json_text(model, "");
-  EXPECT_EQ(load_filter_model(file.string()).sigma_region, 0.25);
-  EXPECT_EQ(load_filter_model("").sigma_region, default_filter_model().sigma_region);
+  EXPECT_EQ(load_filter_model(file.string()).sigma[cue::kRegion], 0.25);
+  EXPECT_EQ(load_filter_model("").sigma[cue::kRegion], default_filter_model().sigma[cue::kRegion]);
   for (const auto& path : {folder.path() / "none.json", folder.path()}) {
     try {
       load_filter_model(path.string());

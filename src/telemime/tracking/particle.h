@@ -10,31 +10,31 @@
 
 namespace telemime {
 
-/// Where a particle comes from.
+/// How a particle was made.
 enum class Origin : std::uint8_t { start, kept, diffused, optimised, flipped, elsewhere };
 
-/// One hypothesis about the pose.
+/// One hypothesis of the pose.
 struct Particle {
   Pose pose;
-  Score score;                ///< F and D_C in the frame that it was measured in
-  double log_likelihood = 0;  ///< of equation 4.12, what is known without the image included
-  double prior = 0;           ///< share before the measurement; searches and flips come on top of a sum of 1
-  double weight = 0;          ///< share after it; the sum is 1
-  int parent = -1;            ///< index in Generation::parents of its frame; -1: none
+  Score score;                ///< in the frame in which it was measured
+  double log_likelihood = 0;  ///< see log_likelihood()
+  double prior = 0;           ///< weight before the measurement; searches and flips add to a sum of 1
+  double weight = 0;          ///< weight after it; the weights sum to 1
+  int parent = -1;            ///< index into Generation::parents of its frame; -1: none
   Origin origin = Origin::start;
-  bool measured = false;  ///< score and log_likelihood belong to the frame
+  bool measured = false;  ///< whether score and log_likelihood are known
 };
 
-/// 1 / sum of squared weights: how many particles carry the estimate; 0 when there are none.
+/// Effective number of particles: 1 / sum of squared weights; 0 without particles.
 double effective_sample_size(std::span<const Particle> particles);
 
-/// weight ~ prior x likelihood, normalised. When no particle has a likelihood above zero, the priors stay.
+/// Sets the weights to prior x likelihood, normalised; to the priors when no likelihood is above zero.
 void weigh(std::span<Particle> particles);
 
-/// Index of the particle with the greatest weight, the first of equals. `particles` must not be empty.
+/// Index of the particle with the greatest weight; of equals the first. `particles` must not be empty.
 std::size_t heaviest(std::span<const Particle> particles);
 
-/// Weighted mean of the pose numbers; angles are averaged as they are. `particles` must not be empty.
+/// Weighted mean of the pose numbers; angles are averaged without wrapping. `particles` must not be empty.
 Pose mean_pose(std::span<const Particle> particles);
 
 }  // namespace telemime

@@ -7,7 +7,6 @@
 #include "telemime/core/errors.h"
 #include "telemime/tracking/heuristics/all.h"
 #include "telemime/tracking/posterior.h"
-#include "telemime/tracking/purposes.h"
 #include "telemime/tracking/resampling.h"
 #include "telemime/tracking/search_space.h"
 
@@ -93,7 +92,7 @@ ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationCon
       search_(search),
       limits_(limits),
       evaluators_(evaluators),
-      numbers_(load_filter_model(config.model)),
+      numbers_(load_filter_model(config.model, evaluators.cues())),
       heuristics_(parse_heuristics(config.heuristics)),
       seeds_(seed) {
   config_.validate();

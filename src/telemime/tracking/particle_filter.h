@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
 #include "telemime/tracking/heuristics/heuristic.h"
 
 namespace telemime {
@@ -32,18 +31,19 @@ struct FilterResult {
   double heading = 0.0;  ///< rad, the predicted torsion of the root that the step used
 };
 
-/// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on one by one. The
-/// same seed and frames give the same result, for any number of threads.
+/// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on by name. The
+/// same seed and frames give the same result for any number of threads.
 class ParticleFilter {
  public:
-  /// `search` is for the local search of FilterConfig::blocks. Throws Error(config), Error(usage).
+  /// `search` configures the local search of FilterConfig::blocks. `limits` and `evaluators` must outlive the
+  /// filter. Throws Error(config).
   ParticleFilter(const FilterConfig& config, const RegistrationConfig& search, const JointLimits& limits,
                  Evaluators& evaluators, std::uint64_t seed);
 
-  /// All particles at one pose, in the frame that comes next or before. `backward`: the frames come against
-  /// the order of time, and who walks looks where they come from.
+  /// Starts with one particle at the pose of the frame before the first step. `backward`: frames come in
+  /// reverse order of time, so that a person who walks looks where they come from.
   void start(const Pose& pose, bool backward = false);
-  /// Forgets all particles.
+  /// Removes all particles.
   void stop() { particles_.clear(); }
   bool started() const { return !particles_.empty(); }
 
@@ -75,7 +75,7 @@ class ParticleFilter {
   cv::Mat labels_before_;
 };
 
-/// The best poses of a filter's modes (FilterConfig::modes, mode_radius), the estimate first.
+/// The estimate, then the best pose of each mode of the filter (FilterConfig::modes, mode_radius).
 std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
                              const Pose& estimate);
 

@@ -43,13 +43,13 @@ double left_wrist_error(const Scene& scene, const Pose& a, const Pose& b) {
   return (scene.joints(a)[Joint::l_wrist] - scene.joints(b)[Joint::l_wrist]).norm();
 }
 
-TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
+TEST(ParticleFilter, CondensationFollowsASlowlyRaisedArm) {
   // With the likelihood as narrow and the diffusion as wide as those of a tracker's own sequences, so few
   // particles lose the arm soon.
   const ScratchFolder folder;
   FilterModel numbers = default_filter_model();
-  numbers.sigma_region = 0.03;
-  numbers.sigma_contour = 0.004;
+  numbers.sigma[cue::kRegion] = 0.03;
+  numbers.sigma[cue::kContour] = 0.004;
   numbers.change.head<3>().setConstant(0.005);
   numbers.change.segment<6>(3).setConstant(1.0 * kDegree);
   numbers.change.tail<14>().setConstant(4.0 * kDegree);
@@ -73,7 +73,7 @@ TEST(ParticleFilter, CondensationFollowsAnArmThatIsRaisedSlowly) {
   EXPECT_LT(sum / kFrames, 0.13) << "m, mean over the frames";
 }
 
-TEST(ParticleFilter, WhoStepsBackStillFacesTheCamera) {
+TEST(ParticleFilter, SteppingBackKeepsTheHeading) {
   Scene scene;
   FilterConfig config;
   config.particles = 300;
@@ -90,7 +90,7 @@ TEST(ParticleFilter, WhoStepsBackStillFacesTheCamera) {
   }
 }
 
-TEST(ParticleFilter, WhoWalksAcrossFacesWhereTheyGo) {
+TEST(ParticleFilter, WalkingTurnsTheHeading) {
   Scene scene;
   FilterConfig config;
   config.particles = 300;
@@ -158,8 +158,8 @@ TEST(ParticleFilter, TheMeanIsScoredItself) {
   const FilterResult found = filter.step(input(scene, 0.0));
   Score score;
   scene.evaluators.evaluate(scene.frame, scene.model, {&found.pose, 1}, {&score, 1});
-  EXPECT_EQ(found.score.region, score.region);
-  EXPECT_EQ(found.score.contour, score.contour);
+  EXPECT_EQ(found.score.region(), score.region());
+  EXPECT_EQ(found.score.contour(), score.contour());
 }
 
 TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
@@ -174,7 +174,7 @@ TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
   }
 }
 
-TEST(ParticleFilter, KeepingTheBestParticleTheEstimateNeverGetsWorse) {
+TEST(ParticleFilter, KeepingTheBestNeverWorsensTheEstimate) {
   Scene scene;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     ParticleFilter filter = make_filter(scene, thesis("wd", 60), seed);
@@ -194,7 +194,7 @@ TEST(ParticleFilter, KeepingTheBestParticleTheEstimateNeverGetsWorse) {
   }
 }
 
-TEST(ParticleFilter, LocalOptimisationFitsBetterThanDiffusionAlone) {
+TEST(ParticleFilter, LocalOptimisationBeatsDiffusionAlone) {
   Scene scene;
   Pose start = both_arms_seen();
   start[Angle::l_shoulder_abduct] -= 12 * kDegree;
@@ -205,7 +205,7 @@ TEST(ParticleFilter, LocalOptimisationFitsBetterThanDiffusionAlone) {
     filter.step(input(scene, 0.0));
     double best = 1.0;
     for (const Particle& p : filter.particles()) {
-      best = std::min(best, p.score.region);
+      best = std::min(best, p.score.region());
     }
     return best;
   };
@@ -232,8 +232,8 @@ TEST(ParticleFilter, LocalOptimisationEndsWithTheContours) {
       const auto& all = filter.particles();
       EXPECT_EQ(all.size(), 400U);
       sum += std::min_element(all.begin(), all.end(), [](const Particle& a, const Particle& b) {
-               return a.score.contour < b.score.contour;
-             })->score.contour;
+               return a.score.contour() < b.score.contour();
+             })->score.contour();
     }
     return sum / 6.0;
   };
@@ -284,7 +284,7 @@ TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
       const FilterResult found =
           filter.step({.frame = i == 3 ? scene.frame : nobody, .model = scene.model, .velocity = 0.5});
       EXPECT_TRUE(found.pose.vector().allFinite());
-      EXPECT_TRUE(std::isfinite(found.score.region) && std::isfinite(found.score.contour));
+      EXPECT_TRUE(std::isfinite(found.score.region()) && std::isfinite(found.score.contour()));
       EXPECT_TRUE(found.effective_particles >= 1.0 - 1e-9);
       for (const Particle& p : filter.particles()) {
         ASSERT_TRUE(p.pose.vector().allFinite());

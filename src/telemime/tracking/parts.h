@@ -12,7 +12,7 @@
 
 namespace telemime {
 
-/// The parts that move more or less on their own (thesis 4.4.2.1.2: C, H, LA, RA).
+/// Body parts that move nearly independently (thesis 4.4.2.1.2: C, H, LA, RA).
 enum class Part : std::size_t { trunk, head, left_arm, right_arm };
 inline constexpr std::size_t kPartCount = 4;
 inline constexpr std::array<std::string_view, kPartCount> kPartNames = {"trunk", "head", "left_arm",
@@ -26,13 +26,13 @@ inline bool has(const PartSet& parts, Part part) {
   return parts[static_cast<std::size_t>(part)];
 }
 
-/// The part that a number of Pose::vector() belongs to.
+/// The part to which a number of Pose::vector() belongs.
 Part part_of_number(std::size_t index);
 
-/// Numbers of Pose::vector() that belong to these parts, rising.
+/// Indices of Pose::vector() that belong to these parts, in rising order.
 std::vector<std::size_t> numbers_of(const PartSet& parts);
 
-/// The part that a segment belongs to.
+/// The part to which a segment belongs.
 Part part_of_segment(Segment segment);
 
 }  // namespace telemime

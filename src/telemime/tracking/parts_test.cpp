@@ -22,7 +22,7 @@ Part part_named(const std::string& name) {
   return name.starts_with("neck") || name == "head" ? Part::head : Part::trunk;
 }
 
-TEST(Parts, AnglesAndSegmentsBelongWhereTheirNamesSay) {
+TEST(Parts, AnglesAndSegmentsMatchTheirNames) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(part_of_number(i), Part::trunk) << i;
   }

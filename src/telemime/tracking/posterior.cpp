@@ -22,14 +22,14 @@ double square(double x) {
   return x * x;
 }
 
-// Standard deviation of a bone's end outside the picture, as a share of the bone's length.
+// Standard deviation of a bone's end outside the image, as a share of the bone's length.
 constexpr double kUnseen = 0.5;
-// The same of a wrist whose hand is outside: the forearm may go on.
+// The same of a wrist whose hand is outside the image: the forearm may continue there.
 constexpr double kCut = 0.25;
 // Without the boundary between sleeve and skin an arm of one colour shows its elbow by its outline alone.
 constexpr double kCovered = 2.0;
 
-bool is_in_picture(const Camera& camera, const Eigen::Vector3d& point) {
+bool is_in_image(const Camera& camera, const Eigen::Vector3d& point) {
   if (point.z() < 0.05) {
     return false;
   }
@@ -43,7 +43,7 @@ bool is_in_picture(const Camera& camera, const Eigen::Vector3d& point) {
 Eigen::Matrix3d end_of_bone(const Camera& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                             const SpreadModel& model, const Eigen::Matrix3d& start, double& along) {
   const double length = (to - from).norm();
-  if (!is_in_picture(camera, to)) {
+  if (!is_in_image(camera, to)) {
     return start + Eigen::Matrix3d::Identity() * square(kUnseen * length);
   }
   const Eigen::Vector3d ray = from.normalized();
@@ -124,8 +124,8 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
     const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
-    if (is_in_picture(context.camera, joints[wrist]) &&
-        !is_in_picture(context.camera, joints[left ? Joint::l_hand : Joint::r_hand])) {
+    if (is_in_image(context.camera, joints[wrist]) &&
+        !is_in_image(context.camera, joints[left ? Joint::l_hand : Joint::r_hand])) {
       at(wrist) += Eigen::Matrix3d::Identity() *
                    square(kCut * context.body.forearm_length[static_cast<std::size_t>(side)]);
     }
@@ -141,7 +141,7 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
 
 PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> particles, const Pose& estimate,
                      const SpreadModel& model) {
-  // What weighs less moves nothing that is written.
+  // Lighter particles do not change the digits that are written.
   constexpr double kLeast = 1e-6;
   const Body& body = context.body;
   PoseSpread spread;

@@ -35,7 +35,7 @@ const Camera& camera() {
 
 // A pose that fits well, of somebody whose size is known to `size`.
 SpreadContext context(double size) {
-  return {body(), camera(), 0.0, size};
+  return {.body = body(), .camera = camera(), .size = size};
 }
 
 Pose with_left_elbow(double degrees) {
@@ -104,7 +104,7 @@ TEST(SpreadOf, OneParticleLeavesWhatTheModelDoesNotKnow) {
   EXPECT_DOUBLE_EQ(spread.effective_particles, 1.0);
 }
 
-TEST(SpreadOf, TwoParticlesAddTheSquareOfHalfTheWayBetweenThem) {
+TEST(SpreadOf, TwoParticlesAddHalfTheirDistance) {
   const Pose middle = with_left_elbow(-60);
   const std::vector<Particle> two = {particle(with_left_elbow(-75), 0.5),
                                      particle(with_left_elbow(-45), 0.5)};
@@ -242,7 +242,7 @@ TEST(ModelCovariance, GrowsFromTheShoulderToTheHand) {
   }
 }
 
-TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
+TEST(ModelCovariance, UnknownSizeWidensAwayFromTheShoulders) {
   const auto known = model_covariance(context(0.0), both_arms_seen(), numbers());
   const auto unsure = model_covariance(context(0.1), both_arms_seen(), numbers());
   const JointPositions joints = forward_kinematics(body(), both_arms_seen()).joints;
@@ -256,11 +256,11 @@ TEST(ModelCovariance, AnUnknownSizeWidensAlongTheLineFromTheShoulders) {
 }
 
 TEST(ModelCovariance, OfAPoorFitIsWiderBySquares) {
-  const auto good =
-      model_covariance({body(), camera(), numbers().residual, 0.0}, both_arms_seen(), numbers());
-  const auto poor =
-      model_covariance({body(), camera(), 2.0 * numbers().residual, 0.0}, both_arms_seen(), numbers());
-  const auto better = model_covariance({body(), camera(), 0.0, 0.0}, both_arms_seen(), numbers());
+  const auto good = model_covariance({.body = body(), .camera = camera(), .region = numbers().residual},
+                                     both_arms_seen(), numbers());
+  const auto poor = model_covariance({.body = body(), .camera = camera(), .region = 2.0 * numbers().residual},
+                                     both_arms_seen(), numbers());
+  const auto better = model_covariance({.body = body(), .camera = camera()}, both_arms_seen(), numbers());
   for (std::size_t j = 0; j < kJointCount; ++j) {
     EXPECT_LT((poor[j] - 16.0 * good[j]).norm(), 1e-12) << kJointNames[j];
     EXPECT_LT((better[j] - good[j]).norm(), 1e-12) << kJointNames[j];
@@ -277,7 +277,7 @@ TEST(ModelCovariance, OfWhatIsOutsideThePictureIsWide) {
       0.5 * (camera().project(joints[Joint::l_wrist]).x() + camera().project(joints[Joint::l_hand]).x());
   ASSERT_GT(narrow.project(joints[Joint::l_hand]).x(), narrow.width);
   ASSERT_LT(narrow.project(joints[Joint::l_wrist]).x(), narrow.width - 1.0);
-  const auto cut = model_covariance({body(), narrow, 0.0, 0.0}, inside, numbers());
+  const auto cut = model_covariance({.body = body(), .camera = narrow}, inside, numbers());
   EXPECT_GT(cut[at(Joint::l_hand)].trace(), 2.0 * seen[at(Joint::l_hand)].trace());
   EXPECT_GT(cut[at(Joint::l_wrist)].trace(), 1.5 * seen[at(Joint::l_wrist)].trace());
   EXPECT_LT((cut[at(Joint::l_elbow)] - seen[at(Joint::l_elbow)]).norm(), 1e-12);
@@ -289,7 +289,7 @@ TEST(ModelCovariance, OfAnArmInOneColourIsWider) {
   sleeves.sleeve = 2.0;
   const Body covered = make_body(sleeves);
   const auto bare = model_covariance(context(0.0), both_arms_seen(), numbers());
-  const auto dressed = model_covariance({covered, camera(), 0.0, 0.0}, both_arms_seen(), numbers());
+  const auto dressed = model_covariance({.body = covered, .camera = camera()}, both_arms_seen(), numbers());
   for (const Joint j : {Joint::l_elbow, Joint::r_wrist}) {
     EXPECT_GT(dressed[at(j)].trace(), 1.5 * bare[at(j)].trace());
   }

@@ -8,13 +8,13 @@
 
 namespace telemime {
 
-/// Children of each parent, drawn independently with probabilities in proportion to the weights
-/// (CONDENSATION, thesis 4.2.3). `weights` are not negative and their sum is above 0; the result's sum is
-/// `total`.
+/// Number of children of each parent, drawn independently with probabilities proportional to the weights
+/// (CONDENSATION, thesis 4.2.3); they sum to `total`. Weights must not be negative and their sum must be
+/// above 0.
 std::vector<int> multinomial_counts(std::span<const double> weights, int total, Random& random);
 
-/// Children of each parent without a draw (thesis equation 4.14): total x weight rounded down, and what is
-/// left goes to the largest fractions, the first of equals.
+/// Number of children of each parent without random draws (thesis equation 4.14): total x weight rounded
+/// down; the remainder goes to the largest fractions, of equals to the first.
 std::vector<int> proportional_counts(std::span<const double> weights, int total);
 
 }  // namespace telemime

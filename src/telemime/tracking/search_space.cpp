@@ -12,7 +12,7 @@ namespace {
 constexpr double kNearest = 0.2;  // m, of the root and the wrists
 constexpr double kFarthest = 8.0;
 
-// What a space is made of: plain pose numbers, then seven numbers for each arm in end-effector space.
+// Layout of a space: plain pose numbers, then seven numbers for each arm in end-effector space.
 struct Layout {
   std::vector<std::size_t> numbers;
   std::vector<Side> arms;
@@ -51,6 +51,7 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
   space.start.resize(n);
   space.steps.resize(n);
   space.bounds = {Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  // Plain numbers: diffusion as learned (equation 4.13), bounds from the joint limits.
   const PoseVector all = pose.vector();
   for (Eigen::Index i = 0; i < plain; ++i) {
     const std::size_t k = layout.numbers[static_cast<std::size_t>(i)];
@@ -60,7 +61,7 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
     space.bounds.low[i] = angle ? limits.min[k - 3] : k == 2 ? kNearest : -4.0;
     space.bounds.high[i] = angle ? limits.max[k - 3] : k == 2 ? kFarthest : 4.0;
   }
-  std::vector<SearchBlock> arms;
+  // Arms in end-effector space: steps in pixels across the viewing ray, in metres along it.
   for (std::size_t a = 0; a < layout.arms.size(); ++a) {
     const Eigen::Index at = plain + 7 * static_cast<Eigen::Index>(a);
     const SearchBlock arm = arm_block(body, pose, layout.arms[a], limits, 1.0);
@@ -76,6 +77,7 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
     }
   }
   space.steps *= context.config.diffusion;
+  // From points back to poses: clamped to what is in reach, or only if it is in reach.
   const auto moved = [all, layout, plain](const Eigen::VectorXd& x) {
     PoseVector numbers = all;
     for (Eigen::Index i = 0; i < plain; ++i) {
@@ -122,7 +124,7 @@ Pose diffused(const FilterContext& context, const SearchSpace& space, Random& ra
   Eigen::VectorXd x(block.start.size());
   for (int attempt = 0; attempt < kTries; ++attempt) {
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      // Each number that leaves its range is drawn again on its own.
+      // Each number that leaves its range is drawn again by itself.
       for (int again = 0; again < kTries; ++again) {
         x[i] = random.normal(block.start[i], block.steps[i]);
         if (x[i] >= block.bounds.low[i] && x[i] <= block.bounds.high[i]) {

@@ -10,20 +10,20 @@
 
 namespace telemime {
 
-/// Numbers of the pose as a space to search and to draw from.
+/// Some of the pose's numbers as a space to search and to sample.
 struct SearchSpace {
-  SearchBlock block;  ///< its steps are the standard deviations of the diffusion, with its scale
-  /// The pose of a point; nothing where a wrist is out of reach.
+  SearchBlock block;  ///< its steps are the standard deviations of the diffusion
+  /// The pose of a point; none when a wrist is out of reach.
   std::function<std::optional<Pose>(const Eigen::VectorXd&)> within_reach;
 };
 
-/// The numbers of these parts: joint angles, or for the arms the wrist on its viewing ray and the swivel
-/// angle (thesis 4.4.2.3). Parts that do not move stay as they are.
+/// Space of the numbers of these parts: joint angles, or with `end_effector` for the arms the wrist on its
+/// viewing ray and the swivel angle (thesis 4.4.2.3). The other parts keep their values in `pose`.
 SearchSpace search_space(const FilterContext& context, const Pose& pose, const PartSet& parts,
                          bool end_effector);
 
-/// A point drawn about the start (equation 4.13). Outside the limits or out of reach: drawn again; after ten
-/// times the start itself.
+/// A pose drawn about the start (thesis equation 4.13). One outside the limits or out of reach is drawn
+/// again; after ten draws the start is returned.
 Pose diffused(const FilterContext& context, const SearchSpace& space, Random& random);
 
 }  // namespace telemime

@@ -92,7 +92,7 @@ TEST(SearchSpace, PartsThatDoNotMoveStay) {
   }
 }
 
-TEST(SearchSpace, StepsAreTheStandardDeviationsTimesTheScale) {
+TEST(SearchSpace, StepsAreScaledStandardDeviations) {
   Scene scene;
   scene.config.diffusion = 0.5;
   const Pose pose = both_arms_seen();
@@ -191,7 +191,7 @@ TEST(WithinReach, AWristOutOfReachIsNoPose) {
   }
 }
 
-TEST(Diffused, WristsSpreadAsAskedAcrossAndAlongTheViewingRay) {
+TEST(Diffused, WristsSpreadAcrossAndAlongTheRay) {
   constexpr int kDraws = 4000;
   Scene scene;
   scene.config.diffusion = 0.15;  // so that hardly any draw is out of reach or outside the limits

@@ -11,12 +11,12 @@
 #include "telemime/search/budget.h"
 #include "telemime/tracking/context.h"
 
-/// A person whom the model itself draws, in small images, for the tests of the filter. Not installed.
+/// Small images of a person rendered from the model, for the tests of the filter. Not installed.
 namespace telemime::testing_scene {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// Seated, both arms beside the body and seen whole.
+/// Seated, both arms beside the body and fully visible.
 inline Pose both_arms_seen() {
   Pose pose;
   pose.root = {0.0, 0.35, 1.5};
@@ -25,7 +25,7 @@ inline Pose both_arms_seen() {
   return pose;
 }
 
-/// Everything that a FilterContext refers to.
+/// Everything to which a FilterContext refers.
 struct Scene {
   Model model = make_model(Shape{});
   Camera camera = camera_from_field_of_view(120, 90, 60.0);
@@ -40,7 +40,7 @@ struct Scene {
   PreparedFrame frame = frame_of_model(model, both_arms_seen(), camera);
   cv::Mat labels_before;
 
-  /// What a camera sees of the person in this pose from now on.
+  /// Sets the frame to an image of the person in this pose.
   void show(const Pose& pose) { frame = frame_of_model(model, pose, camera); }
   FilterContext context(std::uint64_t seed = 1) {
     return {.frame = frame,
@@ -67,7 +67,7 @@ inline Particle particle(const Pose& pose, double weight, double log_likelihood 
   return p;
 }
 
-/// m, of the joint that is farthest away.
+/// Largest distance of a joint, m.
 inline double farthest_joint(const JointPositions& a, const JointPositions& b) {
   double most = 0.0;
   for (std::size_t j = 0; j < kJointCount; ++j) {
@@ -84,7 +84,7 @@ inline double mean_of(std::span<const double> values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Of two lists of one length.
+/// Covariance of two lists of equal length.
 inline double covariance_of(std::span<const double> a, std::span<const double> b) {
   const double mean_a = mean_of(a);
   const double mean_b = mean_of(b);

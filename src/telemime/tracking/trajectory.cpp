@@ -14,7 +14,7 @@
 namespace telemime {
 namespace {
 
-// What the image says of a pose, and what is known without it; nothing about the frames beside it.
+// Weights of the image and of what is known without it, but not of neighbouring frames.
 ObjectiveWeights still_weights(const TrajectoryContext& context) {
   ObjectiveWeights weights = context.search.edge;
   weights.temporal = 0.0;
@@ -22,7 +22,7 @@ ObjectiveWeights still_weights(const TrajectoryContext& context) {
   return weights;
 }
 
-// The arm of one pose on the trunk of another: the wrist and the elbow stay where they were.
+// Pose `pose` with one arm of `from`: its wrist and elbow keep their positions.
 Pose with_arm_of(const TrajectoryContext& context, const Pose& pose, const Pose& from, Side side) {
   const Body& body = context.model.body;
   Pose to = with_wrist(body, pose, side, arm_target(body, from, side), context.limits);
@@ -32,7 +32,7 @@ Pose with_arm_of(const TrajectoryContext& context, const Pose& pose, const Pose&
   return to;
 }
 
-// Elbow and wrist of one arm, m.
+// Positions of elbow and wrist of one arm, m.
 Eigen::Matrix<double, 3, 2> arm_places(const Body& body, const Pose& pose, Side side) {
   const JointPositions j = forward_kinematics(body, pose).joints;
   const bool left = side == Side::left;
@@ -41,8 +41,9 @@ Eigen::Matrix<double, 3, 2> arm_places(const Body& body, const Pose& pose, Side 
   return places;
 }
 
-// The poses whose arm on that side is unlike those before them.
-std::vector<Pose> unlike_arms(const Body& body, const std::vector<Pose>& poses, Side side, std::size_t most) {
+// The first `most` poses whose arm on that side differs from those before them.
+std::vector<Pose> distinct_arms(const Body& body, const std::vector<Pose>& poses, Side side,
+                                std::size_t most) {
   constexpr double kSame = 0.03;  // m
   std::vector<Pose> kept;
   std::vector<Eigen::Matrix<double, 3, 2>> places;
@@ -104,6 +105,7 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchF
                                 Backend& backend) {
   const Body& body = context.model.body;
   const auto arms = static_cast<std::size_t>(context.config.arms);
+  // Candidates of the searches and the flips of the estimate's arms.
   std::vector<Pose> all = frame.candidates;
   for (const Side side : {Side::left, Side::right}) {
     for (const Pose& flipped : arm_flips(body, frame.candidates.front(), side, context.limits)) {
@@ -111,13 +113,14 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchF
     }
   }
   const std::vector<Pose> ranked = poses_of(scored(context, frame, all, backend));
+  // Every distinct left arm with every distinct right arm on up to three trunks.
   std::vector<Pose> trunks = {ranked.front()};
   trunks.push_back(frame.candidates.front());
   if (frame.forward < frame.candidates.size()) {
     trunks.push_back(frame.candidates[frame.forward]);
   }
-  const std::vector<Pose> left = unlike_arms(body, ranked, Side::left, arms);
-  const std::vector<Pose> right = unlike_arms(body, ranked, Side::right, arms);
+  const std::vector<Pose> left = distinct_arms(body, ranked, Side::left, arms);
+  const std::vector<Pose> right = distinct_arms(body, ranked, Side::right, arms);
   for (const Pose& trunk : trunks) {
     for (const Pose& l : left) {
       for (const Pose& r : right) {
@@ -130,8 +133,9 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchF
   return best;
 }
 
-std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vector<ScoredPose>> frames,
-                                      double motion, const Pose* before) {
+std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::vector<ScoredPose>> frames,
+                                       double motion, const Pose* before) {
+  // Forward pass: the least cost of reaching each pose, and from where.
   std::vector<std::vector<std::size_t>> from(frames.size());
   std::vector<double> costs_before;
   std::vector<JointPositions> joints_before;
@@ -160,14 +164,15 @@ std::vector<std::size_t> cheapest_way(const Body& body, std::span<const std::vec
     costs_before = std::move(costs);
     joints_before = std::move(joints);
   }
-  std::vector<std::size_t> way(frames.size());
+  // Backward pass: the poses along the cheapest path.
+  std::vector<std::size_t> path(frames.size());
   auto at = static_cast<std::size_t>(std::min_element(costs_before.begin(), costs_before.end()) -
                                      costs_before.begin());
   for (std::size_t t = frames.size(); t-- > 0;) {
-    way[t] = at;
+    path[t] = at;
     at = from[t][at];
   }
-  return way;
+  return path;
 }
 
 std::vector<Pose> best_trajectory(const TrajectoryContext& context,
@@ -175,6 +180,7 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
                                   Random& random) {
   const Body& body = context.model.body;
   const TrajectoryConfig& config = context.config;
+  // Choose among the candidates of all frames.
   std::vector<std::vector<ScoredPose>> choices(frames.size());
   context.evaluators.each(frames.size(), [&](std::size_t t, Backend& backend) {
     choices[t] = combine(context, *frames[t], backend);
@@ -184,17 +190,18 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
   if (frames.empty()) {
     return poses;
   }
-  const std::vector<std::size_t> way = cheapest_way(body, choices, config.motion, before);
+  const std::vector<std::size_t> path = cheapest_path(body, choices, config.motion, before);
   for (std::size_t t = 0; t < frames.size(); ++t) {
-    poses.push_back(choices[t][way[t]].pose);
+    poses.push_back(choices[t][path[t]].pose);
   }
+  // Search each pose again between its neighbours, first the even frames, then the odd ones: the neighbours
+  // do not move meanwhile, so the result does not depend on the threads.
   RegistrationConfig search = context.search;
   search.iterations = config.evaluations;
   search.proposals = no_proposals();
   search.region.temporal = search.edge.temporal = config.between;
   const std::uint64_t seed = random.bits();
   for (int half = 0; half < 2 * config.sweeps; ++half) {
-    // Every other frame, so that the neighbours stand still and threads do not matter.
     const auto first = static_cast<std::size_t>(half % 2);
     const std::size_t count = (frames.size() + 1 - first) / 2;
     context.evaluators.each(count, [&](std::size_t i, Backend& backend) {

@@ -80,7 +80,7 @@ TEST(CheapestWay, IsTheBestOfAllWays) {
       }
     };
     each(0);
-    EXPECT_NEAR(cost_of(body, frames, cheapest_way(body, frames, motion, nullptr), motion), least, 1e-9);
+    EXPECT_NEAR(cost_of(body, frames, cheapest_path(body, frames, motion, nullptr), motion), least, 1e-9);
   }
 }
 
@@ -88,19 +88,19 @@ TEST(CheapestWay, WithoutACostOfMotionEachFrameIsOnItsOwn) {
   const Body body = make_body(Shape{});
   const std::vector<std::vector<ScoredPose>> frames = {{{raised(0), 0.3}, {raised(30), 0.2}},
                                                        {{raised(0), 0.1}, {raised(30), 0.2}}};
-  EXPECT_EQ(cheapest_way(body, frames, 0.0, nullptr), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(cheapest_path(body, frames, 0.0, nullptr), (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(CheapestWay, GoesOnFromThePoseBefore) {
   const Body body = make_body(Shape{});
   const std::vector<std::vector<ScoredPose>> frames = {{{raised(0), 0.1}, {raised(60), 0.11}}};
   const Pose before = raised(60);
-  EXPECT_EQ(cheapest_way(body, frames, 0.1, nullptr).front(), 0U);
-  EXPECT_EQ(cheapest_way(body, frames, 0.1, &before).front(), 1U);
+  EXPECT_EQ(cheapest_path(body, frames, 0.1, nullptr).front(), 0U);
+  EXPECT_EQ(cheapest_path(body, frames, 0.1, &before).front(), 1U);
 }
 
 TEST(CheapestWay, OfNoFramesIsEmpty) {
-  EXPECT_TRUE(cheapest_way(make_body(Shape{}), {}, 1.0, nullptr).empty());
+  EXPECT_TRUE(cheapest_path(make_body(Shape{}), {}, 1.0, nullptr).empty());
 }
 
 TEST(Combine, OrdersByCostAndKeepsNoMoreThanAsked) {
@@ -176,7 +176,11 @@ TEST(BestTrajectory, SamePosesForAnyNumberOfThreads) {
   Random first(1);
   const auto one = best_trajectory(context_of(scene, config), pointers(frames), nullptr, first);
   Evaluators two("scalar", 2);
-  const TrajectoryContext context{scene.model, scene.limits, scene.search, config, two};
+  const TrajectoryContext context{.model = scene.model,
+                                  .limits = scene.limits,
+                                  .search = scene.search,
+                                  .config = config,
+                                  .evaluators = two};
   Random second(1);
   const auto many = best_trajectory(context, pointers(frames), nullptr, second);
   for (std::size_t t = 0; t < one.size(); ++t) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel of evaluate.cl through CUDA, for machines whose driver has no OpenCL. Compiled when nvcc is
-// there.
+// Runs the kernel of evaluate.cl through CUDA, for machines whose driver has no OpenCL. Compiled if nvcc is available.
 #include <cuda_runtime.h>
 
 #include "telemime/core/errors.h"
@@ -9,7 +8,7 @@
 namespace telemime::gpu {
 namespace kernel {
 
-// What the kernel's words mean in CUDA. Products and sums are fused only where FUSED says so (--fmad=false).
+// Macros of the kernel for CUDA. Products and sums are fused only by FUSED (--fmad=false).
 #define GROUP_SIZE 128
 #define BAND_PIXELS 8192
 #define MOST_VERTICES 1024
@@ -55,7 +54,7 @@ void check(cudaError_t status, const char* what) {
   }
 }
 
-// Memory on the device that grows and is used again.
+// Memory on the device that grows and is reused.
 class Buffer {
  public:
   Buffer() = default;
@@ -80,7 +79,7 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-// A point in the device's time.
+// A point in time on the device.
 class Moment {
  public:
   Moment() { check(cudaEventCreate(&event_), "making an event"); }

@@ -7,19 +7,27 @@
 #include <string>
 #include <vector>
 
-#include "telemime/likelihood/device_times.h"
+namespace telemime {
+
+/// Where the time of a batch on a device went, s.
+struct DeviceTimes {
+  double upload = 0.0;    ///< poses, frame and model to the device
+  double kernel = 0.0;    ///< counting there
+  double download = 0.0;  ///< counts back
+};
+
+}  // namespace telemime
 
 namespace telemime::gpu {
 
-/// Limits of the kernel: its threads work in 48 KiB of shared memory, which every device of the last ten
-/// years has.
+/// Limits of the kernel: its threads work in 48 KiB of shared memory, which every GPU since 2013 has.
 inline constexpr int kGroupSize = 128;
 inline constexpr int kBandPixels = 8192;
 inline constexpr std::size_t kMostVertices = 1024;
-/// Poses of one launch.
+/// Most poses of one launch.
 inline constexpr std::size_t kMostPoses = std::size_t{1} << 16;
 
-/// The kernel's own structs, number for number (evaluate.cl).
+/// Same layout as the structs of the kernel (evaluate.cl).
 struct FrameNumbers {
   float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;
   std::int32_t width = 0, height = 0;
@@ -38,7 +46,7 @@ struct PoseCounts {
   float sum;
 };
 
-/// What goes to a device.
+/// Input of one launch.
 struct DeviceInput {
   FrameNumbers frame;
   std::vector<float> vertices;       ///< x of all, y of all, z of all
@@ -49,8 +57,8 @@ struct DeviceInput {
   std::span<const float> distance;
 };
 
-/// A processor beside the processor. Not to be used by two threads at a time. Throws Error(usage) when it
-/// fails, with the driver's words.
+/// A device that runs the kernel. Not to be used by two threads at a time. Failures throw Error(usage) with
+/// the driver's message.
 class Device {
  public:
   Device() = default;
@@ -61,14 +69,14 @@ class Device {
   virtual DeviceTimes run(const DeviceInput& input, std::span<PoseCounts> counts) = 0;
 };
 
-/// The first GPU that an OpenCL driver offers, or else whatever device it offers.
+/// The first GPU that an OpenCL driver offers; without a GPU the first device of any kind.
 std::unique_ptr<Device> make_opencl_device();
-/// Why there is none, in words; empty: there is one.
+/// Why there is no such device, for messages; empty: there is one.
 std::string opencl_missing();
 /// Whether make_opencl_device() would give a GPU.
 bool opencl_is_gpu();
 
-/// The first NVIDIA GPU, the same kernel through CUDA.
+/// The first NVIDIA GPU; runs the same kernel through CUDA.
 std::unique_ptr<Device> make_cuda_device();
 std::string cuda_missing();
 

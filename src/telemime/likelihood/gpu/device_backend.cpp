@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "telemime/core/errors.h"
-#include "telemime/likelihood/cues/all.h"
 #include "telemime/likelihood/packed_model.h"
 
 namespace telemime::gpu {
@@ -83,35 +82,29 @@ void pack_poses(std::span<const Pose> poses, std::vector<float>& numbers) {
   }
 }
 
-Score score_of(const PreparedFrame& frame, const PoseCounts& counts, Reduction terms) {
-  Score score;
+Reductions reductions_of(const PoseCounts& counts, Reduction terms) {
+  Reductions r;
   if (wants(terms, Reduction::overlap)) {
-    score.reductions.observed = frame.observed;
-    std::copy(std::begin(counts.model), std::end(counts.model), score.reductions.model.begin());
-    std::copy(std::begin(counts.both), std::end(counts.both), score.reductions.both.begin());
-    score.region = non_overlapping_ratio(score.reductions);
+    std::copy(std::begin(counts.model), std::end(counts.model), r.model.begin());
+    std::copy(std::begin(counts.both), std::end(counts.both), r.both.begin());
   }
   if (wants(terms, Reduction::contour)) {
-    score.reductions.contour_sum = static_cast<double>(counts.sum);
-    score.reductions.contour_points = counts.points;
-    score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
+    r.contour_sum = static_cast<double>(counts.sum);
+    r.contour_points = counts.points;
   }
-  return score;
+  return r;
 }
 
 class DeviceBackend final : public Backend {
  public:
-  DeviceBackend(std::string_view name, std::unique_ptr<Device> device)
-      : name_(name), device_(std::move(device)) {}
+  DeviceBackend(std::string_view name, std::unique_ptr<Device> device, CueTable cues)
+      : Backend(std::move(cues)), name_(name), device_(std::move(device)) {}
 
   std::string_view name() const override { return name_; }
   std::optional<DeviceTimes> device_times() const override { return times_; }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    if (poses.size() != scores.size()) {
-      throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
-    }
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
     if (frame.camera.width > kBandPixels) {
       throw Error(ErrorKind::usage, "the image is too wide for this back end", "Use the back end simd.");
     }
@@ -128,7 +121,7 @@ class DeviceBackend final : public Backend {
       times_->kernel += times.kernel;
       times_->download += times.download;
       for (std::size_t i = 0; i < size; ++i) {
-        scores[first + i] = score_of(frame, counts_[i], terms);
+        counts[first + i] = reductions_of(counts_[i], terms);
       }
     }
   }
@@ -144,8 +137,9 @@ class DeviceBackend final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_device_backend(std::string_view name, std::unique_ptr<Device> device) {
-  return std::make_unique<DeviceBackend>(name, std::move(device));
+std::unique_ptr<Backend> make_device_backend(std::string_view name, std::unique_ptr<Device> device,
+                                             CueTable cues) {
+  return std::make_unique<DeviceBackend>(name, std::move(device), std::move(cues));
 }
 
 }  // namespace telemime::gpu

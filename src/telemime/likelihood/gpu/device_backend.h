@@ -10,6 +10,7 @@
 namespace telemime::gpu {
 
 /// A back end that packs batches for a device and reads its counts. Its device_times() are of the last batch.
-std::unique_ptr<Backend> make_device_backend(std::string_view name, std::unique_ptr<Device> device);
+std::unique_ptr<Backend> make_device_backend(std::string_view name, std::unique_ptr<Device> device,
+                                             CueTable cues = {});
 
 }  // namespace telemime::gpu

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pose for each group of threads: its segments, vertices and z-buffer live in the group's own memory. The
-// z-buffer is as wide as the body; where it does not fit at once, it is drawn and read in bands of rows. OpenCL C
-// and CUDA: the prelude of each says what the words in capitals mean. Coordinates in the image are pixels over 4,
-// as in the simd kernel.
+// Each group of threads evaluates one pose, with segments, vertices and z-buffer in the memory of the group. The z-buffer
+// is as wide as the body; if it does not fit at once, it is drawn and read in bands of rows. The source is OpenCL C and
+// CUDA: a prelude defines the macros in capitals for each. Image coordinates are pixels over 4, as in the simd kernel.
 
 #define UNIT 0.25f
 #define NEAREST 0.05f
@@ -36,7 +35,7 @@ typedef struct {
   float forearm[2];
 } Frame;
 
-// What a pose counts, as the host reads it.
+// Counts of one pose, as the host reads them.
 typedef struct {
   int model[3];
   int both[3];
@@ -84,7 +83,7 @@ FN void place_part(int part, GLOBAL const float* numbers, const Frame* frame, LO
   keep_transform(transforms, 6 + side, hand);
 }
 
-// Which triangles of the quadrilateral are in front of the camera and face it. At the ends it is one triangle.
+// Which triangles of the quadrilateral are in front of the camera and face it. At the ends there is only one.
 FN unsigned int facing_of(const Corner* a, const Corner* b, const Corner* c, const Corner* d, unsigned int word) {
   const int inner = b->w != 0.0f && c->w != 0.0f;
   const int known1 = inner && a->w != 0.0f;
@@ -122,7 +121,7 @@ FN void draw_quad(const Corner* a, const Corner* b, const Corner* c, const Corne
   }
   Linear edge[4];
   quad_lines(&p, b, c, &q, quad_margin(high_u - low_u, high_v - low_v), edge);
-  // The plane of the larger triangle that is seen; beyond the diagonal, the other's.
+  // The plane of the larger visible triangle; beyond the diagonal that of the other one.
   const float area1 = doubled_area(a, b, c);
   const float area2 = doubled_area(b, d, c);
   const int two = area1 < 0.0f && area2 < 0.0f && front1 && front2;
@@ -159,7 +158,7 @@ typedef struct {
   float sum;
 } Contour;
 
-// Points of an edge that lie in the band's rows.
+// Samples of an edge in the rows of the band.
 FN Contour sample_edge(Corner a, Corner b, const Frame* frame, int left, int right, int top, int bottom,
                     LOCAL const unsigned int* depth, GLOBAL const float* distance) {
   Contour contour;
@@ -313,7 +312,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
         }
         const int s = LANE_STRIDE(word);
         const unsigned int f = facing[i];
-        // Front and known of two triangles: a contour where both are known and one faces the camera.
+        // An edge is on the contour if both its triangles are known and exactly one faces the camera.
         const unsigned int side = facing[beside[i]] >> 1;
         if (((f ^ side) & FRONT1) != 0u && (f & side & KNOWN1) != 0u) {
           const Contour part = sample_edge(corner_of(u, v, w, i), corner_of(u, v, w, i + 1), &frame, left, right, top, bottom, depth, distance);
@@ -353,7 +352,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
       result.both[i] = counts[3 + i];
     }
     result.points = counts[6];
-    result.sum = 0.0f;  // in the order of threads, always the same
+    result.sum = 0.0f;  // summed in the order of threads, so that it is reproducible
     for (int i = 0; i < GROUP_SIZE; ++i) {
       result.sum += sums_of_threads[i];
     }

@@ -24,12 +24,12 @@ bool is_gpu(const cl::Device& device) {
   return (device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_GPU) != 0;
 }
 
-// The first GPU, or else the first device that has the memory that a group needs.
+// The first GPU, else the first device, with enough memory for a group.
 std::vector<cl::Device> usable_devices() {
   std::vector<cl::Platform> platforms;
   try {
     cl::Platform::get(&platforms);
-  } catch (const cl::Error&) {  // no driver at all
+  } catch (const cl::Error&) {  // no driver is installed
     return {};
   }
   std::vector<cl::Device> gpus;
@@ -38,7 +38,7 @@ std::vector<cl::Device> usable_devices() {
     std::vector<cl::Device> devices;
     try {
       platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-    } catch (const cl::Error&) {  // a driver without a device
+    } catch (const cl::Error&) {  // the driver has no device
       continue;
     }
     for (const cl::Device& device : devices) {
@@ -48,7 +48,7 @@ std::vector<cl::Device> usable_devices() {
             device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>() >= static_cast<std::size_t>(kGroupSize)) {
           (is_gpu(device) ? gpus : others).push_back(device);
         }
-      } catch (const cl::Error&) {  // one that does not answer is none
+      } catch (const cl::Error&) {  // the device does not respond
         continue;
       }
     }
@@ -62,7 +62,7 @@ double seconds(const cl::Event& event) {
                                     event.getProfilingInfo<CL_PROFILING_COMMAND_START>());
 }
 
-// Memory on the device that grows and is used again.
+// Memory on the device that grows and is reused.
 class Buffer {
  public:
   Buffer(const cl::Context& context, cl_mem_flags flags) : context_(context), flags_(flags) {}
@@ -103,7 +103,7 @@ class OpenClDevice final : public Device {
     try {
       return run_checked(input, counts);
     } catch (const cl::Error& error) {
-      clFinish(queue_());  // writes that were begun read the caller's memory
+      clFinish(queue_());  // pending writes still read the caller's memory
       throw failed(std::string(error.what()) + " failed with " + std::to_string(error.err()));
     }
   }

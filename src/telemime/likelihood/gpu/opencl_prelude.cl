@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel's words mean in OpenCL C 1.2.
+// Macros of the kernel for OpenCL C 1.2.
 #pragma OPENCL FP_CONTRACT OFF
 // PoCL 3.1 passes structs wrongly to functions that it does not inline.
 #define FN static inline __attribute__((always_inline))

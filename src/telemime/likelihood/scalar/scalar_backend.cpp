@@ -2,16 +2,14 @@
 #include <algorithm>
 #include <array>
 
-#include "telemime/core/errors.h"
 #include "telemime/likelihood/backend.h"
-#include "telemime/likelihood/cues/all.h"
 #include "telemime/render/renderer.h"
 
 namespace telemime {
 namespace {
 
-// Pixels of one class in a row, all and those whose label agrees; labels above 3 count nowhere. At most 255
-// pixels, so that bytes hold the counts and the compiler can add many at a time.
+// Counts of at most 255 pixels of a row by class: in the model, and in model and image. Bytes hold them, so
+// that the compiler can add many at once. Pixels with labels above 3 count nowhere.
 struct ByteCounts {
   std::array<std::uint8_t, kSurfaceClassCount> model{};
   std::array<std::uint8_t, kSurfaceClassCount> both{};
@@ -23,7 +21,7 @@ ByteCounts count_bytes(const std::uint8_t* surface, const std::uint8_t* label, i
     std::uint8_t model = 0;
     std::uint8_t both = 0;
     for (int x = 0; x < pixels; ++x) {
-      // Without branches, so that it becomes vector code.
+      // Without branches, so that the compiler can vectorise it.
       const auto is = static_cast<std::uint8_t>(surface[x] == c);
       model = static_cast<std::uint8_t>(model + (is & static_cast<std::uint8_t>(label[x] <= 3)));
       both = static_cast<std::uint8_t>(both + (is & static_cast<std::uint8_t>(label[x] == c)));
@@ -35,7 +33,6 @@ ByteCounts count_bytes(const std::uint8_t* surface, const std::uint8_t* label, i
 }
 
 void count_overlap(const PreparedFrame& frame, const Rendering& rendering, Reductions& r) {
-  r.observed = frame.observed;
   for (int y = rendering.top; y < rendering.bottom; ++y) {
     const auto* label = frame.labels.ptr<std::uint8_t>(y);
     const std::uint8_t* surface =
@@ -68,26 +65,20 @@ void sum_contour(const PreparedFrame& frame, const std::vector<Eigen::Vector2f>&
 
 class ScalarBackend final : public Backend {
  public:
+  using Backend::Backend;
   std::string_view name() const override { return "scalar"; }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    if (poses.size() != scores.size()) {
-      throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
-    }
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       render(model.mesh, forward_kinematics(model.body, poses[i]), frame.camera, rendering_);
-      Score score;
       if (wants(terms, Reduction::overlap)) {
-        count_overlap(frame, rendering_, score.reductions);
-        score.region = non_overlapping_ratio(score.reductions);
+        count_overlap(frame, rendering_, counts[i]);
       }
       if (wants(terms, Reduction::contour)) {
         occluding_contour(model.mesh, rendering_, contour_);
-        sum_contour(frame, contour_, score.reductions);
-        score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
+        sum_contour(frame, contour_, counts[i]);
       }
-      scores[i] = score;
     }
   }
 
@@ -98,8 +89,8 @@ class ScalarBackend final : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_scalar_backend() {
-  return std::make_unique<ScalarBackend>();
+std::unique_ptr<Backend> make_scalar_backend(CueTable cues) {
+  return std::make_unique<ScalarBackend>(std::move(cues));
 }
 
 }  // namespace telemime

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visible occluding contour: edges where a triangle that faces the camera meets one that does not, a
-// point about every pixel, those that nothing hides looked up in the distance map.
+// The visible occluding contour: edges between a triangle that faces the camera and one that does not,
+// sampled about once a pixel; the samples that nothing hides are looked up in the distance map.
 #if defined(TELEMIME_SIMD_CONTOUR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_CONTOUR_INL_H
 #undef TELEMIME_SIMD_CONTOUR_INL_H
@@ -15,7 +15,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
-// Sets of lanes as long numbers; by < 64.
+// Shifts of lane sets as long integers; by < 64.
 inline LaneSet shifted_up(const LaneSet& set, std::uint32_t by) {
   LaneSet out{};
   for (std::size_t k = 0; k < set.size(); ++k) {
@@ -30,7 +30,7 @@ inline LaneSet shifted_down(const LaneSet& set, std::uint32_t by) {
   }
   return out;
 }
-// The lanes of the first side once more behind those of the last one: there the surface closes.
+// Repeats the lanes of the first side after those of the last one, where the surface closes.
 inline LaneSet closed(LaneSet set, const PackedSegment& segment) {
   const std::uint64_t first = set[0] & ~(~std::uint64_t{0} << 1 << (segment.stride - 1));
   const std::size_t word = segment.lanes / 64;
@@ -42,8 +42,8 @@ inline LaneSet closed(LaneSet set, const PackedSegment& segment) {
   return set;
 }
 
-// Points of one edge, from vertex a to vertex b; in tiles, as the vertices. Most edges are a few pixels long,
-// so short vectors do.
+// Samples one edge from vertex a to vertex b, in tiles. Most edges are a few pixels long, so short vectors
+// suffice.
 HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   constexpr float kLongest = 4096.0F;
   const hn::CappedTag<float, 8> few;
@@ -94,7 +94,7 @@ HWY_INLINE void sample_edges(const LaneSet& lanes, const Ends& ends, Workspace& 
 
 inline void sample_contour(const PackedSegment& segment, const Facing& facing, Workspace& ws) {
   const std::uint32_t stride = segment.stride;
-  // At the ends a quadrilateral is one triangle.
+  // At the ends a quadrilateral has only one triangle.
   LaneSet front1{};
   LaneSet front2{};
   LaneSet known1{};
@@ -133,7 +133,7 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
       ws);
 }
 
-// The pixel that each point lies in; for those outside the image the one behind the last.
+// Pixel of each point; points outside the image get the additional last one.
 inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const FloatVector low = number(-0.5F);
   const FloatVector right = number(static_cast<float>(grid.width) - 0.5F);
@@ -157,7 +157,7 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   }
 }
 
-// Sums in 16 columns whatever the vectors' length, so that the order of additions is the same.
+// Sums in 16 columns for any vector length, so that the order of additions is always the same.
 inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) {
   constexpr float kThickness = 0.015F;
   if (ws.samples == 0) {
@@ -169,12 +169,12 @@ inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) 
   const std::int32_t* pixel = ws.sample_pixel.get();
   float* nearest = ws.sample_nearest.get();
   float* distance = ws.sample_distance.get();
-  for (std::size_t i = 0; i < ws.samples; ++i) {  // one by one: gathering vectors takes longer
+  for (std::size_t i = 0; i < ws.samples; ++i) {  // one by one: vector gathers are slower
     const auto at = static_cast<std::size_t>(pixel[i]);
     nearest[i] = depth[at];
     distance[i] = map[at];
   }
-  // Points behind the last one are hidden behind something very near.
+  // Points after the last one are hidden by a very near pixel.
   for (std::size_t i = 0; i < kTile; i += kN) {
     hn::StoreU(number(1e30F), kFloat, ws.sample_nearest.get() + ws.samples + i);
     hn::StoreU(number(1.0F), kFloat, ws.sample_w.get() + ws.samples + i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Overlap of the drawn surface with the labels, and a clean z-buffer for the next pose.
+// Counts the overlap of the drawn surface with the labels and clears the z-buffer for the next pose.
 #if defined(TELEMIME_SIMD_COUNT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_COUNT_INL_H
 #undef TELEMIME_SIMD_COUNT_INL_H
@@ -40,12 +40,12 @@ HWY_INLINE void count_pixels(IntVector drawn, IntVector label, ByteCounts& count
   counts.model = counts.model + hn::IfThenElseZero(label < hn::Set(kInt, TiledPlanes::kUnknown), one);
 }
 
-// Counts (if asked to) what lies in the tiles that each segment touched, and empties them: what two segments
-// touched is empty when it is met again.
+// Counts (if `counted`) and clears the tiles that each segment touched; a tile that two segments touched is
+// already clear the second time.
 template <bool counted>
 void count_and_clear(const TiledPlanes& frame, std::span<const Projection> segments, Workspace& ws,
                      Reductions& r) {
-  constexpr int kMostTiles = 255 / static_cast<int>(kParts);  // so that no byte runs over
+  constexpr int kMostTiles = 255 / static_cast<int>(kParts);  // so that no byte overflows
   const hn::Rebind<std::uint8_t, Int> bytes;
   ByteCounts counts = no_counts();
   int tiles = 0;

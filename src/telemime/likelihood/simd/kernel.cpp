@@ -7,9 +7,9 @@
 #include <new>
 #include <utility>
 
-// Vectors whose length the compiler does not know cannot stand in structs.
+// Vectors of a length unknown at compile time cannot be members of structs.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-// Highway compiles what follows once for every instruction set.
+// Highway compiles the rest of this file once for every instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "telemime/likelihood/simd/kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -23,16 +23,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
-// One pose, from its segments' places to its counts.
+// Counts one pose, given the transforms of its segments.
 inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
   const bool contour = wants(batch.terms, Reduction::contour);
   const SimdStage last = batch.last_stage;
-  // All first: vectors that are stored at one place and read at another wait for each other when they are
-  // near in time.
+  // Project all segments first: a vector load that overlaps a recent store at another address would have to
+  // wait.
   Projection projections[kSegmentCount];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     projections[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
   }
+  // Set up, draw and sample each segment.
   ws.samples = 0;
   for (std::size_t s = 0; s < kSegmentCount && last >= SimdStage::set_up; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
@@ -44,6 +45,7 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
       sample_contour(segment, facing, ws);
     }
   }
+  // Count contour and overlap, and clear the z-buffer.
   if (contour && last >= SimdStage::look_up) {
     sum_contour(batch.frame, ws, r);
   }
@@ -59,7 +61,8 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
 
 void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out, Workspace& ws) {
   ws.fit(batch.frame.grid);
-  // Until all is counted and emptied: memory for more contour points may not be had.
+  // An exception (no memory for contour points) leaves the z-buffer uncleared: `pixels` = 0 makes fit() clear
+  // it.
   const std::size_t pixels = std::exchange(ws.pixels, 0);
   for (std::size_t first = 0; first < poses.size(); first += kN) {
     const std::size_t size = std::min(kN, poses.size() - first);
@@ -146,7 +149,7 @@ std::vector<InstructionSet> instruction_sets() {
 #if (HWY_TARGETS & HWY_SCALAR) != 0
   sets.push_back({"portable", &N_SCALAR::count_poses});
 #endif
-  if (sets.empty()) {  // what the compiler was told to take for granted
+  if (sets.empty()) {  // the instruction set that the compiler assumes
     sets.push_back({"baseline", &HWY_STATIC_DISPATCH(count_poses)});
   }
   return sets;

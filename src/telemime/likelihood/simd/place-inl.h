@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From pose numbers to where each segment is: a block of poses at once, a pose in each lane.
+// Transforms of the segments from pose numbers: a block of poses at once, one pose per lane.
 #if defined(TELEMIME_SIMD_PLACE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_PLACE_INL_H
 #undef TELEMIME_SIMD_PLACE_INL_H
@@ -21,13 +21,13 @@ inline void store_transform(const FloatVector* transform, Segment segment, Works
   }
 }
 
-// sine_cosine() is exact for a few thousand turns; more than one is rare.
+// sine_cosine() is exact for a few thousand turns; poses rarely have more than one.
 inline double within_a_turn(double angle) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return std::abs(angle) <= kTurn ? angle : std::remainder(angle, kTurn);
 }
 
-// Poses beyond the last one are copies of it.
+// Lanes after the last pose hold copies of it.
 inline void load_poses(std::span<const Pose> poses, Workspace& ws) {
   for (std::size_t lane = 0; lane < poses.size(); ++lane) {
     const Pose& pose = poses[lane];

@@ -11,14 +11,13 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/loop_order.h"
-#include "telemime/likelihood/cues/all.h"
 #include "telemime/likelihood/simd/kernel.h"
 
 namespace telemime {
 namespace {
 
 constexpr std::size_t kBlock = simd::Workspace::kPoses;
-// Blocks that a thread takes at a time, enough to be worth a task.
+// Blocks per task; fewer are not worth a task.
 constexpr std::size_t kGrain = 4;
 
 simd::InstructionSet chosen(const std::string& name) {
@@ -33,14 +32,15 @@ simd::InstructionSet chosen(const std::string& name) {
     for (const simd::InstructionSet& set : sets) {
       all += (all.empty() ? "" : ", ") + std::string(set.name);
     }
-    throw Error(ErrorKind::usage, "no instruction set " + name + " here", "There are " + all + ".");
+    throw Error(ErrorKind::usage, "the instruction set " + name + " is not available",
+                "Choose one of: " + all + ".");
   }
   return *found;
 }
 
 int checked_threads(int threads) {
   if (threads < 0 || threads > 1024) {
-    throw Error(ErrorKind::usage, std::to_string(threads) + " threads are impossible",
+    throw Error(ErrorKind::usage, std::to_string(threads) + " threads are not possible",
                 "Give a number from 0 (as many as the machine has) to 1024.");
   }
   const int most = tbb::info::default_concurrency();
@@ -50,7 +50,8 @@ int checked_threads(int threads) {
 class SimdBackend final : public Backend {
  public:
   explicit SimdBackend(const SimdOptions& options)
-      : set_(chosen(options.instruction_set)),
+      : Backend(options.cues),
+        set_(chosen(options.instruction_set)),
         last_stage_(options.last_stage),
         arena_(checked_threads(options.threads)) {
     for (int i = 0; i < arena_.max_concurrency(); ++i) {
@@ -60,19 +61,22 @@ class SimdBackend final : public Backend {
 
   std::string_view name() const override { return "simd"; }
 
-  void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores) override {
-    if (poses.size() != scores.size()) {
-      throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
-    }
-    const simd::Pinhole camera = {static_cast<float>(frame.camera.fx), static_cast<float>(frame.camera.fy),
-                                  static_cast<float>(frame.camera.cx), static_cast<float>(frame.camera.cy)};
-    const simd::Batch batch = {models_.of(model.body, model.mesh), frame.tiles, camera, terms, last_stage_};
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
+             std::span<Reductions> counts) override {
+    const simd::Pinhole camera = {.fx = static_cast<float>(frame.camera.fx),
+                                  .fy = static_cast<float>(frame.camera.fy),
+                                  .cx = static_cast<float>(frame.camera.cx),
+                                  .cy = static_cast<float>(frame.camera.cy)};
+    const simd::Batch batch = {.model = models_.of(model.body, model.mesh),
+                               .frame = frame.tiles,
+                               .camera = camera,
+                               .terms = terms,
+                               .last_stage = last_stage_};
     if (workspaces_.size() == 1 || poses.size() <= kGrain * kBlock) {
-      evaluate_some(batch, frame, poses, scores, *workspaces_.front());
+      count_some(batch, poses, counts, *workspaces_.front());
       return;
     }
-    // Whole blocks of the kernel, some at a time.
+    // Threads take whole blocks of the kernel, several at a time.
     const std::size_t blocks = (poses.size() + kBlock - 1) / kBlock;
     const LoopOrder order;
     arena_.execute([&] {
@@ -83,38 +87,19 @@ class SimdBackend final : public Backend {
             const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
             const std::size_t first = range.begin() * kBlock;
             const std::size_t size = std::min(range.end() * kBlock, poses.size()) - first;
-            evaluate_some(batch, frame, poses.subspan(first, size), scores.subspan(first, size),
-                          *workspaces_[thread]);
+            count_some(batch, poses.subspan(first, size), counts.subspan(first, size), *workspaces_[thread]);
           },
           tbb::simple_partitioner());
     });
   }
 
  private:
-  void evaluate_some(const simd::Batch& batch, const PreparedFrame& frame, std::span<const Pose> poses,
-                     std::span<Score> scores, simd::Workspace& workspace) const {
-    std::array<Reductions, simd::Workspace::kPoses> counts;
-    for (std::size_t first = 0; first < poses.size(); first += counts.size()) {
-      const std::size_t size = std::min(counts.size(), poses.size() - first);
-      counts.fill({});
-      set_.kernel(batch, poses.subspan(first, size), std::span(counts).first(size), workspace);
-      for (std::size_t i = 0; i < size; ++i) {
-        scores[first + i] = score_of(frame, counts[i], batch.terms);
-      }
+  void count_some(const simd::Batch& batch, std::span<const Pose> poses, std::span<Reductions> counts,
+                  simd::Workspace& workspace) const {
+    for (std::size_t first = 0; first < poses.size(); first += kBlock) {
+      const std::size_t size = std::min(kBlock, poses.size() - first);
+      set_.kernel(batch, poses.subspan(first, size), counts.subspan(first, size), workspace);
     }
-  }
-
-  static Score score_of(const PreparedFrame& frame, const Reductions& counts, Reduction terms) {
-    Score score;
-    score.reductions = counts;
-    if (wants(terms, Reduction::overlap)) {
-      score.reductions.observed = frame.observed;
-      score.region = non_overlapping_ratio(score.reductions);
-    }
-    if (wants(terms, Reduction::contour)) {
-      score.contour = mean_edge_distance(score.reductions, frame.distance_cap);
-    }
-    return score;
   }
 
   simd::InstructionSet set_;

@@ -59,7 +59,7 @@ std::vector<Score> scores_of(Backend& backend, const PreparedFrame& frame, const
 }
 
 bool same_bits(const Score& a, const Score& b) {
-  return a.region == b.region && a.contour == b.contour && a.reductions.observed == b.reductions.observed &&
+  return a.costs == b.costs && a.reductions.observed == b.reductions.observed &&
          a.reductions.model == b.reductions.model && a.reductions.both == b.reductions.both &&
          a.reductions.contour_sum == b.reductions.contour_sum &&
          a.reductions.contour_points == b.reductions.contour_points;
@@ -68,8 +68,8 @@ bool same_bits(const Score& a, const Score& b) {
 void expect_same(const std::vector<Score>& a, const std::vector<Score>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_TRUE(same_bits(a[i], b[i])) << "pose " << i << ": " << a[i].region << " " << b[i].region << ", "
-                                       << a[i].contour << " " << b[i].contour;
+    ASSERT_TRUE(same_bits(a[i], b[i])) << "pose " << i << ": " << a[i].region() << " " << b[i].region()
+                                       << ", " << a[i].contour() << " " << b[i].contour();
   }
 }
 
@@ -96,8 +96,8 @@ TEST_F(Simd, InstructionSetsOfOneKindGiveTheSameBits) {
     expect_same(scores, first);
   }
   for (std::size_t i = 0; i < fused.size() && i < plain.size(); ++i) {
-    EXPECT_NEAR(fused[i].region, plain[i].region, 0.005) << i;
-    EXPECT_NEAR(fused[i].contour, plain[i].contour, 0.1) << i;
+    EXPECT_NEAR(fused[i].region(), plain[i].region(), 0.005) << i;
+    EXPECT_NEAR(fused[i].contour(), plain[i].contour(), 0.1) << i;
   }
   std::string all;
   for (const std::string& name : simd_instruction_sets()) {
@@ -154,12 +154,12 @@ TEST_F(Simd, TermsThatAreNotAskedForKeepTheirDefaults) {
   const std::vector<Score> contour = scores_of(*backend_, frame_, model_, poses, Reduction::contour);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Score only_region = all[i];
-    only_region.contour = Score{}.contour;
+    only_region.costs[cue::kContour] = Score{}.contour();
     only_region.reductions.contour_sum = 0.0;
     only_region.reductions.contour_points = 0;
     EXPECT_TRUE(same_bits(region[i], only_region)) << i;
     Score only_contour;
-    only_contour.contour = all[i].contour;
+    only_contour.costs[cue::kContour] = all[i].contour();
     only_contour.reductions.contour_sum = all[i].reductions.contour_sum;
     only_contour.reductions.contour_points = all[i].reductions.contour_points;
     EXPECT_TRUE(same_bits(contour[i], only_contour)) << i;
@@ -170,7 +170,7 @@ TEST_F(Simd, OldScoresAreOverwritten) {
   const std::vector<Pose> poses = random_poses(5, 5);
   std::vector<Score> scores(poses.size());
   for (Score& score : scores) {
-    score = {7.0, 7.0, {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}, 7.0, 7}};
+    score = {{7.0, 7.0}, {{7, 7, 7}, {7, 7, 7}, {7, 7, 7}, 7.0, 7}};
   }
   backend_->evaluate(frame_, model_, poses, Reduction::all, scores);
   expect_same(scores, scores_of(*backend_, frame_, model_, poses));
@@ -206,8 +206,8 @@ TEST_F(Simd, FirstPoseMayHaveNothingToShow) {
     for (const Pose& pose : {behind, beside}) {
       const auto fresh = make_simd_backend({1, name, SimdStage::count});
       const Score score = scores_of(*fresh, frame_, model_, {&pose, 1}).front();
-      EXPECT_EQ(score.region, 1.0);
-      EXPECT_EQ(score.contour, frame_.distance_cap);
+      EXPECT_EQ(score.region(), 1.0);
+      EXPECT_EQ(score.contour(), frame_.distance_cap);
       EXPECT_EQ(score.reductions.contour_points, 0);
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a segment's place to its pixels: vertices to the image, quadrilaterals to lines and planes, and the
-// z-buffer test tile by tile. Lanes are vertices, then quadrilaterals, then pixels.
+// From a segment's transform to its pixels: projects vertices, computes lines and planes of quadrilaterals,
+// and does the z-buffer test tile by tile. Lanes are vertices, then quadrilaterals, then pixels.
 #if defined(TELEMIME_SIMD_SURFACE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_SURFACE_INL_H
 #undef TELEMIME_SIMD_SURFACE_INL_H
@@ -24,17 +24,17 @@ using LaneSet = PackedSegment::LaneSet;
 struct Facing {
   LaneSet front[2] = {};
   LaneSet known[2] = {};
-  LaneSet drawn = {};   ///< quadrilaterals that show something in the image
+  LaneSet drawn = {};   ///< quadrilaterals that are visible in the image
   LaneSet folded = {};  ///< those whose triangles lie in two planes
   LaneSet small = {};   ///< those of at most 2 x 2 tiles
-  LaneSet narrow = {};  ///< of these, those of one column
-  LaneSet medium = {};  ///< of the others, those of at most 3 x 3
+  LaneSet narrow = {};  ///< those of `small` with one column
+  LaneSet medium = {};  ///< those of at most 3 x 3 tiles that are not in `small`
 };
 
 // A segment in the image. Coordinates of vertices are in tiles: pixels over 4.
 struct Projection {
-  TileRect tiles;  ///< that it may touch, at least 3 x 3 unless there is none
-  bool behind;     ///< some vertices are not in front of the camera
+  TileRect tiles;  ///< tiles that it may touch: none, or at least 3 x 3
+  bool behind;     ///< whether some vertices are not in front of the camera
 };
 
 HWY_INLINE float smallest_of(FloatVector v) {
@@ -72,7 +72,7 @@ inline Projection project_segment(const Batch& batch, const PackedSegment& segme
   FloatVector right = number(-kFar);
   FloatVector bottom = right;
   FloatVector farthest = left;
-  // Vertices behind the last one are at the segment's origin. One that is no number counts nowhere.
+  // Vertices after the last one are at the segment's origin. One that is not a number counts nowhere.
   const std::uint32_t end = segment.begin + segment.lanes + segment.stride;
   for (std::uint32_t at = segment.begin; at < end; at += kN) {
     FloatVector u;
@@ -132,7 +132,7 @@ HWY_INLINE void store_line(const Linear& line, std::size_t k, std::size_t i, Wor
 inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, const Projection& projection,
                            Workspace& ws) {
   Facing facing;
-  // m: what is flatter counts as flat.
+  // m, depth up to which a quadrilateral counts as flat.
   constexpr float kFlat = 1e-3F;
   const FloatVector zero = hn::Zero(kFloat);
   const IntVector two = hn::Set(kInt, 2);
@@ -141,7 +141,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
   const IntVector tile_columns = hn::Set(kInt, batch.frame.grid.columns);
   const FloatVector image_right = number(static_cast<float>(batch.frame.grid.width - 1) * 0.25F);
   const FloatVector image_bottom = number(static_cast<float>(batch.frame.grid.height - 1) * 0.25F);
-  // Where a block of 2 x 2 or 3 x 3 tiles begins at last.
+  // Last tiles at which a block of 2 x 2 or 3 x 3 tiles may begin.
   const IntVector last_x[2] = {hn::Set(kInt, projection.tiles.right - 1),
                                hn::Set(kInt, projection.tiles.right - 2)};
   const IntVector last_y[2] = {hn::Set(kInt, projection.tiles.bottom - 1),
@@ -176,9 +176,9 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     }
     facing.front[0][word] |= bits_of(front1) << shift;
     facing.front[1][word] |= bits_of(front2) << shift;
-    // The depth is that of the larger triangle of those that face the camera.
+    // The depth plane is that of the larger triangle that faces the camera.
     const FloatMask from_first = hn::And(front1, hn::Or(hn::Not(front2), area1 <= area2));
-    // One division for both areas; the other triangle's counts only where it is seen.
+    // One division for both areas; that of the other triangle matters only where it is visible.
     const FloatMask both = hn::And(front1, front2);
     const FloatVector own_area = hn::IfThenElse(from_first, area1, area2);
     const FloatVector other_area =
@@ -194,7 +194,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     store_line(fold, 5, i, ws);
     hn::Store(gap * own_area * inverse, kFloat, ws.bend + i);
     facing.folded[word] |= bits_of(folded) << shift;
-    // At the ends one of the two triangles has no area.
+    // At the ends one of the two triangles has zero area.
     const IntVector mark = hn::LoadU(kInt, marks + i);
     const FloatMask at_top = hn::RebindMask(kFloat, hn::TestBit(mark, top_mark));
     const FloatMask at_bottom = hn::RebindMask(kFloat, hn::TestBit(mark, bottom_mark));
@@ -248,7 +248,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
   return facing;
 }
 
-// The linear functions of one quadrilateral at kN pixels: four edges, the depth plane, and the fold if it has
+// Linear functions of one quadrilateral at kN pixels: four edges, the depth plane, and the fold if it has
 // one.
 template <std::size_t size>
 struct Pixels {
@@ -264,8 +264,8 @@ HWY_INLINE Pixels<size> operator+(const Pixels<size>& p, const FloatVector* step
   return sum;
 }
 
-// The z-buffer test: the larger of two positive floats is the larger of their bits as integers, and one with
-// its sign bit set, because it is outside of an edge, is smaller than all.
+// The z-buffer test: positive floats order like their bits as integers; a pixel outside an edge has its sign
+// bit set and is therefore smaller than all others.
 template <std::size_t size>
 HWY_INLINE void test_pixels(const Pixels<size>& p, FloatVector bend, IntVector surface,
                             std::uint32_t* depth) {
@@ -283,7 +283,7 @@ HWY_INLINE void test_pixels(const Pixels<size>& p, FloatVector bend, IntVector s
   hn::Store(hn::Max(value, hn::Load(kInt, pixels)), kInt, pixels);
 }
 
-// Draws a quadrilateral of 5 linear functions, or of 6 when it is folded.
+// Draws a quadrilateral of 5 linear functions, or of 6 if it is folded.
 template <std::size_t size>
 HWY_INLINE void draw_quad(std::size_t i, std::uint32_t surface, int tile_columns, int columns, int rows,
                           Workspace& ws) {
@@ -338,12 +338,12 @@ HWY_INLINE void draw_some(std::uint64_t lanes, std::size_t first, const std::uin
   }
 }
 
-// Most quadrilaterals of a small image touch few tiles: 1 x 2, 2 x 2 or 3 x 3 are tested, needed or not,
-// since loops whose length cannot be foreseen would cost more.
+// Most quadrilaterals of a small image touch few tiles: 1 x 2, 2 x 2 or 3 x 3 are always tested in full,
+// since loops of unpredictable length would cost more.
 inline void draw_quads(const Batch& batch, const PackedSegment& segment, const Facing& facing,
                        Workspace& ws) {
   struct Size {
-    int columns, rows;  ///< but one
+    int columns, rows;  ///< minus one
   };
   const int tile_columns = batch.frame.grid.columns;
   const std::uint32_t* surface = batch.model.surface.data() + segment.begin;

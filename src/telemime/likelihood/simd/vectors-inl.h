@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Types and small functions of the kernel for one instruction set. Included once for each.
+// Types and small functions of the kernel; included once for each instruction set.
 #if defined(TELEMIME_SIMD_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TELEMIME_SIMD_VECTORS_INL_H
 #undef TELEMIME_SIMD_VECTORS_INL_H
@@ -28,10 +28,10 @@ constexpr Float kFloat;
 constexpr Int kInt;
 constexpr std::size_t kN = hn::MaxLanes(Float());
 constexpr std::size_t kTile = TileGrid::kPixels;
-// Vectors that make a tile.
+// Number of vectors in a tile.
 constexpr std::size_t kParts = kTile / kN;
 
-// Tiles from (left, top) to (right, bottom), all included.
+// Tiles from (left, top) to (right, bottom), inclusive.
 struct TileRect {
   std::int32_t left, top, right, bottom;
 };

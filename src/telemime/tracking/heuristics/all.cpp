@@ -16,7 +16,7 @@
 namespace telemime {
 
 const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
-    {"modes", "particles of one mode count as one parent", "ours", Stage::merge, Kind::resampling,
+    {"modes", "particles of one mode count as one parent", "this program", Stage::merge, Kind::resampling,
      merge_modes},
     {"wd", "weight-based deterministic resampling", "thesis 4.4.2.1", Stage::resample, Kind::resampling,
      resample_by_weight},
@@ -26,8 +26,8 @@ const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
      Kind::proposal, use_end_effector_space},
     {"lo", "local optimisation of large families", "thesis 4.4.2.2.2", Stage::optimise, Kind::candidates,
      optimise_families},
-    {"turn", "the trunk turned to where the person may face", "ours", Stage::optimise, Kind::candidates,
-     search_heading},
+    {"turn", "the trunk turned towards the heading the person may have", "this program", Stage::optimise,
+     Kind::candidates, search_heading},
     {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::flip_candidates,
      Kind::candidates, flip_best},
 }};
@@ -49,8 +49,9 @@ std::vector<const Heuristic*> parse_heuristics(const std::string& names) {
     const auto found = std::find_if(kHeuristics.begin(), kHeuristics.end(),
                                     [&](const Heuristic& h) { return h.name == name; });
     if (found == kHeuristics.end()) {
-      throw Error(ErrorKind::usage, "there is no heuristic '" + name + "'",
-                  "Use some of " + heuristic_names() + ", with commas; none at all is CONDENSATION.");
+      throw Error(
+          ErrorKind::usage, "unknown heuristic '" + name + "'",
+          "Choose from " + heuristic_names() + ", separated by commas; an empty list is CONDENSATION.");
     }
     wanted[static_cast<std::size_t>(found - kHeuristics.begin())] = true;
   }

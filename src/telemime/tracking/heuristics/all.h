@@ -9,15 +9,15 @@
 
 namespace telemime {
 
-/// Every heuristic, one line each.
+/// All heuristics, one line each.
 inline constexpr std::size_t kHeuristicCount = 7;
 extern const std::array<Heuristic, kHeuristicCount> kHeuristics;
 
 /// "wd, hpm, ...".
 std::string heuristic_names();
 
-/// The heuristics of a list with commas, in the order in which they run. Throws Error(usage) for an unknown
-/// name, with the choices; an empty list is CONDENSATION.
+/// The heuristics of a comma-separated list, in the order in which they run; none is CONDENSATION. Throws
+/// Error(usage) for an unknown name, with the choices.
 std::vector<const Heuristic*> parse_heuristics(const std::string& names);
 
 }  // namespace telemime

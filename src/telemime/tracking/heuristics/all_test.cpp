@@ -41,7 +41,7 @@ TEST(Heuristics, AreFoundByName) {
   EXPECT_EQ(parse_heuristics(heuristic_names()).size(), kHeuristics.size());
 }
 
-TEST(Heuristics, ComeInTheOrderOfTheirTurnsWhateverTheList) {
+TEST(Heuristics, RunInStageOrderWhateverTheList) {
   EXPECT_EQ(parsed("kf,lo,hpm,wd,modes"), (Names{"modes", "wd", "hpm", "lo", "kf"}));
   EXPECT_EQ(parsed("wd,wd,wd"), (Names{"wd"}));
   const auto all = parse_heuristics(heuristic_names());

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "telemime/search/shape_refine.h"
-#include "telemime/tracking/purposes.h"
 
 namespace telemime {
 namespace {
@@ -15,7 +14,7 @@ struct Trunk {
   double torsion = 0.0;
   double roll = 0.0;
   double tilt = 0.0;
-  double farther = 1.0;  ///< the neck along its viewing ray, times its distance before
+  double farther = 1.0;  // factor of the neck's distance along its viewing ray
   int evaluations = 0;
 };
 
@@ -31,30 +30,33 @@ Pose turned(const Body& body, const Pose& pose, const Trunk& trunk, const JointL
 }
 
 std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from, Random& random) {
-  constexpr double kBent = 0.1;      // rad; the local search straightens what is less
+  constexpr double kBent = 0.1;      // rad; the local search corrects smaller angles
   constexpr double kNew = 0.2;       // rad, a turn that the local search would not find
   constexpr double kFarthest = 1.0;  // rad
   constexpr double kInFront = 0.1;   // m
-  const Trunk now = {from[Angle::root_torsion], from[Angle::root_roll], from[Angle::root_tilt]};
+  const Trunk now = {
+      .torsion = from[Angle::root_torsion], .roll = from[Angle::root_roll], .tilt = from[Angle::root_tilt]};
   const int usual = context.config.turn_evaluations;
   const int thorough =
       std::max(usual, std::min(context.config.walk_evaluations, context.config.particles / 2));
   std::vector<Trunk> trunks;
   if (std::max({std::abs(now.torsion - context.heading), std::abs(now.roll), std::abs(now.tilt)}) > kBent) {
     const bool far = std::abs(now.torsion - context.heading) > kNew;
-    trunks.push_back({context.heading, 0.0, 0.0, 1.0, far ? thorough : usual});
+    trunks.push_back({.torsion = context.heading, .evaluations = far ? thorough : usual});
   }
   if (std::abs(now.tilt) > kNew) {
-    // A trunk that leans looks much like an upright one at the distance of its lower end.
+    // A leaning trunk looks much like an upright one at the distance of its lower end.
     const double neck = forward_kinematics(context.model.body, from).joints[Joint::neck].z();
     if (std::min(neck, from.root.z()) > kInFront) {
-      trunks.push_back({context.heading, 0.0, 0.0, from.root.z() / neck, thorough});
+      trunks.push_back(
+          {.torsion = context.heading, .farther = from.root.z() / neck, .evaluations = thorough});
     }
   }
   if (random.uniform() < 0.5) {
     const double way = random.uniform(kNew, kFarthest);
     const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
-    trunks.push_back({now.torsion + side * way, now.roll, now.tilt, 1.0, usual});
+    trunks.push_back(
+        {.torsion = now.torsion + side * way, .roll = now.roll, .tilt = now.tilt, .evaluations = usual});
   }
   return trunks;
 }
@@ -62,7 +64,7 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
 }  // namespace
 
 void search_heading(const FilterContext& context, Generation& generation) {
-  constexpr int kStarts = 2;  // that each search chooses from
+  constexpr int kStarts = 2;  // evaluated before each search
   const Pose& from = generation.parents[heaviest(generation.parents)].pose;
   const Body& body = context.model.body;
   Random random = context.random(purpose::kHeadingSearch);
@@ -76,7 +78,7 @@ void search_heading(const FilterContext& context, Generation& generation) {
     search.proposals = no_proposals();
     Random own = context.random(purpose::kHeadingSearch, 1 + i);
     Pose start = turned(body, from, trunks[i], context.limits);
-    // The arms turn with the trunk, or they are where they are seen.
+    // The arms turn with the trunk, or stay where they are in the image.
     const Pose seen = carry_arms(body, from, body, start, context.limits);
     if (objective(seen, search.region) < objective(start, search.region)) {
       start = seen;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
+#include "telemime/tracking/heuristics/heuristic.h"
 
 namespace telemime {
 
-/// The heaviest parent with its trunk turned about the neck: upright and to where somebody who walks would
-/// face; the same as far away as its lower end when it leans far, since a lean and another distance look
-/// alike; and in every other frame, by chance, turned by a random angle. The arms turn with it or stay where
-/// they are seen, whichever fits better; then comes a search, a longer one for trunks that had turned or
-/// leaned far.
-/// Regions and contours hardly say which way a trunk turns, so a turn is seldom found from a pose that has
-/// missed its beginning.
+/// Adds the heaviest parent with its trunk turned about the neck: upright and towards the predicted heading;
+/// if it leans far, also at the distance of its lower end, since a lean and another distance look alike; and
+/// with probability 1/2 by a random angle. The arms turn with the trunk or stay where they are in the image,
+/// whichever fits better; then the pose is searched, longer for trunks that were turned or leaning far.
+/// Regions and contours hardly show a turn of the trunk, so that a local search seldom finds one whose
+/// beginning it missed.
 void search_heading(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

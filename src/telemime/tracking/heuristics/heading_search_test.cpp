@@ -28,7 +28,7 @@ Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
   return generation;
 }
 
-TEST(TurnTrunk, AnUprightTrunkIsTurnedHalfOfTheTime) {
+TEST(HeadingSearch, AnUprightTrunkIsTurnedHalfOfTheTime) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   int came = 0;
@@ -40,7 +40,7 @@ TEST(TurnTrunk, AnUprightTrunkIsTurnedHalfOfTheTime) {
   EXPECT_NEAR(came, kSeeds / 2, 15);
 }
 
-TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
+TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations =
       10;  // too few to go far from where the search starts
@@ -58,7 +58,7 @@ TEST(TurnTrunk, ATurnedTrunkIsAlwaysTriedUpright) {
   EXPECT_NEAR(two, kSeeds / 2, 15);
 }
 
-TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
+TEST(HeadingSearch, ABentTrunkIsStraightenedAboutTheNeck) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   Pose bent = both_arms_seen();
@@ -74,7 +74,7 @@ TEST(TurnTrunk, ABentTrunkIsStraightenedAboutTheNeck) {
   EXPECT_GT((upright.root - bent.root).norm(), 0.08);
 }
 
-TEST(TurnTrunk, ATrunkThatLeansFarIsTriedUprightAsFarAsItsLowerEnd) {
+TEST(HeadingSearch, FarLeanIsTriedUprightAtItsLowerEnd) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   for (const double tilt : {0.4, -0.4}) {
@@ -94,7 +94,7 @@ TEST(TurnTrunk, ATrunkThatLeansFarIsTriedUprightAsFarAsItsLowerEnd) {
   }
 }
 
-TEST(TurnTrunk, ArmsStayWhereTheyAreSeenWhenTheTrunkTurnsFromThem) {
+TEST(HeadingSearch, ArmsStayInTheImageWhenTheTrunkTurns) {
   Scene scene;  // shows both_arms_seen(), upright
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   // The trunk was lost, not the arms.
@@ -112,14 +112,14 @@ TEST(TurnTrunk, ArmsStayWhereTheyAreSeenWhenTheTrunkTurnsFromThem) {
   }
 }
 
-TEST(TurnTrunk, WhoWalksIsTriedFacingTheirWay) {
+TEST(HeadingSearch, WhoWalksIsTriedFacingTheirWay) {
   Scene scene;
   scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
   scene.heading = 0.7;
   EXPECT_NEAR(turned(scene, 0.0, 1).particles.at(0).pose[Angle::root_torsion], 0.7, 0.15);
 }
 
-TEST(TurnTrunk, AccountsForWhatItMakes) {
+TEST(HeadingSearch, AccountsForWhatItMakes) {
   Scene scene;
   scene.config.particles = 400;
   scene.config.turn_evaluations = 20;
@@ -138,7 +138,7 @@ TEST(TurnTrunk, AccountsForWhatItMakes) {
   }
 }
 
-TEST(TurnTrunk, FewParticlesMeanAShorterThoroughSearch) {
+TEST(HeadingSearch, FewParticlesMeanAShorterThoroughSearch) {
   Scene scene;
   scene.config.particles = 120;
   scene.config.turn_evaluations = 20;
@@ -148,12 +148,12 @@ TEST(TurnTrunk, FewParticlesMeanAShorterThoroughSearch) {
   EXPECT_DOUBLE_EQ(generation.particles[0].prior, 60.0 / 120.0);
 }
 
-TEST(TurnTrunk, FindsTheUprightTrunkThatTheImageShows) {
+TEST(HeadingSearch, FindsTheUprightTrunkThatTheImageShows) {
   Scene scene;
   Generation generation = turned(scene, 0.6, 2);
   std::vector<Particle> both = {generation.parents[1], generation.particles.at(0)};
   measure(scene.context(), both);
-  EXPECT_LT(both[1].score.region, 0.7 * both[0].score.region);
+  EXPECT_LT(both[1].score.region(), 0.7 * both[0].score.region());
   EXPECT_GT(both[1].log_likelihood, both[0].log_likelihood);
 }
 

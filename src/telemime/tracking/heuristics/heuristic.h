@@ -2,32 +2,44 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
+#include "telemime/tracking/parts.h"
 
 namespace telemime {
 
-/// When a heuristic has its turn in a frame, in this order.
+/// Particles of one frame while a step of the filter makes them.
+struct Generation {
+  std::vector<Particle> parents;  ///< those of the last frame; their weights sum to 1
+  std::vector<int> counts;        ///< children of each parent that are still to be made
+  bool keep_best = false;         ///< whether one child of the heaviest parent is not diffused
+  PartSet moving = all_parts();   ///< parts that are diffused and searched
+  bool end_effector = false;      ///< whether arms are diffused and searched in end-effector space
+  std::vector<Particle> particles;
+  int evaluations = 0;  ///< spent by local searches
+};
+
+/// Stages of a step at which heuristics run, in this order.
 enum class Stage {
   merge,            ///< changes the parents
-  resample,         ///< sets how many children each parent has (else drawn at random)
+  resample,         ///< sets how many children each parent has (without one they are drawn at random)
   partition,        ///< sets what moves, and in which space
   optimise,         ///< makes children by local search
   flip_candidates,  ///< adds particles to those that were made and measured
 };
 
-/// What a heuristic does to the posterior.
+/// Effect of a heuristic on the posterior.
 enum class Kind {
-  resampling,  ///< changes who survives, not where particles may be
-  proposal,    ///< changes where particles are drawn from
-  candidates,  ///< adds particles from a deterministic rule, with a density that is not known
+  resampling,  ///< changes which particles survive, not where particles can be
+  proposal,    ///< changes the distribution from which particles are drawn
+  candidates,  ///< adds particles by a deterministic rule, whose density is unknown
 };
 
-/// A heuristic of the filter (thesis 4.4.2): switched on and off by its name.
+/// A heuristic of the filter (thesis 4.4.2), switched on and off by its name.
 struct Heuristic {
   std::string_view name;
-  std::string_view what;  ///< for help and documents
+  std::string_view what;  ///< for help and documentation
   std::string_view source;
   Stage stage;
   Kind kind;

@@ -9,7 +9,7 @@
 namespace telemime {
 
 void flip_best(const FilterContext& context, Generation& generation) {
-  // The best particle of each family.
+  // The best particle of each family, that is of the children of one parent.
   std::map<int, std::size_t> best;
   for (std::size_t i = 0; i < generation.particles.size(); ++i) {
     const Particle& p = generation.particles[i];
@@ -18,6 +18,7 @@ void flip_best(const FilterContext& context, Generation& generation) {
       at->second = i;
     }
   }
+  // The best families.
   std::vector<std::size_t> order;
   order.reserve(best.size());
   for (const auto& [parent, index] : best) {
@@ -27,6 +28,7 @@ void flip_best(const FilterContext& context, Generation& generation) {
     return generation.particles[a].log_likelihood > generation.particles[b].log_likelihood;
   });
   order.resize(std::min(order.size(), static_cast<std::size_t>(context.config.flip_candidates)));
+  // Its flips, each with the prior of one particle.
   const double share = 1.0 / context.config.particles;
   for (const std::size_t index : order) {
     const Particle from = generation.particles[index];

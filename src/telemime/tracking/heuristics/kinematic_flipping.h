@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
+#include "telemime/tracking/heuristics/heuristic.h"
 
 namespace telemime {
 
-/// The other poses with the same elbows and wrists in the image (thesis 4.4.2.2.3), of the best particles of
-/// the FilterConfig::flip_candidates heaviest families. They take the place of the lightest particles.
+/// Adds the other poses with the same elbows and wrists in the image (thesis 4.4.2.2.3) for the best
+/// particles of FilterConfig::flip_candidates families. They replace the lightest particles.
 void flip_best(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

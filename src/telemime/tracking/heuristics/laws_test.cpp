@@ -98,8 +98,8 @@ std::vector<Step> run(const FilterConfig& config, int threads, std::uint64_t see
       const Particle& p = a[t].particles[i];
       const Particle& q = b[t].particles[i];
       if (p.pose.vector() != q.pose.vector() || p.weight != q.weight || p.prior != q.prior ||
-          p.log_likelihood != q.log_likelihood || p.score.region != q.score.region ||
-          p.score.contour != q.score.contour || p.parent != q.parent || p.origin != q.origin) {
+          p.log_likelihood != q.log_likelihood || p.score.region() != q.score.region() ||
+          p.score.contour() != q.score.contour() || p.parent != q.parent || p.origin != q.origin) {
         return differs("particle " + std::to_string(i));
       }
     }
@@ -114,7 +114,7 @@ bool has_drawn(const std::vector<Step>& steps) {
   });
 }
 
-TEST(FilterLaws, SameSeedSameParticlesWithAnyNumberOfThreads) {
+TEST(FilterLaws, SameSeedSameParticlesForAnyThreads) {
   // Also where the machine has fewer cores.
   const tbb::global_control threads_there_are(tbb::global_control::max_allowed_parallelism, 4);
   int drawn = 0;
@@ -131,7 +131,7 @@ TEST(FilterLaws, SameSeedSameParticlesWithAnyNumberOfThreads) {
   EXPECT_GE(drawn, 12);
 }
 
-TEST(FilterLaws, EveryParticleIsInsideTheLimitsAndOfThisFrame) {
+TEST(FilterLaws, ParticlesAreInsideTheLimitsAndMeasured) {
   const JointLimits limits = anatomical_limits();
   for (const Case& c : cases()) {
     const std::vector<Step> steps = run(c.config, 1, 3);
@@ -189,7 +189,7 @@ TEST(FilterLaws, TheNumberOfParticlesIsKept) {
   }
 }
 
-TEST(FilterLaws, TheNumberOfParticlesIsKeptWhereSimplexesConverge) {
+TEST(FilterLaws, ConvergedSimplexesKeepTheParticleCount) {
   // Seven numbers of one arm and hundreds of evaluations for them.
   for (const std::string list : {"wd,hpm,lo", "wd,hpm,ee,lo", "wd,hpm,ee,lo,kf"}) {
     FilterConfig config = reference_filter(list);

@@ -6,7 +6,6 @@
 #include <iterator>
 
 #include "telemime/body/interpenetration.h"
-#include "telemime/tracking/purposes.h"
 #include "telemime/tracking/search_space.h"
 
 namespace telemime {
@@ -15,16 +14,17 @@ namespace {
 struct Job {
   int parent = 0;
   int evaluations = 0;
-  int number = 0;  // of the same parent's jobs
+  int number = 0;  // among the jobs of the same parent
 };
 
-// F, then D_C, each with what keeps segments out of each other (thesis 3.5.4).
+// F or D_C, each with a penalty for segments inside each other (thesis 3.5.4).
 double cost_of(const Body& body, const Particle& particle, bool contour) {
   const double inside = interpenetration(body, forward_kinematics(body, particle.pose));
-  return contour ? particle.score.contour + 40.0 * inside : particle.score.region + 4.0 * inside;
+  return contour ? particle.score.contour() + 40.0 * inside : particle.score.region() + 4.0 * inside;
 }
 
-// The thesis's: one simplex over all moving numbers, from diffused children; every vertex is a particle.
+// Local search of the thesis: one simplex over all moving numbers, from diffused children. Every vertex
+// becomes a particle.
 std::vector<Particle> descend(const FilterContext& context, const Generation& generation, const Job& job,
                               Backend& backend) {
   const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
@@ -33,11 +33,13 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
   Random random = context.random(purpose::kSimplex, static_cast<std::uint64_t>(job.parent));
   Objective objective(backend, context.frame, context.model, context.limits);
   std::vector<Particle> children;
-  bool contour = false;
+  const bool has_region = objective.cues()[cue::kRegion].enabled;
+  const bool has_contour = objective.cues()[cue::kContour].enabled;
+  bool contour = !has_region;
   const auto cost = [&](const Eigen::VectorXd& x) {
     Particle child;
     child.pose = context.limits.clamp(space.block.decode(x));
-    child.score = objective.score(child.pose, Reduction::all);
+    child.score = objective.score(child.pose, objective.cues().needs());
     child.log_likelihood = log_likelihood(context, child.pose, child.score);
     child.parent = job.parent;
     child.prior = 1.0 / context.config.particles;
@@ -46,6 +48,7 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
     children.push_back(child);
     return cost_of(context.model.body, child, contour);
   };
+  // The parent and n diffused children are the first simplex.
   std::vector<Eigen::VectorXd> start = {space.block.start};
   for (Eigen::Index i = 0; i < n; ++i) {
     Eigen::VectorXd x = space.block.start;
@@ -55,10 +58,11 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
     }
     start.push_back(x);
   }
+  // Minimise F, then D_C from the last simplex (thesis 3.5.4).
   SimplexOptions options;
   const int iterations = job.evaluations - static_cast<int>(n) - 1;
   const int edges = static_cast<int>(std::lround((1.0 - context.search.region_share) * iterations));
-  const bool both = edges > static_cast<int>(n) + 1;
+  const bool both = has_region && has_contour && edges > static_cast<int>(n) + 1;
   options.max_evaluations = job.evaluations - (both ? edges : 0);
   const SimplexResult regions = minimise(cost, start, space.block.bounds, options);
   if (both) {
@@ -70,7 +74,8 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
   return children;
 }
 
-// Ours: trunk and arms in turn, with the prior, starting at the prediction or at the parent.
+// Local search of this program: trunk and arms in turn, with the prior, from the prediction or from the
+// parent.
 std::vector<Particle> search_blocks(const FilterContext& context, const Generation& generation,
                                     const Job& job, bool best, Backend& backend) {
   const Particle& parent = generation.parents[static_cast<std::size_t>(job.parent)];
@@ -137,7 +142,7 @@ void optimise_families(const FilterContext& context, Generation& generation) {
   });
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     int& left = generation.counts[static_cast<std::size_t>(jobs[i].parent)];
-    // A simplex that converged leaves the rest of its family to be diffused.
+    // After a simplex converged, the rest of its family is diffused.
     const int spent = context.config.blocks ? jobs[i].evaluations : static_cast<int>(made[i].size());
     left = std::max(0, left - spent);
     generation.evaluations += spent;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
+#include "telemime/tracking/heuristics/heuristic.h"
 
 namespace telemime {
 
-/// Parents of one mode - elbows and wrists within FilterConfig::mode_radius of the best one's - become the
-/// likeliest of them, with their summed weight raised to FilterConfig::memory; the FilterConfig::modes
-/// heaviest ones stay.
+/// Replaces the parents of each mode (elbows and wrists within FilterConfig::mode_radius of those of its
+/// best) by the likeliest of them, with the sum of their weights raised to the power FilterConfig::memory.
+/// Keeps the FilterConfig::modes heaviest modes.
 void merge_modes(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

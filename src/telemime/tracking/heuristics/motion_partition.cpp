@@ -40,7 +40,7 @@ std::array<double, kPartCount> uncovered_shares(const cv::Mat& before, const cv:
         }
       }
     }
-    // A part that covers nothing of its class is not where it is looked for: it counts as moving.
+    // A part that covers no pixel of its class is not where the pose has it: it counts as moving.
     shares[part] = covered > 0 ? static_cast<double>(covered - still) / covered : 1.0;
   }
   return shares;

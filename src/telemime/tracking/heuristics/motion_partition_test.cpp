@@ -57,7 +57,7 @@ TEST(MotionPartition, WhenTheTrunkMovesEverythingDoes) {
   EXPECT_EQ(moving(both_arms_seen(), now), all_parts());
 }
 
-TEST(MotionPartition, HeadAndArmsGoWithTheTrunkEvenWhereTheyLookStill) {
+TEST(MotionPartition, HeadAndArmsMoveWithTheTrunk) {
   Scene scene;
   scene.labels_before = scene.frame.labels.clone();
   // Some of the chest is gone below the neck, nothing else.
@@ -88,7 +88,7 @@ TEST(MotionPartition, WithoutAFrameBeforeEverythingMoves) {
   EXPECT_EQ(generation.moving, all_parts());
 }
 
-TEST(MotionPartition, SharesAreThoseOfThePixelsThatLostTheirClass) {
+TEST(MotionPartition, SharesCountPixelsThatLostTheirClass) {
   Scene scene;
   const Pose pose = both_arms_seen();
   const cv::Mat before = scene.frame.labels;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "telemime/tracking/context.h"
-#include "telemime/tracking/generation.h"
+#include "telemime/tracking/heuristics/heuristic.h"
 
 namespace telemime {
 
-/// n_i = N w_i, what is left to the largest fractions; one child of the heaviest parent is not diffused
-/// (thesis 4.4.2.1, equation 4.14).
+/// Gives each parent n_i = N w_i children, the remainder to the largest fractions; one child of the heaviest
+/// parent is not diffused (thesis 4.4.2.1, equation 4.14).
 void resample_by_weight(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "telemime/likelihood/prepared_frame.h"
+
 #include <algorithm>
 
 #include "telemime/core/errors.h"
-#include "telemime/likelihood/backend.h"
 
 namespace telemime {
 
