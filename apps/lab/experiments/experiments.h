@@ -64,10 +64,7 @@ Finding all_accuracy(Lab& lab);          ///< F4-29
 Finding all_robustness(Lab& lab);        ///< F4-30
 Finding real_clips(Lab& lab);            ///< F4-33
 Finding overlap_times(Lab& lab);         ///< T4-1
-Finding ablation(Lab& lab);              ///< no figure: each cue and heuristic left out
-Finding levers(Lab& lab);                ///< no figure: each part of the whole program left out
-
-/// "Agrees", "Partly agrees" or "Differs", by how many of the statements hold, then the words.
-std::string verdict(std::initializer_list<bool> statements, const std::string& words);
+Finding ablation(Lab& lab);              ///< not in the thesis: each cue and heuristic left out
+Finding levers(Lab& lab);                ///< not in the thesis: each part of the program left out
 
 }  // namespace telemime

@@ -59,12 +59,13 @@ Eigen::Matrix3d end_of_bone(const Camera& camera, const Eigen::Vector3d& from, c
 
 std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particles, double radius,
                              std::size_t most) {
-  // What weighs next to nothing makes no mode.
+  // A particle with less weight does not form a mode.
   constexpr double kLeast = 1e-9;
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return particles[a].weight > particles[b].weight; });
+  // Each particle joins the first mode within the radius, or forms a new one.
   std::vector<Mode> modes;
   std::vector<ArmPoints> places;
   for (const std::size_t i : order) {
@@ -91,6 +92,7 @@ std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particl
 
 std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& context, const Pose& estimate,
                                                           const SpreadModel& model) {
+  // Trunk: the same standard deviation for each joint.
   const JointPositions joints = forward_kinematics(context.body, estimate).joints;
   const Eigen::Vector3d middle = mid_shoulders(joints);
   std::array<Eigen::Matrix3d, kJointCount> covariance;
@@ -102,6 +104,7 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
                                                               {Joint::r_elbow, Joint::r_wrist},
                                                               {Joint::l_wrist, Joint::l_hand},
                                                               {Joint::r_wrist, Joint::r_hand}}};
+  // Arms: from the shoulder outward, each bone adds to the covariance of its start.
   SpreadModel arms = model;
   std::array<double, kJointCount> along{};
   constexpr double kToTheWrist = 1.5;
@@ -118,9 +121,11 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
       at(to) += square(model.slide) * forearm * forearm.transpose();
     }
   }
+  // Lean of trunk and head, in proportion to the distance from the shoulders.
   for (const Joint joint : {Joint::root, Joint::neck, Joint::head, Joint::head_top}) {
     at(joint) += Eigen::Matrix3d::Identity() * (square(model.lean) * (joints[joint] - middle).squaredNorm());
   }
+  // Wrists whose hand is outside the image.
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
     const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
@@ -130,6 +135,7 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
                    square(kCut * context.body.forearm_length[static_cast<std::size_t>(side)]);
     }
   }
+  // Larger for a pose that fits badly, and along the line from the shoulders for an unknown size.
   const double worse = std::pow(std::max(1.0, context.region / model.residual), 2.0);
   for (std::size_t j = 0; j < kJointCount; ++j) {
     covariance[j] *= worse * worse;
@@ -143,6 +149,7 @@ PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> par
                      const SpreadModel& model) {
   // Lighter particles do not change the digits that are written.
   constexpr double kLeast = 1e-6;
+  // Covariance of the model plus that of the particles, relative to the middle of the shoulders.
   const Body& body = context.body;
   PoseSpread spread;
   spread.covariance = model_covariance(context, estimate, model);
@@ -159,6 +166,7 @@ PoseSpread spread_of(const SpreadContext& context, std::span<const Particle> par
       spread.covariance[j] += particle.weight * way * way.transpose();
     }
   }
+  // Weight of the second mode, and how many particles carry the estimate.
   constexpr double kModeRadius = 0.1;  // m, of an elbow or wrist
   const std::vector<Mode> modes = find_modes(body, particles, kModeRadius, 2);
   spread.second_mode = modes.size() > 1 ? modes[1].weight : 0.0;

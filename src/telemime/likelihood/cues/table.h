@@ -53,8 +53,8 @@ class CueTable {
   std::vector<Cue> cues_;
 };
 
-/// Cost of `pose` by each cue whose reductions `counted` contains; the other costs are those of Score{}. Computes
-/// the kinematics of `input` if a cue needs them.
+/// Cost of `pose` by each cue whose reductions `counted` contains; the other costs are those of Score{}.
+/// Computes the kinematics of `input` if a cue needs them.
 CueValues cue_costs(const CueTable& cues, CueInput input, const Pose& pose, Reduction counted);
 
 }  // namespace telemime

@@ -217,11 +217,13 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
       counts[i] = 0;
     }
   }
+  // Transforms of the segments.
   for (int part = THREAD; part < 3; part += GROUP_SIZE) {
     place_part(part, poses, &frame, transforms);
   }
   SYNCHRONISE;
 
+  // Project the vertices and find the bounding box of the body.
   int low_x = frame.width, low_y = frame.height, high_x = -1, high_y = -1;
   for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
     float transform[12];
@@ -252,6 +254,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   const int right = min(box[2], frame.width - 1);
   const int last_row = min(box[3], frame.height - 1);
 
+  // Facing of the triangles.
   for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
     const unsigned int word = words[i];
     unsigned int f = 0u;
@@ -266,6 +269,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
     facing[i] = (unsigned char)f;
   }
 
+  // Draw and count in bands of rows that fit into the memory of the group.
   int model1 = 0, model2 = 0, model3 = 0, both1 = 0, both2 = 0, both3 = 0, points = 0;
   float sum = 0.0f;
   const int span = right + 1 - left;
@@ -290,6 +294,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
       }
     }
     SYNCHRONISE;
+    // Overlap of the band with the labels.
     if ((frame.terms & 1) != 0) {
       for (int p = THREAD; p < pixels; p += GROUP_SIZE) {
         const int surface = (int)((depth[p] & CLASS_BITS) >> 3);
@@ -304,6 +309,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
         both3 += surface == 3 && same ? 1 : 0;
       }
     }
+    // Contour samples in the rows of the band.
     if ((frame.terms & 2) != 0) {
       for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
         const unsigned int word = words[i];
@@ -336,6 +342,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
     SYNCHRONISE;
   }
 
+  // Add up the counts of all threads.
   ATOMIC_ADD(counts, model1);
   ATOMIC_ADD(counts + 1, model2);
   ATOMIC_ADD(counts + 2, model3);

@@ -108,6 +108,8 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
     known1[k] = take(facing.known[0], facing.known[1], segment.top);
     known2[k] = take(facing.known[1], facing.known[0], segment.bottom);
   }
+  // Edges between neighbouring triangles of which exactly one faces the camera: along the sides, along the
+  // diagonals and along the rings.
   const LaneSet here_front = closed(front1, segment);
   const LaneSet here_known = closed(known1, segment);
   const LaneSet beside_front = shifted_up(front2, stride);
@@ -122,6 +124,7 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
     diagonal[k] = (front1[k] ^ front2[k]) & known1[k] & known2[k];
     ring[k] = (front2[k] ^ below_front[k]) & known2[k] & below_known[k];
   }
+  // Sample these edges.
   const std::size_t at = segment.begin;
   sample_edges(
       along, [at](std::size_t i, Workspace& w) { sample_edge(at + i, at + i + 1, w); }, ws);
@@ -163,6 +166,7 @@ inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) 
   if (ws.samples == 0) {
     return;
   }
+  // Depth and distance at the pixel of each sample.
   find_pixels(frame.grid, ws);
   const auto* depth = reinterpret_cast<const float*>(ws.depth.get());
   const float* map = frame.distance.data();
@@ -179,6 +183,7 @@ inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) 
     hn::StoreU(number(1e30F), kFloat, ws.sample_nearest.get() + ws.samples + i);
     hn::StoreU(number(1.0F), kFloat, ws.sample_w.get() + ws.samples + i);
   }
+  // Add the distances of visible samples.
   FloatVector sum[kParts];
   for (FloatVector& part : sum) {
     part = hn::Zero(kFloat);

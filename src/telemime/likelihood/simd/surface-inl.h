@@ -158,6 +158,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     const Corner d = corner_at(ws, at + segment.stride + 1);
     const std::size_t word = i / 64;
     const std::uint32_t shift = i % 64;
+    // Which of the two triangles face the camera, and which are in front of it.
     const FloatVector area1 = doubled_area(&a, &b, &c);
     const FloatVector area2 = doubled_area(&b, &d, &c);
     FloatMask front1 = area1 < zero;
@@ -186,6 +187,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     const FloatVector inverse = number(1.0F) / (own_area * other_area);
     const Linear plane = depth_plane(&a, &b, &c, &d, from_first, other_area * inverse);
     store_line(plane, 4, i, ws);
+    // Fold: where the other triangle is not in that plane, 1/z bends at the diagonal.
     const Corner left_out = select_corner(from_first, d, a);
     const FloatVector gap = depth_gap(&plane, &left_out);
     const FloatVector bound = number(kFlat) * left_out.w * left_out.w;
@@ -202,6 +204,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     front2 = hn::Or(front2, hn::And(at_bottom, front1));
     front1 = whole1;
 
+    // Bounding box and edges of the visible part.
     const Corner p = select_corner(front1, a, b);
     const Corner q = select_corner(front2, d, c);
     const FloatVector low_u = smallest(p.u, q.u, b.u, c.u);
@@ -213,6 +216,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     for (std::size_t k = 0; k < 4; ++k) {
       store_line(edge[k], k, i, ws);
     }
+    // Tiles of the box; a small or medium block is moved so that it ends inside the segment's tiles.
     const TileRange x = tile_range(low_u, high_u, image_right);
     const TileRange y = tile_range(low_v, high_v, image_bottom);
     const FloatMask drawn = hn::And(hn::Or(front1, front2), hn::And(x.any, y.any));
@@ -238,6 +242,7 @@ inline Facing set_up_quads(const Batch& batch, const PackedSegment& segment, con
     facing.narrow[word] |= bits_of(hn::RebindMask(kFloat, narrow)) << shift;
     facing.medium[word] |= bits_of(hn::RebindMask(kFloat, medium)) << shift;
   }
+  // Make the sets disjoint and drop lanes without a quadrilateral.
   for (std::size_t word = 0; word < facing.drawn.size(); ++word) {
     facing.drawn[word] &= segment.quads[word];
     facing.folded[word] &= facing.drawn[word];
