@@ -14,7 +14,7 @@ bool says(const std::optional<SourceNews>& news, Kind kind, const std::string& w
   return news && news->kind == kind && news->words.find(words) != std::string::npos;
 }
 
-// What is told while `count` pictures come, `rate` a second, on from `time`.
+// The reports while `count` images arrive at `rate` per second, starting at `time`.
 std::vector<SourceNews> at_rate(CameraWatch& watch, double& time, int count, double rate) {
   std::vector<SourceNews> told;
   for (int i = 0; i < count; ++i) {
@@ -26,7 +26,7 @@ std::vector<SourceNews> at_rate(CameraWatch& watch, double& time, int count, dou
   return told;
 }
 
-TEST(CameraWatch, AFewPicturesASecondAreToldOnceAndWhenItIsOver) {
+TEST(CameraWatch, ReportsLowFrameRateOnceAndItsEnd) {
   CameraWatch watch({640, 480}, 100.0);
   double time = 100.0;
   EXPECT_TRUE(at_rate(watch, time, 100, 25.0).empty());
@@ -38,7 +38,7 @@ TEST(CameraWatch, AFewPicturesASecondAreToldOnceAndWhenItIsOver) {
   EXPECT_TRUE(says(told[0], Kind::better, "25 frames per second again"));
 }
 
-TEST(CameraWatch, AGapOrEqualTimesAreNoRate) {
+TEST(CameraWatch, IgnoresGapsAndEqualTimes) {
   CameraWatch watch({640, 480}, 0.0);
   double time = 0.0;
   at_rate(watch, time, 100, 25.0);
@@ -49,7 +49,7 @@ TEST(CameraWatch, AGapOrEqualTimesAreNoRate) {
   }
 }
 
-TEST(CameraWatch, SizesAreToldWhenTheyChange) {
+TEST(CameraWatch, ReportsChangesOfSize) {
   CameraWatch watch({640, 480}, 0.0);
   EXPECT_FALSE(watch.size({640, 480}));
   EXPECT_TRUE(says(watch.size({320, 240}), Kind::worse, "320x240"));
@@ -59,7 +59,7 @@ TEST(CameraWatch, SizesAreToldWhenTheyChange) {
   EXPECT_TRUE(says(watch.size({640, 480}), Kind::better, "640x480"));
 }
 
-TEST(CameraWatch, DamageIsToldWhenThereIsMuchOfIt) {
+TEST(CameraWatch, ReportsRepeatedDamage) {
   CameraWatch watch({640, 480}, 0.0);
   EXPECT_FALSE(watch.damaged(1.0));
   EXPECT_FALSE(watch.damaged(11.0));
@@ -74,7 +74,7 @@ TEST(CameraWatch, DamageIsToldWhenThereIsMuchOfIt) {
   EXPECT_EQ(watch.summary(), "6 damaged images were dropped");
 }
 
-TEST(CameraWatch, AnInterruptionIsToldFromItsBeginningToItsEnd) {
+TEST(CameraWatch, ReportsInterruptionsAndTheirEnd) {
   CameraWatch watch({640, 480}, 10.0);
   EXPECT_FALSE(watch.back(11.0));
   EXPECT_TRUE(says(watch.stopped(12.0), Kind::worse, "trying to open it again"));

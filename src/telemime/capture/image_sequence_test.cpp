@@ -36,7 +36,7 @@ class ImageSequenceTest : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-TEST_F(ImageSequenceTest, AFolderIsReadInNaturalOrder) {
+TEST_F(ImageSequenceTest, ReadsAFolderInNaturalOrder) {
   for (const int number : {10, 2, 1, 9}) {
     write_numbered("frame" + std::to_string(number) + ".png", number);
   }
@@ -60,7 +60,7 @@ TEST_F(ImageSequenceTest, PatternsChooseFiles) {
   EXPECT_EQ(numbers(*open_source(scratch_.file("b4.png"))), (std::vector<int>{8}));
 }
 
-TEST_F(ImageSequenceTest, GapsInTheNumbersDrawAComplaint) {
+TEST_F(ImageSequenceTest, ReportsGapsInTheNumbers) {
   for (const int number : {1, 2, 6}) {
     write_numbered(std::to_string(number) + ".png", number);
   }
@@ -69,7 +69,7 @@ TEST_F(ImageSequenceTest, GapsInTheNumbersDrawAComplaint) {
   EXPECT_NE(source->complaint().find("3 numbers are missing"), std::string::npos) << source->complaint();
 }
 
-TEST_F(ImageSequenceTest, UnreadableImagesAreLeftOutAndKeepTheirTime) {
+TEST_F(ImageSequenceTest, SkipsUnreadableImagesAndTheirTime) {
   write_numbered("1.png", 1);
   testing::write_bytes(scratch_.file("2.png"), "");
   testing::write_bytes(scratch_.file("3.png"), "not a picture");
@@ -88,7 +88,7 @@ TEST_F(ImageSequenceTest, UnreadableImagesAreLeftOutAndKeepTheirTime) {
   EXPECT_NE(source->complaint().find("2.png"), std::string::npos) << source->complaint();
 }
 
-TEST_F(ImageSequenceTest, AllKindsOfImagesBecomeColourAndTheSizeOfTheFirst) {
+TEST_F(ImageSequenceTest, ConvertsImagesToTheFirstSize) {
   const cv::Size size(64, 48);
   write_numbered("1.png", 1);
   write_image("2.png", cv::Mat(size, CV_8UC1, cv::Scalar(50)));
@@ -102,7 +102,7 @@ TEST_F(ImageSequenceTest, AllKindsOfImagesBecomeColourAndTheSizeOfTheFirst) {
   EXPECT_NE(source->complaint().find("resized"), std::string::npos) << source->complaint();
 }
 
-TEST_F(ImageSequenceTest, NamesTheCauseOfWhatItCannotRead) {
+TEST_F(ImageSequenceTest, StatesTheCauseOfFailures) {
   const auto refusal = [](const std::string& input) {
     return testing::input_error([&] { open_source(input); });
   };

@@ -8,7 +8,7 @@
 namespace telemime {
 namespace {
 
-TEST(InputKind, IsToldByTheName) {
+TEST(InputKind, FollowsFromTheName) {
   EXPECT_EQ(input_kind("0"), InputKind::camera);
   EXPECT_EQ(input_kind("12"), InputKind::camera);
   EXPECT_EQ(input_kind("/dev/video2"), InputKind::device);
@@ -25,7 +25,7 @@ TEST(InputKind, IsToldByTheName) {
   }
 }
 
-TEST(InputKind, IsToldByTheFileSystemWhereTheNameDoesNot) {
+TEST(InputKind, FollowsFromTheFileSystemOtherwise) {
   const ScratchFolder scratch;
   EXPECT_EQ(input_kind(scratch.file("")), InputKind::folder);
   const std::string awkward = scratch.file("take[2]_100%d.mp4");

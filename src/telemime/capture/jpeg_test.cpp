@@ -27,7 +27,7 @@ Bytes file_of(const cv::Mat& image) {
   return bytes;
 }
 
-TEST(Jpeg, DecodesAsOthersDo) {
+TEST(Jpeg, DecodesLikeOpenCv) {
   const Bytes bytes = file_of(picture());
   const cv::Mat decoded = decode_jpeg(bytes);
   const cv::Mat expected = cv::imdecode(bytes, cv::IMREAD_COLOR);
@@ -36,13 +36,13 @@ TEST(Jpeg, DecodesAsOthersDo) {
   EXPECT_EQ(cv::norm(decoded, expected, cv::NORM_INF), 0.0);
 }
 
-TEST(Jpeg, GreyPicturesAreMadeBgr) {
+TEST(Jpeg, ConvertsGreyToBgr) {
   cv::Mat grey;
   cv::cvtColor(picture(), grey, cv::COLOR_BGR2GRAY);
   EXPECT_EQ(decode_jpeg(file_of(grey)).type(), CV_8UC3);
 }
 
-TEST(Jpeg, TablesMayBeLeftOutAsInMotionJpeg) {
+TEST(Jpeg, AcceptsMissingHuffmanTables) {
   const Bytes whole = file_of(picture());  // written with the standard's tables
   Bytes bytes = {whole[0], whole[1]};
   std::size_t at = 2;
@@ -64,20 +64,20 @@ TEST(Jpeg, TablesMayBeLeftOutAsInMotionJpeg) {
   EXPECT_EQ(cv::norm(decoded, decode_jpeg(whole), cv::NORM_INF), 0.0);
 }
 
-TEST(Jpeg, WhatIsCutOffIsNoPicture) {
+TEST(Jpeg, RefusesTruncatedImages) {
   const Bytes whole = file_of(picture());
   for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
     EXPECT_TRUE(decode_jpeg({whole.data(), size}).empty()) << size;
   }
 }
 
-TEST(Jpeg, BytesBehindItDoNoHarm) {
+TEST(Jpeg, IgnoresTrailingBytes) {
   Bytes bytes = file_of(picture());
   bytes.resize(bytes.size() + 100, 0);
   EXPECT_FALSE(decode_jpeg(bytes).empty());
 }
 
-// Pictures for which there is no memory, as long as it lives.
+// Makes allocations of images fail for the scope.
 class NoMemory final : public cv::MatAllocator {
  public:
   NoMemory() { cv::Mat::setDefaultAllocator(this); }
@@ -100,7 +100,7 @@ class NoMemory final : public cv::MatAllocator {
   cv::MatAllocator* usual_ = cv::Mat::getDefaultAllocator();
 };
 
-TEST(Jpeg, WithoutMemoryForThePictureNothingIsKeptBack) {
+TEST(Jpeg, ReleasesMemoryAfterFailure) {
   const Bytes bytes = file_of(picture());
   EXPECT_FALSE(decode_jpeg(bytes).empty());
   const NoMemory none;
@@ -111,7 +111,7 @@ TEST(Jpeg, WithoutMemoryForThePictureNothingIsKeptBack) {
   EXPECT_LT(::mallinfo2().uordblks, before + 1'000'000) << "sanitizers find it in their own way";
 }
 
-TEST(Jpeg, NoBytesCrashIt) {
+TEST(Jpeg, SurvivesAnyBytes) {
   const Bytes whole = file_of(picture());
   std::mt19937 random(1);
   int refused = 0;

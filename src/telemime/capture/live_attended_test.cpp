@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live sources that are followed for as long as it takes, and their time stamps.
+// Attended live sources and their time stamps.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -42,7 +42,7 @@ struct Told {
   std::vector<SourceNews> all;
 };
 
-TEST(LiveAttended, ACameraThatIsGoneIsTriedForEver) {
+TEST(LiveAttended, RetriesAMissingCameraForEver) {
   constexpr int kAttempts = 300;
   std::atomic<int> openings = 0;
   std::promise<void> attended;
@@ -51,7 +51,7 @@ TEST(LiveAttended, ACameraThatIsGoneIsTriedForEver) {
     if (opening > 0 && opening < kAttempts) {
       return {};
     }
-    // The first connection gives one picture, the last one many.
+    // The first connection delivers one image, the last one many.
     return {[begun, left = opening == 0 ? 1 : 1000000]() mutable {
               if (left == 0) {
                 begun.wait();
@@ -73,7 +73,7 @@ TEST(LiveAttended, ACameraThatIsGoneIsTriedForEver) {
   EXPECT_TRUE(told.heard(Kind::better, "is back"));
 }
 
-TEST(LiveAttended, PausesAreNeverLongerThanAsked) {
+TEST(LiveAttended, PausesAreNeverLongerThanRequested) {
   std::atomic<int> openings = 0;
   const auto open = [&openings] {
     return openings++ % 2 == 1
@@ -91,7 +91,7 @@ TEST(LiveAttended, PausesAreNeverLongerThanAsked) {
   }
 }
 
-TEST(LiveAttended, StopsInTheMiddleOfALongPause) {
+TEST(LiveAttended, StopsDuringALongPause) {
   std::atomic<int> openings = 0;
   const auto open = [&openings] {
     return openings++ > 0 ? LiveDevice{}
@@ -119,7 +119,7 @@ TEST(LiveAttended, StopsInTheMiddleOfALongPause) {
   EXPECT_FALSE(left_behind);
 }
 
-// A driver that never answers, until the test lets it go.
+// A driver that does not answer until the test releases it.
 struct Hanging {
   std::mutex mutex;
   std::condition_variable changed;
@@ -128,7 +128,7 @@ struct Hanging {
   bool gone = false;
 };
 
-TEST(LiveAttended, ADeviceThatHangsHoldsNobodyUp) {
+TEST(LiveAttended, HangingDeviceDelaysNobody) {
   const auto hanging = std::make_shared<Hanging>();
   const auto open = [hanging] {
     return LiveDevice{[hanging, left = 1]() mutable {
@@ -164,7 +164,7 @@ TEST(LiveAttended, ADeviceThatHangsHoldsNobodyUp) {
   hanging->changed.wait(lock, [&] { return hanging->gone; });
 }
 
-TEST(LiveAttended, SilenceIsToldAndItsEnd) {
+TEST(LiveAttended, ReportsSilenceAndItsEnd) {
   std::promise<void> go_on;
   const auto open = [waited = go_on.get_future().share()] {
     return LiveDevice{[waited, count = 0]() mutable {
@@ -191,7 +191,7 @@ TEST(LiveAttended, SilenceIsToldAndItsEnd) {
   EXPECT_TRUE(told.heard(Kind::better, "is back"));
 }
 
-TEST(LiveAttended, DamageAndSizesAreTold) {
+TEST(LiveAttended, ReportsDamageAndSizes) {
   std::atomic<int> reads = 0;
   std::promise<void> attended;
   const auto open = [&reads, begun = attended.get_future().share()] {
@@ -223,8 +223,8 @@ TEST(LiveAttended, DamageAndSizesAreTold) {
   EXPECT_TRUE(told.heard(Kind::worse, "64x36"));
 }
 
-// Frame::taken of the pictures after the first, when the driver gives these stamps and the clock shows a
-// second more at each picture, from 100 on.
+// Frame::taken of the images after the first, if the driver gives these stamps and the clock advances by one
+// second per image, starting at 100.
 std::vector<double> taken_with(const std::vector<double>& stamps) {
   const auto now = std::make_shared<std::atomic<double>>(100.0);
   const auto turn = std::make_shared<std::atomic<std::size_t>>(0);
@@ -269,16 +269,16 @@ std::vector<double> taken_with(const std::vector<double>& stamps) {
   return taken;
 }
 
-TEST(LiveAttended, TheDriversStampIsUsedWhereItCanBe) {
+TEST(LiveAttended, UsesTheStampOfTheDriver) {
   EXPECT_EQ(taken_with({100.9, 101.8, 102.5}), (std::vector<double>{100.9, 101.8, 102.5}));
 }
 
-TEST(LiveAttended, StampsOfOtherClocksAreNot) {
+TEST(LiveAttended, IgnoresStampsOfOtherClocks) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(taken_with({0.0, 1.7e9, kNothing, -3.0}), (std::vector<double>{101.0, 102.0, 103.0, 104.0}));
 }
 
-TEST(LiveAttended, StampsNeverGoBack) {
+TEST(LiveAttended, StampsNeverDecrease) {
   EXPECT_EQ(taken_with({100.9, 100.9, 100.2, 103.9}), (std::vector<double>{100.9, 102.0, 103.0, 103.9}));
 }
 

@@ -15,19 +15,19 @@
 namespace telemime {
 namespace {
 
-/// A camera driven by the test: the reader's thread waits in grab() until pictures are pushed or the end
-/// comes.
+/// A camera driven by the test: the reader's thread waits in grab() until images are pushed or the end
+/// is reached.
 class FakeCamera {
  public:
-  /// Hands `count` pictures out, and returns when the reader has taken all and asks for one more.
+  /// Delivers `count` images and returns when the reader has taken all and asks for another.
   void push(int count) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return failures_ == 0; });  // what was to fail fails first
+    changed_.wait(lock, [this] { return failures_ == 0; });  // requested failures come first
     pending_ += count;
     changed_.notify_all();
     changed_.wait(lock, [this] { return pending_ == 0 && waiting_; });
   }
-  /// The next `count` reads fail, as if the cable was pulled.
+  /// Makes the next `count` reads fail, as with an unplugged cable.
   void fail(int count) {
     const std::lock_guard lock(mutex_);
     failures_ += count;
@@ -60,7 +60,7 @@ class FakeCamera {
   }
   std::mutex mutex_;
   std::condition_variable changed_;
-  int pending_ = 1;  // the one that tells the size
+  int pending_ = 1;  // the image that gives the size
   int failures_ = 0;
   int made_ = 0;
   bool waiting_ = false;
@@ -72,12 +72,12 @@ LiveOptions with_pauses(std::vector<double> pauses) {
   return options;
 }
 
-/// Counts up by one second at every look.
+/// Advances by one second with each reading.
 Clock counting_clock(std::atomic<int>& looks) {
   return {[&looks] { return static_cast<double>(looks++); }, [](double) {}};
 }
 
-TEST(Live, KeepsOnlyTheNewestFrameWithTimesThatGrow) {
+TEST(Live, KeepsOnlyTheNewestFrame) {
   FakeCamera camera;
   std::atomic<int> looks = 0;
   LiveOptions options = with_pauses({});
@@ -92,19 +92,19 @@ TEST(Live, KeepsOnlyTheNewestFrameWithTimesThatGrow) {
   camera.push(4);
   const std::optional<Frame> newest = source->next();
   ASSERT_TRUE(newest);
-  EXPECT_EQ(newest->index, 4);  // 0 to 3 were never asked for
+  EXPECT_EQ(newest->index, 4);  // 0 to 3 were never requested
   EXPECT_EQ(testing::number_of(newest->image), 4);
   camera.push(2);
   const std::optional<Frame> later = source->next();
   ASSERT_TRUE(later);
   EXPECT_EQ(later->index, 6);
   EXPECT_GT(later->time, newest->time);
-  EXPECT_EQ(testing::number_of(newest->image), 4);  // a frame never changes after it was handed out
+  EXPECT_EQ(testing::number_of(newest->image), 4);  // a returned frame never changes
   EXPECT_EQ(source->complaint(), "");
-  camera.fail(1);  // lets the reader's thread go
+  camera.fail(1);  // releases the reader's thread
 }
 
-TEST(Live, TheLastFrameIsHandedOutBeforeTheEnd) {
+TEST(Live, ReturnsTheLastFrameBeforeTheEnd) {
   FakeCamera camera;
   const std::unique_ptr<Source> source = live_source(
       "0", [&] { return camera.device(30.0); }, with_pauses({}));
@@ -117,12 +117,12 @@ TEST(Live, TheLastFrameIsHandedOutBeforeTheEnd) {
       << source->complaint();
 }
 
-TEST(Live, ADeviceThatStopsIsOpenedAgain) {
+TEST(Live, ReopensAStoppedDevice) {
   FakeCamera camera;
   std::atomic<int> openings = 0;
   const auto open = [&] {
     const int opening = openings++;
-    // The second and third attempts find nothing, as while a cable is out.
+    // The second and third attempts find no device.
     return opening == 1 || opening == 2 ? LiveDevice{} : camera.device(0.0);
   };
   const std::unique_ptr<Source> source = live_source("0", open, with_pauses({0.0, 0.0, 0.0, 0.0}));
@@ -133,7 +133,7 @@ TEST(Live, ADeviceThatStopsIsOpenedAgain) {
   EXPECT_EQ(source->next()->index, 1);
   EXPECT_EQ(openings, 4);
   EXPECT_NE(source->complaint().find("opened again"), std::string::npos) << source->complaint();
-  camera.fail(5);  // four attempts, each opened but without a picture: then it gives up
+  camera.fail(5);  // four attempts that open but deliver no image; then the source ends
   EXPECT_FALSE(source->next());
   EXPECT_EQ(source->complaint().find("opened again"), std::string::npos) << source->complaint();
   EXPECT_NE(source->complaint().find("did not come back in 4 attempts"), std::string::npos)
@@ -148,7 +148,7 @@ TEST(Live, TheDefaultPausesGrow) {
   }
 }
 
-TEST(Live, ItCanBeDestroyedInTheMiddleOfALongPause) {
+TEST(Live, CanBeDestroyedDuringAPause) {
   FakeCamera camera;
   camera.fail(1);
   std::unique_ptr<Source> source = live_source(
@@ -157,12 +157,12 @@ TEST(Live, ItCanBeDestroyedInTheMiddleOfALongPause) {
   source.reset();  // would take twelve days if the pause did not end early
 }
 
-TEST(Live, NothingIsReturnedWithoutADeviceOrAPicture) {
+TEST(Live, IsNullWithoutDeviceOrImage) {
   EXPECT_FALSE(live_source("0", [] { return LiveDevice{}; }));
   EXPECT_FALSE(live_source("0", [] { return LiveDevice{[] { return false; }, {}, {}, 30.0}; }));
 }
 
-TEST(Live, DamagedPicturesAreLeftOut) {
+TEST(Live, DropsDamagedImages) {
   std::atomic<int> opened = 0;
   const auto open = [&opened] {
     ++opened;
@@ -171,7 +171,7 @@ TEST(Live, DamagedPicturesAreLeftOut) {
                       [&opened, count](cv::Mat& picture) mutable {
                         ++count;
                         if (opened == 1 && count > 1) {
-                          CV_Error(cv::Error::StsError, "no such JPEG");  // as a decoder complains
+                          CV_Error(cv::Error::StsError, "no such JPEG");  // like a failing decoder
                         }
                         picture = testing::numbered_picture(count % 7 == 3 ? 1 : 2);
                         if (opened > 1 && count % 7 == 3) {
@@ -193,7 +193,7 @@ TEST(Live, DamagedPicturesAreLeftOut) {
   EXPECT_NE(source->complaint().find("damaged"), std::string::npos);
 }
 
-/// Gives so many pictures, then does `end`.
+/// Delivers this number of images, then calls `end`.
 LiveDevice gives(int pictures, std::function<bool()> end) {
   return {[pictures, end = std::move(end)]() mutable { return pictures-- > 0 || end(); },
           [](cv::Mat& picture) {
@@ -213,7 +213,7 @@ std::int64_t last_of(Source& source) {
   return last;
 }
 
-TEST(Live, ADriverThatThrowsIsOpenedAgain) {
+TEST(Live, ReopensADriverThatThrows) {
   const auto complain = []() -> bool { CV_Error(cv::Error::StsError, "VIDIOC_DQBUF"); };
   std::atomic<int> openings = 0;
   const auto open = [&]() -> LiveDevice {
@@ -234,7 +234,7 @@ TEST(Live, ADriverThatThrowsIsOpenedAgain) {
   EXPECT_GE(openings, 3);
 }
 
-TEST(Live, WhatElseFailsInTheReaderEndsItInWords) {
+TEST(Live, OtherFailuresEndWithAMessage) {
   const auto open = [] { return gives(3, []() -> bool { throw std::runtime_error("no driver any more"); }); };
   const auto source = live_source("0", open, with_pauses({0.0, 0.0, 0.0}));
   ASSERT_TRUE(source);
@@ -242,7 +242,7 @@ TEST(Live, WhatElseFailsInTheReaderEndsItInWords) {
   EXPECT_NE(source->complaint().find("no driver any more"), std::string::npos) << source->complaint();
 }
 
-TEST(Live, ADeviceThatHangsAtTheStartIsNotAskedAgainAndAgain) {
+TEST(Live, HangingDeviceIsAskedOnce) {
   std::atomic<double> now = 0.0;
   LiveOptions options = with_pauses({});
   options.clock = {[&] { return now.load(); }, [](double) {}};
@@ -258,7 +258,7 @@ TEST(Live, ADeviceThatHangsAtTheStartIsNotAskedAgainAndAgain) {
   EXPECT_EQ(grabs, 1);
 }
 
-TEST(Live, OddPicturesAreMadeUsable) {
+TEST(Live, ConvertsUnusualImages) {
   std::atomic<int> reads = 0;
   const auto grab = [&] { return reads++ < 2; };
   const auto retrieve = [&](cv::Mat& picture) {

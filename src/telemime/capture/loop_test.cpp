@@ -27,7 +27,7 @@ class Short : public Source {
   std::int64_t frames_;
 };
 
-TEST(Loop, TimeAndIndexGoOn) {
+TEST(Loop, TimeAndIndexContinue) {
   const auto source = loop([] { return std::make_unique<Short>(3); });
   EXPECT_EQ(source->info().frames, 0) << "nobody knows how many";
   for (int i = 0; i < 10; ++i) {
@@ -38,7 +38,7 @@ TEST(Loop, TimeAndIndexGoOn) {
   }
 }
 
-TEST(Loop, AnEmptyFileEnds) {
+TEST(Loop, EndsOnAnEmptyFile) {
   const auto source = loop([] { return std::make_unique<Short>(0); });
   EXPECT_FALSE(source->next());
 }

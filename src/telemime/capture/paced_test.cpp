@@ -9,7 +9,7 @@
 namespace telemime {
 namespace {
 
-/// Frames without pictures, ten a second.
+/// Frames without images, ten per second.
 class TenASecond : public Source {
  public:
   explicit TenASecond(std::int64_t frames) { info_.frames = frames; }
@@ -28,7 +28,7 @@ class TenASecond : public Source {
   std::int64_t index_ = 0;
 };
 
-/// A clock that moves only when it is told to, or waited for.
+/// A clock that advances only on request or when waited for.
 struct FakeTime {
   double seconds = 1000.0;
   Clock clock() {
@@ -36,7 +36,7 @@ struct FakeTime {
   }
 };
 
-TEST(Paced, AConsumerThatKeepsUpGetsEveryFrameAtItsTime) {
+TEST(Paced, FastConsumerGetsAllFramesInTime) {
   FakeTime time;
   const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(5), time.clock());
   EXPECT_TRUE(source->info().live);
@@ -50,8 +50,8 @@ TEST(Paced, AConsumerThatKeepsUpGetsEveryFrameAtItsTime) {
   EXPECT_EQ(source->complaint(), "as the file says");
 }
 
-TEST(Paced, AFileThatIsReadTooSlowlyGoesOnSlower) {
-  /// Each frame takes as long to read as two and a half last.
+TEST(Paced, SlowFileIsPlayedMoreSlowly) {
+  /// Reading a frame takes two and a half times its duration.
   class SlowToRead : public TenASecond {
    public:
     explicit SlowToRead(FakeTime& time) : TenASecond(1000), time_(time) {}
@@ -76,7 +76,7 @@ TEST(Paced, AFileThatIsReadTooSlowlyGoesOnSlower) {
   }
 }
 
-TEST(Paced, ASlowConsumerGetsTheNewestFrame) {
+TEST(Paced, SlowConsumerGetsTheNewestFrame) {
   FakeTime time;
   const std::unique_ptr<Source> source = pace(std::make_unique<TenASecond>(10), time.clock());
   EXPECT_EQ(source->next()->index, 0);
@@ -98,17 +98,17 @@ TEST(Paced, TimeBeforeTheFirstFrameDoesNotCount) {
   EXPECT_EQ(source->next()->index, 1);
 }
 
-TEST(Paced, AnEmptyFileEndsAtOnce) {
+TEST(Paced, EmptyFileEndsAtOnce) {
   FakeTime time;
   EXPECT_FALSE(pace(std::make_unique<TenASecond>(0), time.clock())->next());
 }
 
-TEST(MonotonicClock, NeverGoesBackAndReachesWhatIsWaitedFor) {
+TEST(MonotonicClock, NeverDecreasesAndReachesItsTarget) {
   const Clock clock = monotonic_clock();
   const double before = clock.now();
   clock.wait_until(before + 0.002);
   EXPECT_GE(clock.now(), before + 0.002);
-  clock.wait_until(before);  // past already
+  clock.wait_until(before);  // already past
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ void expect_uniform(const cv::Mat& image, const cv::Vec3b& colour) {
   }
 }
 
-TEST(ToBgr8, TakesGreyAlphaSixteenBitsAndFloats) {
+TEST(ToBgr8, ConvertsGreyAlpha16BitAndFloats) {
   const cv::Size size(5, 3);
   expect_uniform(to_bgr8(cv::Mat(size, CV_8UC1, cv::Scalar(70))), {70, 70, 70});
   expect_uniform(to_bgr8(cv::Mat(size, CV_8UC3, cv::Scalar(1, 2, 3))), {1, 2, 3});
@@ -37,7 +37,7 @@ TEST(ToBgr8, AnythingElseIsEmpty) {
   EXPECT_TRUE(to_bgr8(cv::Mat(3, 3, CV_MAKETYPE(CV_8U, 7))).empty());
 }
 
-TEST(FitTo, ResizesAndSaysSoOnce) {
+TEST(FitTo, ResizesWithOneNote) {
   Notes notes;
   const cv::Mat image = testing::numbered_picture(3, {64, 48});
   EXPECT_EQ(fit_to(image, {64, 48}, notes).data, image.data);
@@ -49,7 +49,7 @@ TEST(FitTo, ResizesAndSaysSoOnce) {
   EXPECT_EQ(notes.text(), once);
 }
 
-TEST(UsableFps, KeepsWhatACameraCanDoAndReplacesTheRestWithANote) {
+TEST(UsableFps, ReplacesUnusableFrameRatesWithANote) {
   for (const double fps : {0.5, 1.0, 14.985, 25.0, 29.97, 240.0, 1000.0}) {
     Notes notes;
     EXPECT_EQ(usable_fps(fps, notes), fps);
@@ -64,7 +64,7 @@ TEST(UsableFps, KeepsWhatACameraCanDoAndReplacesTheRestWithANote) {
   }
 }
 
-TEST(RequireUsableSize, RefusesPicturesTooSmallForAPerson) {
+TEST(RequireUsableSize, RefusesImagesTooSmallForAPerson) {
   EXPECT_NO_THROW(require_usable_size({16, 16}, "x"));
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(640, 15), cv::Size(3, 480), cv::Size(0, 0)}) {
     EXPECT_NE(testing::input_error([&] { require_usable_size(size, "x.png"); }).find("x.png"),
@@ -72,7 +72,7 @@ TEST(RequireUsableSize, RefusesPicturesTooSmallForAPerson) {
   }
 }
 
-TEST(Picture, AnotherShapeKeepsItsProportions) {
+TEST(Picture, OtherAspectRatiosGetBlackBars) {
   Notes notes;
   const cv::Mat wide(36, 64, CV_8UC3, cv::Scalar::all(200));
   const cv::Mat fitted = fit_to(wide, {32, 24}, notes);
@@ -86,7 +86,7 @@ TEST(Picture, AnotherShapeKeepsItsProportions) {
   EXPECT_EQ(fit_to(cv::Mat(1, 5000, CV_8UC3), {32, 24}, notes).size(), cv::Size(32, 24));
 }
 
-TEST(Picture, ShapesAreEqualUpToRounding) {
+TEST(Picture, AspectRatiosAreEqualUpToRounding) {
   EXPECT_TRUE(same_shape({640, 480}, {320, 240}));
   EXPECT_TRUE(same_shape({854, 480}, {1280, 720}));
   EXPECT_FALSE(same_shape({640, 480}, {640, 360}));

@@ -17,7 +17,7 @@ TEST(ShownUrl, HasNoSecrets) {
   EXPECT_EQ(shown_url("rtsp://cam:554/live/user=ana&password=secret&channel=1/x"), "rtsp://cam:554/live/");
 }
 
-TEST(ShownUrl, LeavesTheRestAsItIs) {
+TEST(ShownUrl, KeepsOtherTextUnchanged) {
   for (const char* url : {"http://127.0.0.1:8080/video", "rtsp://[::1]:554/a/b", "http://cam/@home/video",
                           "http://cam:8080/@home/video", "rtsp://[::1]/a@b", "rtsp://[::1]:554/a@b", "0",
                           "/dev/video0", "rtsp://cam"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams themselves are in tests/live.
+// Tests with real streams are in tests/live.
 #include "telemime/capture/stream.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace telemime {
 namespace {
 
-// Tries of a stream that fails so often, and takes so long (s) for each failure.
+// Number of attempts for a stream with this many failures of this duration (s).
 struct Tries {
   bool succeed(int failures, double seconds) {
     return grab_past_damage(
@@ -21,25 +21,25 @@ struct Tries {
   int count = 0;
 };
 
-TEST(GrabPastDamage, SomePicturesThatCannotBeDecodedArePassedOver) {
+TEST(GrabPastDamage, SkipsUndecodableImages) {
   Tries tries;
   EXPECT_TRUE(tries.succeed(10, 0.02));
   EXPECT_EQ(tries.count, 11);
 }
 
-TEST(GrabPastDamage, NothingButDamageIsTheEnd) {
+TEST(GrabPastDamage, OnlyDamagedImagesEndTheStream) {
   Tries tries;
   EXPECT_FALSE(tries.succeed(1000, 0.02));
   EXPECT_EQ(tries.count, 25);
 }
 
-TEST(GrabPastDamage, ASilentSenderIsNotWaitedForAgainAndAgain) {
+TEST(GrabPastDamage, SilentSenderIsWaitedForOnce) {
   Tries tries;
   EXPECT_FALSE(tries.succeed(1000, 8.0));
   EXPECT_EQ(tries.count, 1) << "25 times 8 s are more than three minutes";
 }
 
-TEST(GrabPastDamage, APictureThatComesLateIsOne) {
+TEST(GrabPastDamage, AcceptsALateImage) {
   Tries tries;
   EXPECT_TRUE(tries.succeed(0, 8.0));
 }

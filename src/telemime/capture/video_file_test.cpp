@@ -15,7 +15,7 @@ class VideoFileTest : public ::testing::Test {
  protected:
   VideoFileTest() { prepare_opencv(); }
 
-  /// The message with which opening fails.
+  /// The error message of opening the file.
   static std::string refusal(const std::string& input) {
     return testing::input_error([&] { open_source(input); });
   }
@@ -23,7 +23,7 @@ class VideoFileTest : public ::testing::Test {
   ScratchFolder scratch_;
 };
 
-TEST_F(VideoFileTest, HandsOutEveryFrameInOrderWithItsTime) {
+TEST_F(VideoFileTest, ReturnsAllFramesWithTheirTimes) {
   testing::write_clip(scratch_.file("clip.avi"), 10);
   const std::unique_ptr<Source> source = open_source(scratch_.file("clip.avi"));
   EXPECT_EQ(source->info().width, 64);
@@ -36,7 +36,7 @@ TEST_F(VideoFileTest, HandsOutEveryFrameInOrderWithItsTime) {
     frames.push_back(*frame);
   }
   ASSERT_EQ(frames.size(), 10U);
-  for (int i = 0; i < 10; ++i) {  // only now: a frame must not change when later ones are read
+  for (int i = 0; i < 10; ++i) {  // after reading all: a frame must not change later
     EXPECT_EQ(frames[i].index, i);
     EXPECT_NEAR(frames[i].time, i / 20.0, 1e-6);
     EXPECT_EQ(testing::number_of(frames[i].image), i);
@@ -45,13 +45,13 @@ TEST_F(VideoFileTest, HandsOutEveryFrameInOrderWithItsTime) {
   EXPECT_EQ(source->complaint(), "");
 }
 
-TEST_F(VideoFileTest, ADigitInTheNameIsNotAnImageNumber) {
+TEST_F(VideoFileTest, DigitInNameIsNoImageNumber) {
   testing::write_clip(scratch_.file("clip1.avi"), 3);
   testing::write_clip(scratch_.file("clip2.avi"), 5);
   EXPECT_EQ(open_source(scratch_.file("clip1.avi"))->info().frames, 3);
 }
 
-TEST_F(VideoFileTest, ATruncatedVideoGivesItsFramesAndAComplaint) {
+TEST_F(VideoFileTest, TruncatedVideoGivesFramesAndComplaint) {
   const std::string clip = scratch_.file("cut.avi");
   testing::write_clip(clip, 40);
   testing::cut_to(clip, 0.5);
@@ -67,7 +67,7 @@ TEST_F(VideoFileTest, ATruncatedVideoGivesItsFramesAndAComplaint) {
   EXPECT_NE(source->complaint().find("40"), std::string::npos) << source->complaint();
 }
 
-TEST_F(VideoFileTest, NamesTheCauseOfWhatItCannotRead) {
+TEST_F(VideoFileTest, StatesTheCauseOfFailures) {
   EXPECT_NE(refusal(scratch_.file("absent.mp4")).find("no such file"), std::string::npos);
 
   testing::write_bytes(scratch_.file("empty.mp4"), "");
@@ -87,13 +87,13 @@ TEST_F(VideoFileTest, NamesTheCauseOfWhatItCannotRead) {
   EXPECT_NE(refusal(scratch_.file("pipe.mp4")).find("not a plain file"), std::string::npos);
 }
 
-TEST_F(VideoFileTest, NamesMissingRights) {
+TEST_F(VideoFileTest, ReportsMissingPermissions) {
   const std::string clip = scratch_.file("secret.avi");
   testing::write_clip(clip, 2);
   ASSERT_EQ(::chmod(clip.c_str(), 0), 0);
   ASSERT_EQ(::chmod(scratch_.file("").c_str(), 0755), 0);
   constexpr uid_t nobody = 65534;
-  const bool privileged = ::geteuid() == 0;  // root may read everything: act as somebody else
+  const bool privileged = ::geteuid() == 0;  // root can read everything: become another user
   if (privileged) {
     ASSERT_EQ(::seteuid(nobody), 0);
   }
@@ -105,7 +105,7 @@ TEST_F(VideoFileTest, NamesMissingRights) {
   EXPECT_NE(message.find("chmod"), std::string::npos) << message;
 }
 
-TEST_F(VideoFileTest, AnEmptyNameIsAMistakeOfUse) {
+TEST_F(VideoFileTest, EmptyNameIsAUsageError) {
   try {
     open_source("");
     FAIL() << "nothing was thrown";
@@ -114,13 +114,13 @@ TEST_F(VideoFileTest, AnEmptyNameIsAMistakeOfUse) {
   }
 }
 
-TEST_F(VideoFileTest, AMissingCameraIsNamed) {
+TEST_F(VideoFileTest, ReportsAMissingCamera) {
   EXPECT_NE(refusal("987").find("/dev/video987"), std::string::npos);
   EXPECT_NE(refusal("/dev/telemime_has_no_such_camera").find("there is no"), std::string::npos);
 }
 
-TEST_F(VideoFileTest, AStreamThatNobodySendsIsRefused) {
-  // Port 9 of this computer ("discard") is closed wherever tests run: the connection is refused at once.
+TEST_F(VideoFileTest, RefusesAnUnavailableStream) {
+  // Port 9 of this computer ("discard") is closed where tests run, so the connection is refused at once.
   EXPECT_NE(refusal("http://127.0.0.1:9/clip.mjpeg").find("a stream"), std::string::npos);
 }
 
