@@ -10,16 +10,16 @@
 
 namespace telemime {
 
-/// The articulated model of one person: rest offsets between the joints (m, body frame), from the shape.
-/// A constant value: build it once per shape.
+/// The articulated model of a person: rest offsets between the joints (m, body frame) for a shape. Constant;
+/// build it once per shape.
 struct Body {
   Shape shape;
   Eigen::Vector3d neck_from_root;
   Eigen::Vector3d head_from_neck;
   Eigen::Vector3d head_top_from_head;
   std::array<Eigen::Vector3d, 2> shoulder_from_neck;  ///< by Side
-  double clavicle_lift = 0.0;                         ///< m that a raised upper arm lifts its shoulder
-  double clavicle_reach = 0.0;                        ///< m that an arm stretched forward draws it forward
+  double clavicle_lift = 0.0;                         ///< m by which a raised upper arm lifts its shoulder
+  double clavicle_reach = 0.0;                        ///< m by which a forward arm moves its shoulder
   std::array<double, 2> upper_arm_length{};           ///< m
   std::array<double, 2> forearm_length{};
   std::array<double, 2> hand_length{};  ///< wrist to middle knuckle
@@ -29,8 +29,8 @@ struct Body {
 /// women and men, as fractions of stature) and the shape's scales.
 Body make_body(const Shape& shape);
 
-/// Where every segment is: camera_from_segment, the segment's frame being the body frame at rest with its
-/// origin in the segment's joint (chest: root; head: neck; upper arm: shoulder; forearm: elbow; hand: wrist).
+/// All segments as camera_from_segment. The frame of a segment is the body frame at rest with its origin in
+/// the segment's joint (chest: root; head: neck; upper arm: shoulder; forearm: elbow; hand: wrist).
 struct Kinematics {
   std::array<Eigen::Isometry3d, kSegmentCount> camera_from_segment;
   JointPositions joints;  ///< m, camera frame
@@ -40,7 +40,7 @@ struct Kinematics {
 };
 
 /// The gleno-humeral centre (m, chest frame) for an upper arm that points along this unit vector (chest
-/// frame). It rides on the clavicle: scapulo-humeral rhythm (Inman, Saunders & Abbott, J. Bone Joint Surg.
+/// frame). It moves with the clavicle: scapulo-humeral rhythm (Inman, Saunders & Abbott, J. Bone Joint Surg.
 /// 26, 1944), linear in the arm's direction.
 Eigen::Vector3d shoulder_in_chest(const Body& body, Side side, const Eigen::Vector3d& upper_arm);
 

@@ -16,7 +16,7 @@ struct JointLimits {
   std::array<double, kAngleCount> max{};
 
   bool contains(const Pose& pose, double tolerance = 1e-9) const;
-  /// The nearest pose inside the limits; the translation is left alone.
+  /// The nearest pose inside the limits; the translation does not change.
   Pose clamp(const Pose& pose) const;
 };
 

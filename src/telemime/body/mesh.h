@@ -10,7 +10,7 @@
 
 namespace telemime {
 
-/// Colour class of a piece of surface; the values are those of the image's labels.
+/// Colour class of a part of the surface; the values equal those of Label.
 enum class SurfaceClass : std::uint8_t { head = 1, arms = 2, clothes = 3 };
 inline constexpr std::size_t kSurfaceClassCount = 3;
 
@@ -26,12 +26,12 @@ struct MeshTriangle {
 
 struct MeshEdge {
   std::array<std::uint32_t, 2> vertex{};
-  std::array<std::uint32_t, 2> triangle{};  ///< the two that meet here
+  std::array<std::uint32_t, 2> triangle{};  ///< the two adjacent triangles
 };
 
-/// How a segment's mesh is laid out: rings of vertices from the top down, `sides` each, then the vertex that
-/// closes the top and the one that closes the bottom. `surface` has the class of each strip between them:
-/// top cap, strips from ring to ring, bottom cap.
+/// The layout of a segment's mesh: rings of vertices from top to bottom, `sides` each, then the vertices that
+/// close the top and the bottom. `surface` has the class of each strip between them: top cap, strips from
+/// ring to ring, bottom cap.
 struct RingStack {
   std::uint32_t rings = 0;
   std::uint32_t sides = 0;

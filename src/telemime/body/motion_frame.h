@@ -17,24 +17,24 @@ namespace telemime {
 
 enum class TrackState { lost, tracking };
 
-/// How sure the tracker is of a pose.
+/// Uncertainty of a pose.
 struct PoseSpread {
-  /// Of each joint's place as seen from the middle of the shoulders: covariance (m^2, camera axes). What is
-  /// not known of the person's size is in it.
+  /// Covariance of each joint relative to the middle of the shoulders (m^2, camera axes), the uncertainty of
+  /// the person's size included.
   std::array<Eigen::Matrix3d, kJointCount> covariance{};
   double second_mode = 0.0;          ///< weight of the second-best mode, in [0, 1]
-  double effective_particles = 0.0;  ///< how many particles carry the estimate
+  double effective_particles = 0.0;  ///< effective number of particles
 };
 
-/// What one frame gives to the outputs: the pose and everything that they may want to say about it.
+/// The result of one frame for the outputs: the pose and its description.
 struct MotionFrame {
   std::int64_t frame = 0;  ///< from 0, every input frame
   double time = 0.0;       ///< s
   TrackState state = TrackState::lost;
-  Pose pose;              ///< when lost: the last known (or the rest) pose, not to be trusted
-  JointPositions joints;  ///< m, camera frame
+  Pose pose;                                          ///< when lost: the last known pose, or the rest pose
+  JointPositions joints;                              ///< m, camera frame
   std::array<Eigen::Vector2d, kJointCount> pixels{};  ///< of the INPUT image, integer = pixel centre
-  std::optional<PoseSpread> spread;                   ///< nothing from searches that keep one pose alone
+  std::optional<PoseSpread> spread;                   ///< empty for methods that keep a single pose
   double region_score = 0.0;                          ///< F, in [0, 1]
   double contour_score = 0.0;                         ///< D_C, pixels of the working image
   int evaluations = 0;

@@ -11,7 +11,7 @@ namespace telemime {
 /// The 20 joint angles of the thesis's Table 2-1, in its order.
 ///
 /// Body frame: x to the person's own left, y up, z forward (H-Anim); at rest the arms hang, palms inward,
-/// and every joint frame is aligned with it. All angles turn by the right-hand rule about these axes:
+/// and all joint frames are aligned with it. All angles follow the right-hand rule about these axes:
 /// flexion, tilt and pivot about +x; twisting and torsion about +y; abduct, roll and wrist flexion about +z.
 ///
 /// | angle | + moves |
@@ -61,7 +61,7 @@ inline constexpr std::array<std::string_view, kAngleCount> kAngleNames = {
 
 using PoseVector = Eigen::Matrix<double, kPoseSize, 1>;
 
-/// The state that is tracked: translation of the root (m, camera frame) and the 20 joint angles (rad).
+/// A pose: translation of the root (m, camera frame) and the 20 joint angles (rad).
 struct Pose {
   Eigen::Vector3d root = Eigen::Vector3d(0.0, 0.0, 1.2);
   std::array<double, kAngleCount> angles{};
@@ -74,7 +74,7 @@ struct Pose {
   static Pose from_vector(const PoseVector& v);
 };
 
-/// The pose seen in a mirror (the plane x = 0 of the camera frame): left and right exchanged.
+/// The mirrored pose (plane x = 0 of the camera frame): left and right are exchanged.
 Pose mirrored(const Pose& pose);
 
 }  // namespace telemime

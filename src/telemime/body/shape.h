@@ -8,19 +8,19 @@
 
 namespace telemime {
 
-/// Scales of one segment against the default body of the same stature (thesis 3.3, equation 3.4).
+/// Scales of one segment relative to the default body of the same stature (thesis 3.3, equation 3.4).
 struct SegmentScale {
   double length = 1.0;  ///< along the bone (body y at rest)
   double height = 1.0;  ///< front to back (body z at rest)
   double width = 1.0;   ///< side to side (body x at rest)
 };
 
-/// The person's build: 8 segments x 3 scales (the 24 shape parameters of the reference), the stature that
-/// they scale, and where the sleeves end.
+/// The shape of a person: 8 segments x 3 scales (the 24 shape parameters of the thesis), the stature that
+/// they scale, and the end of the sleeves.
 struct Shape {
   double stature = 1.70;  ///< metres
   std::array<SegmentScale, kSegmentCount> segments{};
-  /// End of the sleeve along the arm: 0 shoulder, 1 elbow, 2 wrist; between, a fraction of the segment.
+  /// End of the sleeves along the arm: 0 shoulder, 1 elbow, 2 wrist; fractions are positions in between.
   double sleeve = 0.5;
 
   SegmentScale& operator[](Segment s) { return segments[static_cast<std::size_t>(s)]; }

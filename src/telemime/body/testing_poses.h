@@ -8,7 +8,7 @@
 #include "telemime/body/limits.h"
 #include "telemime/core/random.h"
 
-/// Poses for the tests of the rooms that know bodies. Not installed.
+/// Poses for tests of several modules. Not installed.
 namespace telemime::testing_poses {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;

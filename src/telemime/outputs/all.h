@@ -17,20 +17,20 @@
 
 namespace telemime {
 
-/// What a user may choose about the files.
+/// Options of the output files.
 struct OutputOptions {
   std::string bap_profile = "iso";  ///< bap/profile.h
 };
 
 /// One file format that a run can write.
 struct OutputFormat {
-  std::string_view name;       ///< as the user names it
+  std::string_view name;       ///< as in `--formats`
   std::string_view file_name;  ///< in the folder of the results
   std::string_view summary;
   std::unique_ptr<Encoder> (*make)(const OutputOptions&);
 };
 
-/// All of them. A new format is an encoder and a line here.
+/// All formats. A new format is an encoder and a line here.
 inline constexpr std::array<OutputFormat, 7> kOutputFormats = {{
     {"jsonl", "pose.jsonl", "everything, one JSON object a frame",
      [](const OutputOptions&) { return make_jsonl_encoder(); }},
@@ -47,7 +47,7 @@ inline constexpr std::array<OutputFormat, 7> kOutputFormats = {{
      [](const OutputOptions&) { return make_trc_encoder(); }},
 }};
 
-/// By name. Throws Error(usage) that lists the names.
+/// The format of this name. Throws Error(usage) that lists the names.
 const OutputFormat& output_format(std::string_view name);
 
 }  // namespace telemime

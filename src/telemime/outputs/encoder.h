@@ -13,24 +13,24 @@
 
 namespace telemime {
 
-/// What is known before the first frame, for the head of a file.
+/// Properties of a stream that are known before its first frame.
 struct StreamHeader {
   Body body;
   Camera camera;      ///< of the INPUT image
-  double fps = 25.0;  ///< frames a second, > 0
+  double fps = 25.0;  ///< frames per second, > 0
   JointLimits limits;
   nlohmann::json config;  ///< effective configuration, any JSON value
-  nlohmann::json extra;   ///< anything else worth keeping (name of the input, version of the program)
+  nlohmann::json extra;   ///< other information (name of the input, version of the program)
 };
 
-/// Bytes that replace as many bytes already written, at `offset` from the start of the stream.
+/// Bytes that replace already written ones at `offset` from the start of the stream.
 struct Patch {
   std::size_t offset = 0;
   std::string bytes;
 };
 
-/// Turns motion frames into the bytes of one file format. Each call returns what is to be appended; what was
-/// returned so far, once patched, is a valid file at any moment. Call begin once, first.
+/// Encodes motion frames as one file format. Each call returns bytes to append; the bytes returned so far,
+/// with the patches applied, are a valid file at any moment. Call begin first, once.
 class Encoder {
  public:
   Encoder() = default;
@@ -38,13 +38,13 @@ class Encoder {
   Encoder& operator=(const Encoder&) = delete;
   virtual ~Encoder() = default;
 
-  /// The head of the file. Throws Error(output) when the header cannot be expressed in the format.
+  /// The head of the file. Throws Error(output) if the format cannot express the header.
   virtual std::string begin(const StreamHeader& header) = 0;
-  /// One frame. Numbers that are not finite are replaced by the last finite ones, and the frame is lost.
+  /// One frame. Non-finite numbers are replaced by the last finite ones, and the frame becomes lost.
   virtual std::string frame(const MotionFrame& frame) = 0;
-  /// The tail of the file; empty for the formats that need none.
+  /// The tail of the file; empty if the format has none.
   virtual std::string end() = 0;
-  /// Bytes of the head that changed with the last frame (a frame count), or nothing.
+  /// Bytes of the head that changed with the last frame (a frame count); may be empty.
   virtual std::optional<Patch> patch() const = 0;
 };
 

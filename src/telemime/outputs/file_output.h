@@ -11,9 +11,9 @@
 
 namespace telemime {
 
-/// Writes one stream of frames into one file. Every frame is handed to the system at once and whole, and the
-/// frame count in the head is brought up to date after it, so that the file is valid whenever the program is
-/// stopped. A write that fails half way is taken back to the last whole frame.
+/// Writes a stream of frames to a file. Each frame is written immediately and completely, and the frame count
+/// in the head is updated after it, so that the file is valid whenever the program stops. A write that fails
+/// is undone to the last complete frame.
 class FileOutput {
  public:
   /// Creates or empties the file and writes the head. Throws Error(output) that names the file and the
@@ -24,7 +24,7 @@ class FileOutput {
   /// Closes the file; the tail is written only by close().
   ~FileOutput();
 
-  /// Throws Error(output) when the disk is full or gone.
+  /// Throws Error(output) if the disk is full or gone.
   void write(const MotionFrame& frame);
 
   /// Writes the tail and closes. Throws Error(output). Does nothing the second time.
@@ -40,8 +40,8 @@ class FileOutput {
   std::filesystem::path path_;
   std::unique_ptr<Encoder> encoder_;
   int descriptor_ = -1;
-  std::size_t size_ = 0;   ///< bytes of whole frames
-  bool seekable_ = false;  ///< a pipe cannot be patched; its count of frames stays 0
+  std::size_t size_ = 0;   ///< bytes of complete frames
+  bool seekable_ = false;  ///< a pipe cannot be patched; its frame count remains 0
 };
 
 }  // namespace telemime

@@ -5,11 +5,11 @@
 
 namespace telemime {
 
-/// Keeps NaN and infinity out of the files: remembers the last finite values of a stream of frames.
+/// Removes NaN and infinity from a stream of frames by repeating the last finite values.
 class FiniteFrames {
  public:
-  /// The frame with everything finite. A pose or joint that is not makes the whole frame lost, with the last
-  /// good pose and joints; a pixel, score or time that is not takes its last good value alone.
+  /// The frame with finite values only. A non-finite pose or joint makes the frame lost, with the last finite
+  /// pose and joints; a non-finite pixel, score or time is replaced by its last finite value.
   MotionFrame operator()(const MotionFrame& frame);
 
  private:

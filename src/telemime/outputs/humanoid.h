@@ -10,7 +10,7 @@
 
 namespace telemime {
 
-/// Bones of a VRM humanoid that this project names; the legs are not tracked and stand still.
+/// The bones of a VRM humanoid that this project uses; the legs are not tracked and do not move.
 enum class HumanBone : std::size_t {
   hips,
   spine,
@@ -33,7 +33,7 @@ enum class HumanBone : std::size_t {
   r_foot,
 };
 inline constexpr std::size_t kHumanBoneCount = 19;
-/// As VRM 1.0 spells them.
+/// Their names in VRM 1.0.
 inline constexpr std::array<std::string_view, kHumanBoneCount> kHumanBoneNames = {
     "hips",          "spine",         "chest",         "neck",         "head",
     "leftShoulder",  "leftUpperArm",  "leftLowerArm",  "leftHand",     "rightShoulder",
@@ -52,7 +52,7 @@ struct HumanoidSkeleton {
   Eigen::Vector3d offset(HumanBone bone) const;           ///< from the parent's joint; of the hips: position
 };
 
-/// A pose of that skeleton: what a VRM calls the normalised pose.
+/// A pose of that skeleton: the normalised pose of VRM.
 struct HumanoidMotion {
   Eigen::Vector3d hips;                                      ///< m, in the frame of the skeleton's world
   std::array<Eigen::Quaterniond, kHumanBoneCount> rotation;  ///< parent from bone, w >= 0; identity at rest
@@ -62,12 +62,12 @@ struct HumanoidMotion {
 HumanoidSkeleton humanoid_skeleton(const Body& body);
 
 /// The pose of humanoid_skeleton(body). The hips take the trunk's heading, the spine the rest of its
-/// rotation; half of the wrist's twist is the forearm's. A single clavicle cannot carry the shoulder centre
-/// to quite where it is in our body (body.h): hands are within 10 mm. `origin` is the root's place (m, camera
-/// frame) at which the hips stand over the skeleton's.
+/// rotation; half of the wrist's twist is in the forearm. A single clavicle cannot reproduce the motion of
+/// the shoulder (body.h) exactly: hands are within 10 mm. `origin` is the position of the root (m, camera
+/// frame) at which the hips are above those of the skeleton.
 HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::Vector3d& origin);
 
-/// Where the bones' joints are, by forward kinematics; m.
+/// The joints of the bones by forward kinematics, m.
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,
                                                              const HumanoidMotion& motion);
 

@@ -11,14 +11,14 @@ namespace telemime {
 inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 inline constexpr double kMillimetresPerMetre = 1000.0;
 
-/// `value` to the nearest multiple of 10^-decimals, never -0. Printed shortest, it has at most that many
+/// `value` rounded to a multiple of 10^-decimals, never -0. Its shortest representation has at most that many
 /// decimals.
 inline double rounded(double value, int decimals) {
   const double scale = std::pow(10.0, decimals);
   return std::round(value * scale) / scale + 0.0;
 }
 
-/// Appends `value` in fixed notation, whatever the locale. Finite values only.
+/// Appends a finite `value` in fixed notation, independent of the locale.
 void append_fixed(std::string& text, double value, int decimals);
 
 /// `count` right-aligned in `width` characters, for a field that is patched later. Throws Error(output) when

@@ -12,7 +12,7 @@
 #include "telemime/core/random.h"
 #include "telemime/outputs/encoder.h"
 
-/// Motions with known answers, for the tests of the outputs, of the smoothing and of the evaluation.
+/// Motions with known results, for tests of outputs, smoothing and evaluation.
 namespace telemime::testing_motion {
 
 inline StreamHeader header() {
@@ -44,7 +44,7 @@ inline MotionFrame frame_of(const Body& body, const Camera& camera, const Pose& 
   return frame;
 }
 
-/// Any pose inside the limits, 1.0 to 1.6 m before the camera.
+/// A random pose inside the limits, 1.0 to 1.6 m in front of the camera.
 inline Pose random_pose(const JointLimits& limits, Random& random) {
   Pose pose;
   pose.root = {random.uniform(-0.2, 0.2), random.uniform(0.2, 0.5), random.uniform(1.0, 1.6)};
@@ -54,8 +54,8 @@ inline Pose random_pose(const JointLimits& limits, Random& random) {
   return pose;
 }
 
-/// Both arms swing by a sine of `period` seconds, every angle takes part; frames 0, 1, 2, ..., each showing
-/// what happened `late` frames before.
+/// Both arms swing by a sine of `period` seconds in all angles; each frame shows the pose of `late` frames
+/// before.
 inline std::vector<MotionFrame> gesture(const StreamHeader& header, std::size_t count, double period = 2.0,
                                         double late = 0.0) {
   std::vector<MotionFrame> frames;
@@ -78,7 +78,7 @@ inline std::vector<MotionFrame> gesture(const StreamHeader& header, std::size_t 
   return frames;
 }
 
-/// The whole file that an encoder makes of these frames, patches applied.
+/// The complete file of an encoder for these frames, with patches applied.
 inline std::string encode_all(Encoder& encoder, const StreamHeader& header,
                               const std::vector<MotionFrame>& frames) {
   std::string file = encoder.begin(header);

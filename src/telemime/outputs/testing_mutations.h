@@ -10,11 +10,11 @@
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
 
-/// Damaged files for the tests of the readers: what a fuzzer does, seeded and without clang.
+/// Damaged files for the tests of the readers: a seeded fuzzer that does not need clang.
 namespace telemime::testing_mutations {
 
-/// The text after a few random changes: bytes replaced, removed, doubled, pieces moved, words of trouble put
-/// in.
+/// The text after a few random changes: bytes replaced, removed or doubled, parts moved, difficult words
+/// inserted.
 inline std::string mutated(std::string text, Random& random) {
   static constexpr std::string_view kTrouble[] = {"nan",  "-1",   "1e999", "99999999999999999999",
                                                   "null", "{",    "}",     "[[[[",
@@ -47,8 +47,8 @@ inline std::string mutated(std::string text, Random& random) {
   return text;
 }
 
-/// Feeds `read` every kind of damage to a `valid` text. It must return or throw Error(input), nothing else,
-/// and accept the text as it is.
+/// Calls `read` with many kinds of damage to a `valid` text. It must return or throw Error(input), and accept
+/// the undamaged text.
 inline void expect_robust(const std::string& valid, const std::function<void(std::string_view)>& read) {
   EXPECT_NO_THROW(read(valid));
   const auto survives = [&read](const std::string& text) {

@@ -9,7 +9,7 @@
 namespace telemime {
 
 /// motion.bap: the 20 angles as body animation parameters of MPEG-4, for the player that the profile names
-/// (bap/profile.h). Throws Error(usage) when there is no such profile.
+/// (bap/profile.h). Throws Error(usage) for an unknown profile.
 std::unique_ptr<Encoder> make_bap_encoder(std::string_view profile);
 
 }  // namespace telemime

@@ -7,8 +7,8 @@
 
 namespace telemime {
 
-/// pose.csv: one line a frame for spreadsheets; a first line with the names of the columns (docs/formats.md).
-/// Millimetres, degrees, camera frame.
+/// pose.csv: one line per frame for spreadsheets, after a line with the names of the columns
+/// (docs/formats.md). Millimetres, degrees, camera frame.
 std::unique_ptr<Encoder> make_csv_encoder();
 
 }  // namespace telemime

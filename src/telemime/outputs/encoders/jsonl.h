@@ -7,7 +7,7 @@
 
 namespace telemime {
 
-/// pose.jsonl: one JSON object a line, the first describes the stream (docs/formats.md). Millimetres,
+/// pose.jsonl: one JSON object per line, the first describes the stream (docs/formats.md). Millimetres,
 /// degrees, camera frame.
 std::unique_ptr<Encoder> make_jsonl_encoder();
 

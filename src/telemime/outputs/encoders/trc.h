@@ -7,9 +7,8 @@
 
 namespace telemime {
 
-/// motion.trc: the joints as markers for OpenSim and others, laid out as OpenSim writes the format: tabs
-/// behind every cell, mm, y up (a joint at x, y, z of the camera frame stands at x, -y, -z). The cells of a
-/// lost frame are empty.
+/// motion.trc: the joints as markers for OpenSim and others in OpenSim's layout: a tab after each cell, mm, y
+/// up (a joint at x, y, z of the camera frame is at x, -y, -z). The cells of a lost frame are empty.
 std::unique_ptr<Encoder> make_trc_encoder();
 
 }  // namespace telemime
