@@ -8,78 +8,89 @@ TEST_JOBS ?= $(shell echo $$(($(JOBS) + 1)))
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
-CCACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps configure build demo test bench experiments accuracy lint asan asan-quick tsan fuzz install clean
-.PHONY: $(TARGETS) deps-test
+TARGETS := help deps build demo test bench experiments accuracy lint asan asan-quick tsan fuzz install count clean
+.PHONY: $(TARGETS) deps-page deps-test program configure
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
 
-deps: ## install the Debian packages that are missing (scripts/packages.txt)
+deps: ## install the Debian packages that the program needs and that are missing (scripts/packages.txt)
 	@scripts/deps.sh build
 
+deps-page:
+	@scripts/deps.sh build page
+
 deps-test:
-	@scripts/deps.sh build test
+	@scripts/deps.sh build page test
+
+# What has been configured with tests stays so: configured without them, it would have to be compiled again for them.
+program:
+	@{ cmake build/release || cmake --preset program $(COMPILER_CACHE); } > build-configure.log 2>&1 || \
+	  { cat build-configure.log; exit 1; }
+	@rm -f build-configure.log
+	@cmake --build build/release --target telemime -j $(JOBS)
 
 configure:
-	@cmake --preset release $(CCACHE) > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+	@cmake --preset release $(COMPILER_CACHE) > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 	@rm -f build-configure.log
 
-build: configure ## the program: build/release/telemime
-	@cmake --build --preset release --target telemime -j $(JOBS)
+build: deps-page program ## the program with its live page: build/release/telemime
 
-demo: deps build ## track the clip in data/demo and score the result: out/demo
+demo: deps program ## track the clip in data/demo and score the result: out/demo
 	@scripts/demo.sh
 
 test: deps-test configure ## build and run the tests (the long ones: ctest --preset release -C long -L long)
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(TEST_JOBS)
 
-bench: deps configure ## run the benchmarks
+bench: deps-test configure ## run the benchmarks
 	@cmake --build --preset release -j $(JOBS)
 	@scripts/each.sh build/release/bench
 
-experiments: configure ## measure the thesis's tables and figures again: out/experiments/report.html
-	@scripts/deps.sh build plots
+experiments: deps-test configure ## measure the thesis's tables and figures again: out/experiments/report.html
+	@scripts/deps.sh plots
 	@cmake --build --preset release --target telemime-lab -j $(JOBS)
 	@build/release/telemime-lab experiments all
 	@/usr/bin/python3 apps/lab/plots.py out/experiments
 
-accuracy: deps configure ## make and track the clips of the README's accuracy table: out/accuracy
+accuracy: deps-test configure ## make and track the clips of the README's accuracy table: out/accuracy
 	@cmake --build --preset release --target telemime telemime-lab -j $(JOBS)
 	@apps/lab/accuracy.sh
 
 lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
-	@scripts/deps.sh build check
-	@cmake --preset lint > /dev/null
+	@scripts/deps.sh build test check
 	@scripts/lint.sh $(FILES)
 
-asan: deps ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
-	@cmake --preset asan $(CCACHE)
+asan: deps-test ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
+	@cmake --preset asan $(COMPILER_CACHE)
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan -j $(TEST_JOBS)
 
-asan-quick: deps ## of these the tests of what reads bytes from elsewhere
+asan-quick: deps-test ## of these the tests of what reads bytes from elsewhere
 	@scripts/deps.sh check
-	@cmake --preset asan-quick $(CCACHE)
+	@cmake --preset asan-quick $(COMPILER_CACHE)
 	@cmake --build --preset asan-quick --target $(ASAN_QUICK:=_test) -j $(JOBS)
 	@ctest --preset asan-quick -j $(TEST_JOBS) -R '^($(subst $(empty) $(empty),|,$(ASAN_QUICK)))\.'
 
-tsan: deps ## all but the slow tests under the thread sanitizer
-	@cmake --preset tsan $(CCACHE)
+tsan: deps-test ## all but the slow tests under the thread sanitizer
+	@cmake --preset tsan $(COMPILER_CACHE)
 	@setarch -R cmake --build --preset tsan -j $(JOBS)
 	@setarch -R ctest --preset tsan -j $(TEST_JOBS)
 
-fuzz: deps ## every fuzz target for FUZZ_SECONDS (20)
+fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 	@scripts/deps.sh check
-	@cmake --preset fuzz $(CCACHE)
+	@cmake --preset fuzz $(COMPILER_CACHE)
 	@cmake --build --preset fuzz --target fuzz/all -j $(JOBS)
 	@scripts/fuzz.sh $(FUZZ_SECONDS)
 
 install: build ## install program, libraries, headers and data below PREFIX (/usr/local)
-	@cmake --build --preset release -j $(JOBS)
+	@cmake --build build/release -j $(JOBS)
 	@cmake --install build/release --prefix $(PREFIX)
+
+count: ## lines of code, with and without tests, and their budgets
+	@scripts/count.sh
 
 clean: ## remove build/ and out/
 	@rm -rf build out

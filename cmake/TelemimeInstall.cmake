@@ -29,4 +29,5 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/telemimeConfig.cmake.
                               PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/telemimeConfig.cmake" "${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindOpenCV.cmake"
         DESTINATION "${package_dir}")

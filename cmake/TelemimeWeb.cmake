@@ -2,10 +2,13 @@
 # The page of `telemime live` inside the program. telemime_page(TARGET) builds web/ with npm, in a copy of it in the
 # build tree, and adds the files that come out to TARGET, as telemime/live/page_table.h has them.
 
-option(TELEMIME_WEB "Build the page of `telemime live` into the program (needs npm)" ON)
+set(TELEMIME_WEB AUTO CACHE STRING "Build the page of `telemime live` into the program: ON, OFF, or AUTO, if there is npm")
+find_program(TELEMIME_NPM npm DOC "Node's package manager, for the page")
+find_program(TELEMIME_NODE NAMES node nodejs DOC "Node, for the page")
+if(TELEMIME_WEB STREQUAL "AUTO" AND NOT (TELEMIME_NPM AND TELEMIME_NODE))
+  set(TELEMIME_WEB OFF)
+endif()
 if(TELEMIME_WEB)
-  find_program(TELEMIME_NPM npm DOC "Node's package manager, for the page")
-  find_program(TELEMIME_NODE NAMES node nodejs DOC "Node, for the page")
   if(NOT TELEMIME_NPM OR NOT TELEMIME_NODE)
     message(FATAL_ERROR "The page of `telemime live` is built with npm, which is missing here. Install it "
                         "(scripts/deps.sh, or the packages nodejs and npm), or do without the page: -DTELEMIME_WEB=OFF")
@@ -64,5 +67,5 @@ function(telemime_page target)
       VERBATIM)
   endif()
   target_sources(${target} PRIVATE "${table}")
-  set_source_files_properties("${table}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  set_source_files_properties("${table}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
