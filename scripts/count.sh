@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Counts the lines of code that git knows, by language, and compares them with the budgets. Usage: scripts/count.sh
+# Code is C++, CUDA, OpenCL, TypeScript, JavaScript, CSS, HTML, Python, shell and CMake, blank lines and comments included.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+all_most=104000
+library_most=36000
+
+lines() {
+  git ls-files -z -- "$@" | xargs -0 -r cat | wc -l
+}
+row() {
+  printf '%9d  %s\n' "$1" "$2"
+}
+
+cpp=(':(glob)**/*.cpp' ':(glob)**/*.h' ':(glob)**/*.inc' ':(glob)**/*.in' ':(glob)**/*.cu' ':(glob)**/*.cl')
+web=(':(glob)**/*.ts' ':(glob)**/*.js' ':(glob)**/*.mjs' ':(glob)**/*.css' ':(glob)**/*.html')
+python=(':(glob)**/*.py')
+shell=(':(glob)**/*.sh' .ci/run Makefile)
+cmake=(':(glob)**/CMakeLists.txt' ':(glob)**/*.cmake')
+row "$(lines "${cpp[@]}")" "C++, CUDA, OpenCL"
+row "$(lines "${web[@]}")" "TypeScript, JavaScript, CSS, HTML"
+row "$(lines "${python[@]}")" "Python"
+row "$(lines "${shell[@]}")" "shell and make"
+row "$(lines "${cmake[@]}")" "CMake"
+all="$(lines "${cpp[@]}" "${web[@]}" "${python[@]}" "${shell[@]}" "${cmake[@]}")"
+row "$all" "in all (at most $all_most)"
+library="$(lines src/telemime ':(exclude,glob)**/*_test.cpp' ':(exclude,glob)**/testing*.h')"
+row "$library" "in src/telemime without tests (at most $library_most)"
+((all <= all_most && library <= library_most)) || {
+  echo "count: over the budget" >&2
+  exit 1
+}
