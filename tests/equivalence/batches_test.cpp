@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What does not depend on the pose: sizes of batches, terms, what was evaluated before, numbers that are
-// none.
+// Properties that do not depend on the pose: sizes of batches, terms, earlier evaluations, numbers that are
+// not finite.
 #include <gtest/gtest.h>
 
 #include <cmath>

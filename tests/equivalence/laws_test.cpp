@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What follows from the geometry, in every back end by itself.
+// Laws that follow from the geometry, in every back end by itself.
 #include "equivalence/every_backend.h"
 
 namespace telemime::equivalence {
@@ -19,7 +19,7 @@ class Law : public EveryBackend {
     return poses;
   }
 
-  // Between the scores of two batches of this back end.
+  // Deviations between the scores of two batches of this back end.
   static Deviations between(const std::vector<Score>& a, const std::vector<Score>& b) {
     Deviations deviations;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -33,7 +33,7 @@ class Law : public EveryBackend {
 INSTANTIATE_TEST_SUITE_P(Backends, Law, ::testing::ValuesIn(kBackends), name_of);
 
 TEST_P(Law, ShiftOfImageAndPrincipalPointCancels) {
-  // A large image of which two pieces are seen; the person stays inside both.
+  // Two sections of a large image; the person is inside both.
   const Camera whole = camera_from_field_of_view(260, 200, 75.0);
   Random random(1);
   for (Pose truth : support::gestures()) {
@@ -81,7 +81,7 @@ TEST_P(Law, MirrorMirrors) {
       for (const Pose& pose : poses) {
         twins.push_back(mirrored(pose));
       }
-      // The diagonals of quadrilaterals are not mirrored, and they share in the contour.
+      // The diagonals of quadrilaterals, which are part of the contour, are not mirrored.
       expect_within("mirrored",
                     between(scores_of(*backend_, prepare(flipped, other), model, twins),
                             scores_of(*backend_, prepare(seen, camera), model, poses)),

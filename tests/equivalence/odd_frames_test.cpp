@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images that say little: nobody in them, nothing known, no edges.
+// Images with little information: empty, unknown, without edges.
 #include "equivalence/every_backend.h"
 
 namespace telemime::equivalence {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// People where they are rarely: beside the image, behind the camera, very near and far away; and of no size.
+// People in unusual positions: beside the image, behind the camera, very near and far away; and of zero size.
 #include "equivalence/every_backend.h"
 
 namespace telemime::equivalence {
@@ -43,7 +43,7 @@ TEST_P(OddPlaces, WhollyOutsideOrBehindTheCamera) {
                                     {30.0, 30.0, 1.2}, {0.0, 0.3, -2.0}, {0.0, 0.0, -1e3}, {1e4, 0.0, 1.2}};
   const PreparedFrame frame = frame_of(model_, support::gestures().front(), camera_);
   Random random(2);
-  for (const Eigen::Vector3d& root : places) {  // the first ones before this back end saw anything
+  for (const Eigen::Vector3d& root : places) {  // the first ones are the first evaluations of this back end
     Pose pose = random_pose(anatomical_limits(), random);
     pose.root = root;
     const Score score = scores_of(*backend_, frame, model_, {&pose, 1}).front();
@@ -63,7 +63,7 @@ TEST_P(OddPlaces, HalfBehindTheCamera) {
 
 TEST_P(OddPlaces, SoNearThatEdgesAreLongerThanTheImage) {
   const Camera tele = camera_from_field_of_view(160, 120, 8.0);
-  // Where two segments cut each other a pixel is less than half a millimetre: the border may move by one.
+  // Where two segments intersect a pixel is less than half a millimetre: the border may move by one pixel.
   expect_within("tele", at({-0.1, -0.1, 0.4}, {0.1, 0.4, 0.7}, tele, 200),
                 {0.0001, 0.01, 0.008, 0.5, 400, 90});
   expect_within("tiny", at({-0.1, -0.1, 0.3}, {0.1, 0.4, 0.5}, camera_of(7, 5), 200),
@@ -74,7 +74,7 @@ TEST_P(OddPlaces, FarAway) {
   expect_within("far", at({-2, -2, 19}, {2, 2, 21}, camera_, 300), {0.00003, 0.015, 0.001, 0.35, 5, 40});
 }
 
-// Everything, all widths or all lengths of a person by this factor.
+// Scales everything, all widths or all lengths of a person by this factor.
 std::vector<std::pair<std::string, Shape>> shrunk(double scale) {
   std::vector<std::pair<std::string, Shape>> shapes = {{"point", {}}, {"flat", {}}, {"disc", {}}};
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
@@ -90,7 +90,7 @@ TEST_P(OddPlaces, OfNoSize) {
     double scale;
     Tolerance tolerance;
   };
-  // Of what is as small as the rounding error of its place, nobody can say which side faces the camera.
+  // When a size is as small as the rounding error of positions, the facing of a triangle is arbitrary.
   const Tolerance rounding = {0.00005, 0.45, 0.0012, 2.0, 3, 300};
   const Case cases[] = {{0.1, {0.00006, 0.02, 0.0012, 0.25, 6, 24}},
                         {1e-3, {0.00003, 0.015, 0.0005, 0.15, 5, 18}},
@@ -113,7 +113,7 @@ TEST_P(OddPlaces, OfNoSize) {
   }
 }
 
-// The root is exactly on a pixel's centre, where everything that is small enough is in sight.
+// The root is exactly at the centre of a pixel, where everything that is small enough is visible.
 TEST_P(OddPlaces, AsSmallAsAPointCoversNoMoreThanPoints) {
   const PreparedFrame frame = frame_of(model_, support::gestures().front(), camera_of(161, 121));
   Pose pose;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses and images as trackers meet them.
+// Poses and images that occur in tracking.
 
 #include "equivalence/every_backend.h"
 #include "lab/experiments/engine_agreement.h"
@@ -28,7 +28,7 @@ TEST_P(Typical, RandomPosesOfThreePeople) {
       compare(frame_of(model, poses.front(), camera), model, poses, all);
     }
   }
-  // What every back end has to keep is 0.005 and 0.15 px in the mean.
+  // Every back end must keep 0.005 and 0.15 px in the mean.
   expect_within("random_poses", all, {0.00015, 0.05, 0.03, 0.4, 35, 27});
 }
 
@@ -39,8 +39,8 @@ TEST_P(Typical, AllSizesOfImages) {
     int width, height;
     Tolerance tolerance;
   };
-  // Distances grow with the image; in very small ones a pixel or its depth decides about a whole class or
-  // most of the contour.
+  // Distances grow with the image; in very small images one pixel or its depth can decide about a whole class
+  // or most of the contour.
   for (const auto& [width, height, tolerance] :
        {Case{160, 120, {0.00015, 0.06, 0.003, 0.5, 15, 20}},
         Case{320, 240, {0.00015, 0.09, 0.002, 0.5, 40, 25}},

@@ -39,7 +39,7 @@ Calibration calibrated(const Shape& shape, const Pose& pose, std::uint64_t seed 
 
 Pose arms_apart() {
   Pose pose = support::seated({0, 0, 45 * kDegree, -30 * kDegree}, {0, 0, 50 * kDegree, -30 * kDegree});
-  pose[Angle::l_shoulder_twisting] = 65 * kDegree;  // forearms nearly in the plane of the image, too
+  pose[Angle::l_shoulder_twisting] = 65 * kDegree;  // forearms also nearly in the image plane
   pose[Angle::r_shoulder_twisting] = -65 * kDegree;
   return pose;
 }

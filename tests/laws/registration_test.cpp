@@ -67,7 +67,7 @@ class Search {
   bool predict_ = true;
 };
 
-// A pose some frames of motion away.
+// A pose a few frames of motion away.
 Pose moved(const Pose& pose, double share, Random& random) {
   Pose away = pose;
   away.root +=
@@ -137,7 +137,7 @@ TEST(Registration, SpendsNoMoreThanItsBudget) {
         const RegistrationResult found = search.from(start, config);
         const std::string what =
             std::string(to_string(method)) + (blocks ? " blocks " : " whole ") + std::to_string(iterations);
-        // One evaluation scores the result; a budget of 1 still looks once at the start.
+        // One evaluation scores the result; a budget of 1 still evaluates the start once.
         EXPECT_LE(search.evaluations(), std::max(2, iterations)) << what;
         EXPECT_EQ(found.region_evaluations + found.edge_evaluations + 1, search.evaluations()) << what;
         EXPECT_TRUE(iterations < 100 || found.converged || search.evaluations() > iterations / 2) << what;
@@ -255,7 +255,7 @@ TEST(Registration, LostForearmIsBackInAThirdOfASecond) {
         arm.twisting = -arm.twisting;
         arm.elbow = lost * kDegree;
         set_arm_angles(start, Side::left, arm);
-        // One draw decides little: each case is tried with several seeds.
+        // Each case is run with several seeds.
         const auto found = [&](const RegistrationConfig& config, std::uint64_t seed) {
           Pose pose = anatomical_limits().clamp(start);
           for (std::uint64_t frame = 0; frame < 8; ++frame) {
@@ -361,7 +361,7 @@ TEST(Registration, WorseProposalsLeaveThePoseAlone) {
   still.proposals.margin = 10.0;
   RegistrationConfig none = still;
   none.proposals = no_proposals();
-  // With a margin that nothing reaches, only the arm itself was searched further.
+  // With a margin that no proposal reaches, only the present arm is searched further.
   EXPECT_LT(search.error(search.from(truth, still).pose, true), 0.02);
   EXPECT_LT(search.error(search.from(truth, none).pose, true), 0.02);
 }

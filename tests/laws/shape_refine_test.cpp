@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of a person from several frames that the model itself made.
+// The shape of a person from several frames rendered from the model.
 #include "telemime/search/shape_refine.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Shape person(double upper, double fore) {
   return shape;
 }
 
-// What a tracker with the wrong shape makes of the person's gestures: the joints are where they are seen.
+// Keyframes of a tracker with the wrong shape: the joints project to the right pixels.
 std::vector<Keyframe> keyframes(const Shape& truth, const Shape& believed) {
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
   const Model model = make_model(truth);
@@ -54,7 +54,7 @@ double worst_length_error(const Shape& found, const Shape& truth) {
 TEST(ShapeRefineLaw, FindsUpperArmAndForearmApart) {
   for (const auto& [upper, fore] : {std::pair(1.06, 0.96), std::pair(0.94, 1.04)}) {
     const Shape truth = person(upper, fore);
-    Shape believed = person(0.88, 0.88);  // what one frame with foreshortened arms tells
+    Shape believed = person(0.88, 0.88);  // as estimated from one frame with foreshortened arms
     const auto frames = keyframes(truth, believed);
     const ShapeRefinement found =
         refine_shape([] { return make_scalar_backend(); }, frames, believed, anatomical_limits(), {}, {});

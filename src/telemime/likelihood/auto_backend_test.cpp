@@ -8,7 +8,7 @@
 namespace telemime {
 namespace {
 
-// Time that passes only when somebody works.
+// A clock that advances only while a back end evaluates.
 struct Clock {
   double now = 0.0;
   int processor_batches = 0;

@@ -29,7 +29,7 @@ Pose middle_pose() {
   return pose;
 }
 
-// What a perfect segmentation would see of this pose; edges along the occluding contour.
+// Features of a perfect segmentation of this pose, with edges along the occluding contour.
 FrameFeatures observe(const Model& model, const Pose& pose, const Camera& camera) {
   Rendering rendering;
   render(model.mesh, forward_kinematics(model.body, pose), camera, rendering);
@@ -89,7 +89,7 @@ TEST_F(Likelihood, BatchesEqualOneByOne) {
     }
     const std::vector<Score> together = evaluate(poses);
     ASSERT_EQ(together.size(), size);
-    const auto alone = make_scalar_backend();  // no picture of an earlier pose in it
+    const auto alone = make_scalar_backend();  // its buffers are still empty
     for (std::size_t i = 0; i < size; ++i) {
       Score one;
       alone->evaluate(frame_, model_, {&poses[i], 1}, Reduction::all, {&one, 1});
@@ -158,7 +158,7 @@ TEST_F(Likelihood, BodyOutOfThePictureOverlapsNothing) {
 
 TEST_F(Likelihood, IgnoredPixelsCountNowhere) {
   const Reductions before = evaluate({middle_pose()}).front().reductions;
-  // Half of the picture is not known any more, the model's pixels there included.
+  // Half of the image becomes unknown, including pixels of the model.
   seen_.labels(cv::Rect(0, 0, 80, 120)).setTo(255);
   frame_ = prepare(seen_, camera_);
   const Score s = evaluate({middle_pose()}).front();
@@ -169,7 +169,7 @@ TEST_F(Likelihood, IgnoredPixelsCountNowhere) {
     EXPECT_LT(s.reductions.model[c], before.model[c]);
     EXPECT_GT(s.reductions.model[c], 0);
   }
-  Pose lowered = middle_pose();  // moves only the arm that nobody knows about
+  Pose lowered = middle_pose();  // moves only the arm in the unknown half
   lowered[Angle::r_elbow_flexion] = -0.5;
   lowered[Angle::r_shoulder_abduct] = -0.3;
   EXPECT_EQ(evaluate({lowered}).front().region(), 0.0);

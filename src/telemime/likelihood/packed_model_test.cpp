@@ -41,14 +41,14 @@ Eigen::Vector3f vertex(const PackedModel& p, std::size_t at) {
   return {p.x[at], p.y[at], p.z[at]};
 }
 
-// A triangle by the numbers of its vertices, the smallest first, turned the same way; and its class.
+// A triangle by the indices of its vertices, the smallest first, with the same orientation; and its class.
 using Triangle = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 Triangle triangle(std::array<std::uint32_t, 3> v, std::uint32_t surface) {
   std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
   return {v[0], v[1], v[2], surface};
 }
 
-// The mesh's vertex of the packed one, by its place; those of a segment are all at different ones.
+// Index in the mesh of a packed vertex, found by position: all vertices of a segment differ in position.
 std::uint32_t number_in_mesh(const BodyMesh& mesh, std::size_t segment, const Eigen::Vector3f& place) {
   std::uint32_t found = mesh.vertex_range[segment].end;
   int times = 0;
@@ -91,7 +91,7 @@ TEST(PackedModel, EveryVertexIsAtItsPlaceOfTheGrid) {
     for (std::size_t s = 0; s < kSegmentCount; ++s) {
       const RingStack& stack = model.mesh.stacks[s];
       const Eigen::Vector3f* mesh = &model.mesh.vertices[model.mesh.vertex_range[s].begin];
-      const std::uint32_t ends = stack.rings * stack.sides;  // behind the rings: top, then bottom
+      const std::uint32_t ends = stack.rings * stack.sides;  // after the rings: top, then bottom
       for (std::uint32_t side = 0; side <= stack.sides; ++side) {
         const std::size_t column = p.segments[s].begin + side * p.segments[s].stride;
         EXPECT_EQ(vertex(p, column), mesh[ends]);
@@ -179,7 +179,7 @@ TEST(PackedModel, LanesWithoutAQuadrilateralHaveNoArea) {
       }
       const auto corner = [&](std::uint32_t k) { return vertex(p, segment.begin + i + k); };
       EXPECT_EQ(area(corner(0), corner(segment.stride), corner(1)), 0.0F);
-      // The last lane's fourth corner lies behind the last side: no vertex of this segment.
+      // The fourth corner of the last lane is after the last side: not a vertex of this segment.
       if (i + 1 < segment.lanes) {
         EXPECT_EQ(area(corner(segment.stride), corner(segment.stride + 1), corner(1)), 0.0F);
       }
@@ -232,7 +232,7 @@ TEST(PackedModel, MemoryIsUsedAgainWithoutATrace) {
   }
 }
 
-// Not one of make_mesh(): the kinds that pack() can see.
+// Meshes that make_mesh() does not make, as far as pack() can detect them.
 std::vector<Model> impossible_models() {
   std::vector<Model> wrong(4, make_model(Shape{}));
   const std::vector<SurfaceClass> strip = {SurfaceClass::arms};

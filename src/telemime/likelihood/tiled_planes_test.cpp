@@ -37,7 +37,7 @@ std::uint8_t code_of(std::uint8_t label) {
   return label <= 3 ? static_cast<std::uint8_t>(8 * label) : TiledPlanes::kUnknown;
 }
 
-// Every pixel at its place, and nothing known at all other places.
+// Every pixel has its value, and all other positions are unknown.
 void expect_holds(const TiledPlanes& tiles, const Planes& planes) {
   const TileGrid& grid = tiles.grid;
   ASSERT_EQ(grid.width, planes.labels.cols);

@@ -105,7 +105,7 @@ TEST(Contour, HasAboutOnePointAPixel) {
         see(body, pose, camera_from_field_of_view(width, width * 3 / 4, 60.0)).contour.size());
   };
   EXPECT_GT(points(160), 200.0);
-  EXPECT_NEAR(points(640) / points(160), 4.0, 0.8);  // edges shorter than half a pixel give one, too
+  EXPECT_NEAR(points(640) / points(160), 4.0, 0.8);  // edges shorter than half a pixel also give one
 }
 
 // The right forearm in front of the belly or behind the back, at the same place of the image.

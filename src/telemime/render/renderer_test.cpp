@@ -24,7 +24,7 @@ Camera small_camera(int width = 160, int height = 120) {
   return camera_from_field_of_view(width, height, 60.0);
 }
 
-// A mesh of this one segment alone; the others are empty.
+// A mesh with only this segment; the others are empty.
 struct Scene {
   BodyMesh mesh;
   Kinematics kinematics;
@@ -137,7 +137,7 @@ TEST(Renderer, BallHasTheAreaOfItsOutline) {
   EXPECT_NEAR(out.inverse_depth[240 * 640 + 320], 1.0 / (z - radius), 1e-3);
 }
 
-// The definition, slowly: of all front faces that cover the pixel's centre, the nearest.
+// Slow reference: the nearest of all front faces that cover the centre of the pixel.
 TEST(Renderer, AgreesWithTheDefinition) {
   const Body body = make_body(testing_poses::other_shape());
   const BodyMesh mesh = make_mesh(body);
@@ -237,7 +237,7 @@ TEST(Renderer, BodyAtTheBorderIsCutAndStaysInThePlanes) {
     Pose pose;
     pose.root = place;
     render(mesh, forward_kinematics(body, pose), small_camera(), out);
-    // Around the camera itself all that is seen may be too near.
+    // Around the camera everything may be too near.
     EXPECT_TRUE(place.z() < 0.2 || count(out, 0) < pixels_of(out)) << place.transpose();
     EXPECT_GE(out.left, 0);
     EXPECT_GE(out.top, 0);
@@ -306,7 +306,7 @@ TEST(Renderer, MovingThePrincipalPointMovesThePicture) {
   const Pose pose = random_pose(anatomical_limits(), random, 0.2);
   const Camera camera = small_camera();
   Camera shifted = camera;
-  shifted.cx += 8;  // powers of two: no rounding of its own
+  shifted.cx += 8;  // powers of two add no rounding error
   shifted.cy -= 4;
   const Rendering a = render_body(body, pose, camera);
   const Rendering b = render_body(body, pose, shifted);
@@ -351,7 +351,7 @@ TEST(Renderer, MirroredPoseGivesTheMirrorImage) {
       }
     }
     ASSERT_GT(seen, 500);
-    // The meshes' triangles are not split the same way on both sides.
+    // Quadrilaterals are not divided into triangles symmetrically.
     ASSERT_LE(different, seen / 50) << i;
   }
 }

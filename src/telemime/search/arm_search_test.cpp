@@ -32,7 +32,7 @@ TEST(RandomArm, KeepsTheLimitsAndTheRestOfThePose) {
         ASSERT_TRUE(limits.contains(arm));
         ASSERT_EQ(arm.root, pose.root);
         ASSERT_EQ(arm_angles(arm, other).abduct, arm_angles(pose, other).abduct);
-        Pose alone = arm;  // the other arm is not this one's matter
+        Pose alone = arm;  // the other arm does not count
         set_arm_angles(alone, other, {0, 0, 0, 0});
         deep +=
             interpenetration(body, forward_kinematics(body, alone)) > 2 * kInvalidInterpenetration ? 1 : 0;

@@ -184,7 +184,7 @@ TEST(DefaultFit, IsTheOneInTheDataFolder) {
   EXPECT_EQ(fit.a, file.fit.a);
   EXPECT_EQ(fit.g, file.fit.g);
   EXPECT_EQ(fit.limit, file.fit.limit);
-  // More search must pay, or there would be nothing to split.
+  // More search must reduce the error, or there would be nothing to divide.
   EXPECT_LT(fit(200.0, 0.0), fit(0.0, 0.0));
 }
 

@@ -76,7 +76,7 @@ TEST(Simplex, LooksNowhereOutsideTheBounds) {
     EXPECT_TRUE((x.array() >= bounds.low.array()).all() && (x.array() <= bounds.high.array()).all());
     return (x - VectorXd::Constant(4, 2.0)).squaredNorm();
   };
-  // Also from a start that is outside.
+  // Also from a start outside the bounds.
   const SimplexResult r = search(cost, VectorXd::Constant(4, 5.0), bounds, options(300));
   EXPECT_GT(looked, 5);
   for (const Vertex& v : r.simplex) {
@@ -182,7 +182,7 @@ TEST(AxisSimplex, TurnsAroundAtTheBorder) {
   const auto points = axis_simplex(VectorXd::Constant(2, 0.9), steps, box(2, -1, 1));
   EXPECT_NEAR(points[1][0], 0.4, 1e-15);
   EXPECT_NEAR(points[2][1], 0.4, 1e-15);
-  // In a box that is smaller than the steps it takes the wider side.
+  // In bounds smaller than the steps it takes the wider side.
   const auto squeezed =
       axis_simplex(VectorXd::Constant(1, 0.02), VectorXd::Constant(1, 9.0), box(1, 0.0, 0.1));
   EXPECT_NEAR(squeezed[1][0], 0.1, 1e-15);
@@ -202,7 +202,7 @@ TEST(RestartSimplex, KeepsALivelySimplex) {
 TEST(RestartSimplex, BlowsUpACollapsedOneAboutItsBest) {
   const VectorXd best = VectorXd::Constant(3, 0.5);
   std::vector<Vertex> collapsed(4, {best, 1.0});
-  collapsed[1].point[0] += 0.4;  // alive along one axis only
+  collapsed[1].point[0] += 0.4;  // extends along one axis only
   const VectorXd least = VectorXd::Constant(3, 0.1);
   const auto points = restart_simplex(collapsed, least, box(3, -1, 1));
   ASSERT_EQ(points.size(), 4U);
@@ -210,7 +210,7 @@ TEST(RestartSimplex, BlowsUpACollapsedOneAboutItsBest) {
   EXPECT_NEAR(std::abs((points[1] - best)[0]), 0.4, 1e-12);
   EXPECT_NEAR(std::abs((points[2] - best)[1]), 0.1, 1e-12);
   EXPECT_NEAR(std::abs((points[3] - best)[2]), 0.1, 1e-12);
-  // From there a search moves again, which a collapsed simplex cannot.
+  // A search can move from there, which it cannot from a collapsed simplex.
   const auto cost = [](const VectorXd& x) { return x.squaredNorm(); };
   const SimplexResult r = minimise(cost, points, box(3, -1, 1), options(500));
   EXPECT_LT(r.best().point.norm(), 1e-3);

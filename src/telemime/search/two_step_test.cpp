@@ -30,7 +30,7 @@ TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
   EXPECT_NO_THROW(RegistrationConfig{}.validate());
   const RegistrationConfig reference = reference_registration();
   EXPECT_NO_THROW(reference.validate());
-  // One simplex, F alone, then D_C alone, and nothing that the thesis does not have.
+  // One simplex, F alone, then D_C alone, and no term that the thesis does not have.
   EXPECT_FALSE(reference.blocks);
   EXPECT_FALSE(reference.proposals.any_arms());
   EXPECT_EQ(reference.region.cues[cue::kContour], 0.0);

@@ -25,7 +25,7 @@ Score score_of(double region, double contour) {
   return score;
 }
 
-// Nothing is known but the image.
+// Without terms that do not depend on the image.
 Scene image_alone() {
   Scene scene;
   scene.config.invalid = scene.config.natural = scene.config.temporal = 0.0;

@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-// What is said of the defaults after a change; empty: nothing.
+// Error message of the defaults after a change; empty: no error.
 std::string complaint(const std::function<void(FilterConfig&)>& change) {
   FilterConfig config;
   change(config);

@@ -18,7 +18,7 @@ Json default_json() {
   return Json::parse(to_json_text(default_filter_model(), "a note"));
 }
 
-// What is said of a text that cannot be read; empty: it can.
+// Error message for a text; empty: it can be read.
 std::string complaint(const std::string& text) {
   try {
     parse_filter_model(text, "numbers.json");
@@ -29,7 +29,7 @@ std::string complaint(const std::string& text) {
   return {};
 }
 
-// Every number of the file as a place in it.
+// JSON pointers of all numbers in the file.
 std::vector<Json::json_pointer> all_numbers() {
   std::vector<Json::json_pointer> places;
   const Json flat = default_json().flatten();

@@ -44,8 +44,8 @@ double left_wrist_error(const Scene& scene, const Pose& a, const Pose& b) {
 }
 
 TEST(ParticleFilter, CondensationFollowsASlowlyRaisedArm) {
-  // With the likelihood as narrow and the diffusion as wide as those of a tracker's own sequences, so few
-  // particles lose the arm soon.
+  // With the narrow likelihood and wide diffusion learned from tracked sequences, so few particles would soon
+  // lose the arm.
   const ScratchFolder folder;
   FilterModel numbers = default_filter_model();
   numbers.sigma[cue::kRegion] = 0.03;
@@ -251,7 +251,7 @@ TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
     const std::vector<Pose> flips = arm_flips(scene.model.body, truth, Side::left, scene.limits);
     ASSERT_FALSE(flips.empty());
     Pose start = flips.back();
-    start[Angle::l_elbow_flexion] -= 4 * kDegree;  // else the truth itself would be among its flips
+    start[Angle::l_elbow_flexion] -= 4 * kDegree;  // otherwise the truth would be among its flips
     start[Angle::l_shoulder_flexion] += 3 * kDegree;
     ASSERT_GT(left_wrist_error(scene, start, truth), 0.2);
     const auto after_twelve = [&](const std::string& heuristics) {

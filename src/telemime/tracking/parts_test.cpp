@@ -11,7 +11,7 @@
 namespace telemime {
 namespace {
 
-// What the name of an angle or segment says.
+// The part that the name of an angle or segment suggests.
 Part part_named(const std::string& name) {
   if (name.starts_with("l_")) {
     return Part::left_arm;

@@ -33,7 +33,7 @@ const Camera& camera() {
   return the_camera;
 }
 
-// A pose that fits well, of somebody whose size is known to `size`.
+// A pose that fits well, of a person whose size is known to `size`.
 SpreadContext context(double size) {
   return {.body = body(), .camera = camera(), .size = size};
 }
@@ -116,7 +116,7 @@ TEST(SpreadOf, TwoParticlesAddHalfTheirDistance) {
   const Eigen::Vector3d along = way.normalized();
   const Eigen::Matrix3d added = spread.covariance[at(Joint::l_wrist)] - model[at(Joint::l_wrist)];
   ASSERT_GT(a, 0.03);
-  // The wrist goes along an arc, the middle of which is the estimate.
+  // The wrist moves along an arc whose middle is the estimate.
   EXPECT_NEAR(along.dot(added * along), a * a, 1e-12);
   const Eigen::Vector3d bow = wrist(middle) - 0.5 * (wrist(two[0].pose) + wrist(two[1].pose));
   EXPECT_NEAR(added.trace(), a * a + bow.squaredNorm(), 1e-12);
@@ -166,7 +166,7 @@ TEST(SpreadOf, IsSymmetricAndPositiveDefinite) {
   }
 }
 
-// The left upper arm at this angle (rad) to the image plane, toward the camera.
+// The left upper arm at this angle (rad) to the image plane, towards the camera.
 Pose upper_arm_raised(double angle) {
   const Pose pose = both_arms_seen();
   const Eigen::Vector3d ray = forward_kinematics(body(), pose).joints[Joint::l_shoulder].normalized();
@@ -194,7 +194,7 @@ TEST(ModelCovariance, ABoneParallelToTheImageIsLessSureInDepth) {
   const double flat = depth_of_elbow(upper_arm_raised(0.0));
   const double slanted = depth_of_elbow(upper_arm_raised(45 * kDegree));
   EXPECT_GT(flat, 1.5 * slanted);
-  // The shoulder rides a little, so the angles are not quite those.
+  // The shoulder moves a little with the arm, so that the angles are not exact.
   EXPECT_NEAR(std::sqrt(flat), std::sqrt(seen / 2.0) * length, 0.02 * length);
   EXPECT_NEAR(std::sqrt(slanted), seen * length / std::sqrt(0.5 + 2.0 * seen), 0.02 * length);
 }
@@ -297,7 +297,7 @@ TEST(ModelCovariance, OfAnArmInOneColourIsWider) {
 }
 
 TEST(ModelCovariance, DepthErrorsAlongAStraightArmAddUp) {
-  // Both bones the same way: their parts along the ray add as they are.
+  // Both bones point the same way: their contributions along the ray add linearly.
   const Pose straight = with_left_elbow(0.0);
   const auto covariance = model_covariance(context(0.0), straight, numbers());
   const JointPositions joints = forward_kinematics(body(), straight).joints;

@@ -118,7 +118,7 @@ TEST(Combine, OrdersByCostAndKeepsNoMoreThanAsked) {
 TEST(Combine, TakesEachArmFromWhereItIsRight) {
   Scene scene;
   const Pose truth = both_arms_seen();
-  Pose left_right = truth;  // only the left arm is right
+  Pose left_right = truth;  // only the left arm is correct
   left_right[Angle::r_shoulder_abduct] -= 40 * kDegree;
   Pose right_right = truth;
   right_right[Angle::l_shoulder_abduct] += 40 * kDegree;

@@ -38,7 +38,7 @@ PreparedFrame make_frame(const Model& model, int width, int height) {
   return prepare(seen, camera);
 }
 
-// Poses before the camera, some of them partly or wholly outside the image or behind the camera.
+// Poses in front of the camera; some are partly or entirely outside the image or behind the camera.
 std::vector<Pose> random_poses(std::size_t size, std::uint64_t seed) {
   Random random(seed);
   std::vector<Pose> poses;
@@ -122,7 +122,7 @@ TEST_F(Simd, BatchesOfAnySizeEqualOneByOne) {
     expect_same(scores_of(*backend_, frame_, model_, some),
                 {alone.begin(), alone.begin() + static_cast<std::ptrdiff_t>(size)});
   }
-  // Other sets have vectors of other lengths.
+  // Instruction sets differ in the length of their vectors.
   for (const std::string& name : simd_instruction_sets()) {
     SCOPED_TRACE(name);
     const auto backend = make_simd_backend({1, name, SimdStage::count});
@@ -176,7 +176,7 @@ TEST_F(Simd, OldScoresAreOverwritten) {
   expect_same(scores, scores_of(*backend_, frame_, model_, poses));
 }
 
-// A back end that never saw anything else.
+// A new back end.
 Score alone(const PreparedFrame& frame, const Model& model, const Pose& pose, Reduction terms) {
   return scores_of(*make_simd_backend(), frame, model, {&pose, 1}, terms).front();
 }

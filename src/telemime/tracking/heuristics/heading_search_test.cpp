@@ -18,7 +18,7 @@ using testing_scene::Scene;
 
 constexpr int kSeeds = 60;
 
-// What a heaviest parent with this torsion gives.
+// Particles made from a heaviest parent with this torsion.
 Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
   Pose pose = both_arms_seen();
   pose[Angle::root_torsion] = torsion;
@@ -42,8 +42,7 @@ TEST(HeadingSearch, AnUprightTrunkIsTurnedHalfOfTheTime) {
 
 TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
   Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations =
-      10;  // too few to go far from where the search starts
+  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;  // too few to move far from the start
   int two = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Generation generation = turned(scene, 0.6, seed);

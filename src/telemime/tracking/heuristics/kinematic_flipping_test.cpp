@@ -38,7 +38,7 @@ Generation families() {
   return generation;
 }
 
-// The particles that came.
+// The particles that were added.
 std::vector<Particle> flipped(Scene& scene) {
   Generation generation = families();
   const std::size_t before = generation.particles.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds for every heuristic of the table, alone and with all others, in the thesis's filter and in ours.
+// Laws for every heuristic of the table, alone and with all others, in the thesis's filter and in the default
+// one.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -45,7 +46,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-// Frame after frame, the left arm goes up.
+// The left arm rises from frame to frame.
 const std::vector<PreparedFrame>& frames() {
   static const std::vector<PreparedFrame> all = [] {
     const Scene scene;
@@ -115,7 +116,7 @@ bool has_drawn(const std::vector<Step>& steps) {
 }
 
 TEST(FilterLaws, SameSeedSameParticlesForAnyThreads) {
-  // Also where the machine has fewer cores.
+  // Also on a machine with fewer cores.
   const tbb::global_control threads_there_are(tbb::global_control::max_allowed_parallelism, 4);
   int drawn = 0;
   for (const Case& c : cases()) {
@@ -123,7 +124,7 @@ TEST(FilterLaws, SameSeedSameParticlesForAnyThreads) {
     for (const int threads : {1, 2, 3, 4}) {
       EXPECT_TRUE(same(one, run(c.config, threads, 7))) << c.name << " on " << threads;
     }
-    if (has_drawn(one)) {  // a single family that is searched draws nothing
+    if (has_drawn(one)) {  // a single family that is searched needs no random draws
       ++drawn;
       EXPECT_FALSE(same(one, run(c.config, 1, 8))) << c.name << ": the seed is used";
     }
@@ -168,11 +169,12 @@ TEST(FilterLaws, WeightsAreNormalisedAndParentsExist) {
 
 TEST(FilterLaws, TheNumberOfParticlesIsKept) {
   for (const Case& c : cases()) {
-    // In our filter each family that is searched costs at least mode_least, and each turned trunk its own.
+    // In the default filter each searched family costs at least mode_least, and each turned trunk adds its
+    // own.
     const int flips = 15 * c.config.flip_candidates;
     const int searched = c.config.blocks ? c.config.modes * c.config.mode_least : 0;
     const bool turns = c.config.heuristics.find("turn") != std::string::npos;
-    // One trunk by chance and two with a long search, each from one of two starts.
+    // One trunk at random and two with a long search, each from the better of two starts.
     const int usual = c.config.turn_evaluations;
     const int thorough = std::max(usual, std::min(c.config.walk_evaluations, kParticles / 2));
     const int turned = turns ? usual + 2 * thorough + 3 * 2 : 0;

@@ -16,7 +16,7 @@ PartSet only(Part part) {
   return PartSet().set(static_cast<std::size_t>(part));
 }
 
-// What is found to move when the person goes from the one pose to the other.
+// Parts that move when the person changes from one pose to the other.
 PartSet moving(const Pose& before, const Pose& now) {
   Scene scene;
   scene.estimate = before;
@@ -60,7 +60,7 @@ TEST(MotionPartition, WhenTheTrunkMovesEverythingDoes) {
 TEST(MotionPartition, HeadAndArmsMoveWithTheTrunk) {
   Scene scene;
   scene.labels_before = scene.frame.labels.clone();
-  // Some of the chest is gone below the neck, nothing else.
+  // Only some of the chest below the neck disappears.
   const JointPositions joints = scene.joints(both_arms_seen());
   const Eigen::Vector2d neck = scene.camera.project(joints[Joint::neck]);
   const Eigen::Vector2d root = scene.camera.project(joints[Joint::root]);
@@ -101,7 +101,7 @@ TEST(MotionPartition, SharesCountPixelsThatLostTheirClass) {
   for (const double share : shares(cv::Mat::zeros(before.size(), CV_8UC1))) {
     EXPECT_EQ(share, 1.0) << "all of them";
   }
-  // Every other column is gone: half of the head's pixels.
+  // Every other column disappears: half of the pixels of the head.
   cv::Mat now = before.clone();
   for (int x = 0; x < now.cols; x += 2) {
     now.col(x).setTo(0);
