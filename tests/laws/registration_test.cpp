@@ -201,8 +201,8 @@ TEST(Registration, SameSeedSameResult) {
   EXPECT_EQ(a.region_evaluations, b.region_evaluations);
 }
 
-// Where the face points is hardly seen: a search that always began on the same side turned the head a little
-// farther in each frame.
+// Images hardly show where the head is turned: a search that always began on the same side would turn it a
+// little farther in each frame.
 TEST(Registration, ANeckThatMovedIsNotLeftTurnedToOneSide) {
   Random random(3);
   int searches = 0;
