@@ -34,6 +34,21 @@ TEST(TrackFilter, IsTheSameForTheSameSeedWhateverRunsBesideIt) {
   }
 }
 
+TEST(TrackFilter, EachCueChangesTheResult) {
+  const PreparedSequence sequence = testing::model_sequence();
+  for (const FilterSetup& setup : {small(reference_setup(kAllTogether)), small(our_setup())}) {
+    const Trace all = track_filter(sequence, setup, 3);
+    for (std::size_t i = 0; i < setup.cues.size(); ++i) {
+      FilterSetup less = setup;
+      less.cues.enable(i, false);
+      const Trace without = track_filter(sequence, less, 3);
+      EXPECT_NE(without.error_3d, all.error_3d) << setup.cues[i].name;
+      ASSERT_EQ(without.region.size(), all.region.size());
+      EXPECT_GT(without.region[1], 0.0) << "a disabled cue is still measured";
+    }
+  }
+}
+
 TEST(TrackFilter, MeasuresEveryFrame) {
   const PreparedSequence sequence = testing::model_sequence();
   const FilterSetup setup = small(reference_setup(kCondensation));
