@@ -25,7 +25,7 @@ class Batches : public EveryBackend {
   }
 
   std::vector<Score> evaluate(const std::vector<Pose>& poses, Reduction terms = Reduction::all) {
-    std::vector<Score> scores(poses.size(), {-1.0, -1.0, {}});
+    std::vector<Score> scores(poses.size(), {{-1.0, -1.0}, {}});
     backend_->evaluate(frame_, model_, poses, terms, scores);
     return scores;
   }
