@@ -27,7 +27,7 @@
 #include "track_options.h"
 
 #ifdef TELEMIME_MEETING
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 #endif
 
 namespace telemime {
@@ -210,7 +210,7 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   options->track.request.input = "0";
   LiveRequest& live = options->live;
 #ifdef TELEMIME_MEETING
-  live.sender_kinds = kAllSenderKinds;
+  live.sender_kinds = meeting::kAllSenderKinds;
 #endif
   command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
   command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");

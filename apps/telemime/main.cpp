@@ -20,7 +20,8 @@
 #include "track_command.h"
 
 #ifdef TELEMIME_MEETING
-#include "meeting/commands/room_command.h"
+#include "meeting/commands/commands.h"
+#include "meeting_files.h"
 #endif
 
 namespace telemime {
@@ -32,7 +33,7 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   app.set_version_flag("--version", TELEMIME_VERSION);
   add_live_command(app, left_behind);
 #ifdef TELEMIME_MEETING
-  add_room_command(app);
+  meeting::add_meeting_command(app, meeting_files);
 #endif
   add_track_command(app);
   add_calibrate_command(app);

@@ -13,7 +13,7 @@ export async function startHostedRoom(program, { title = "Blue room", args = [] 
   const folder = mkdtempSync(join(tmpdir(), "telemime-hosted-"));
   const ports = ["--port", "0", "--mqtt-port", "0", "--ws-port", "0"];
   const mosquitto = process.env.TELEMIME_MOSQUITTO ? ["--mosquitto", process.env.TELEMIME_MOSQUITTO] : [];
-  const child = spawn(program, ["room", "--title", title, ...ports, ...mosquitto, ...args], {
+  const child = spawn(program, ["meeting", "--title", title, ...ports, ...mosquitto, ...args], {
     stdio: ["ignore", "pipe", "pipe"],
     env: { ...process.env, XDG_STATE_HOME: folder }, // nobody's own rooms
   });

@@ -84,7 +84,7 @@ const trackers = all.map(({ ids, name }) => {
   const child = spawn(
     program,
     [
-      "room",
+      "meeting",
       "people",
       ...ids.map((id) => `mqtt://${name}.${id}:${password}@127.0.0.1:${port}/load/${name}?name=${id}`),
       "--rate",

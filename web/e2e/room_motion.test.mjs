@@ -19,11 +19,11 @@ const PROGRAM = process.env.TELEMIME_PROGRAM;
 const DEMO = process.env.TELEMIME_DEMO ?? fileURLToPath(new URL("../../data/demo", import.meta.url));
 const SCRIPT =
   process.env.TELEMIME_ROOM_SESSION ??
-  fileURLToPath(new URL("../../scripts/room_session.py", import.meta.url));
+  fileURLToPath(new URL("../../meeting/scripts/recording.py", import.meta.url));
 
 /** A subcommand of `telemime room` that goes on until it is ended. */
 function roomCommand(args) {
-  const child = spawn(PROGRAM, ["room", ...args], { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(PROGRAM, ["meeting", ...args], { stdio: ["ignore", "pipe", "pipe"] });
   let heard = "";
   child.stdout.on("data", (d) => (heard += d));
   child.stderr.on("data", (d) => (heard += d));

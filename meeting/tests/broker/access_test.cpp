@@ -7,14 +7,14 @@
 #include <fstream>
 
 #include "broker.h"
-#include "ear.h"
 #include "feeder.h"
-#include "meeting/transport/all.h"
 #include "meeting/transport/mqtt_key.h"
+#include "meeting/transport/sender_kinds.h"
+#include "subscriber.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -40,7 +40,7 @@ class Access : public ::testing::Test {
                   {"studio.p02", "secret", kReads},
                   {"studio.p03", "secret", "topic write r/home/studio/p/p03/#\n"},
                   {"studio.watch", "secret", kReads}}};
-  Ear ear_{broker_.port(), "studio.watch", "secret"};
+  Subscriber ear_{broker_.port(), "studio.watch", "secret"};
 };
 
 TEST_F(Access, AnAccountTakesPartUnderItsName) {
@@ -70,9 +70,9 @@ TEST_F(Access, AKeyFileDoesTheSame) {
 }
 
 TEST_F(Access, TheEnvironmentDoesTheSame) {
-  ASSERT_EQ(::setenv(kRoomKeyVariable, "studio.p01:secret", 1), 0);
+  ASSERT_EQ(::setenv(kMeetingKeyVariable, "studio.p01:secret", 1), 0);
   const auto sender = make_sender(broker_.url(), kAllSenderKinds);
-  ASSERT_EQ(::unsetenv(kRoomKeyVariable), 0);
+  ASSERT_EQ(::unsetenv(kMeetingKeyVariable), 0);
   const Feeder feeder(*sender);
   EXPECT_TRUE(hears("p01")) << sender->status().words;
 }
@@ -116,4 +116,4 @@ TEST_F(Access, NoPasswordIsEverShown) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

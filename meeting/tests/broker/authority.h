@@ -7,7 +7,7 @@
 #include "broker.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// Certificates of one authority, made with the command openssl.
 class Authority {
@@ -31,4 +31,4 @@ class Authority {
   ScratchFolder folder_;
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -5,14 +5,14 @@
 #include <algorithm>
 
 #include "broker.h"
-#include "ear.h"
 #include "feeder.h"
-#include "meeting/protocol/room_messages.h"
-#include "meeting/transport/all.h"
+#include "meeting/protocol/messages.h"
+#include "meeting/transport/sender_kinds.h"
 #include "relay.h"
+#include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -27,7 +27,7 @@ std::string through(const Relay& relay) {
 }
 
 /// Whether the newest presence of the tracker comes to say this.
-bool says_here(const Ear& ear, bool here) {
+bool says_here(const Subscriber& ear, bool here) {
   return comes_true([&] {
     const auto presence = ear.json("p/tracker/presence");
     return presence.is_object() && presence.at("here") == here;
@@ -35,22 +35,22 @@ bool says_here(const Ear& ear, bool here) {
 }
 
 /// Whether the tracker's presence comes to be told so, be it for a moment.
-bool was_said(const Ear& ear, const std::string& presence) {
+bool was_said(const Subscriber& ear, const std::string& presence) {
   return comes_true([&] {
-    const std::vector<Ear::Heard> all = ear.all();
-    return std::any_of(all.begin(), all.end(), [&](const Ear::Heard& heard) {
+    const std::vector<Subscriber::Heard> all = ear.all();
+    return std::any_of(all.begin(), all.end(), [&](const Subscriber::Heard& heard) {
       return heard.topic == "p/tracker/presence" && heard.payload == presence;
     });
   });
 }
 
-TEST(BrokenRooms, ABrokerThatComesBackIsToldAllAgain) {
+TEST(BrokenMeeting, ABrokerThatComesBackIsToldAllAgain) {
   Broker broker;
   const auto sender = make_sender(broker.url() + "?name=Ana", kAllSenderKinds);
   Feeder feeder(*sender);
   std::vector<PoseFrame> before;
   {
-    Ear ear(broker.port());
+    Subscriber ear(broker.port());
     ASSERT_TRUE(comes_true([&] { return ear.frames("tracker").size() >= 5; }));
     before = ear.frames("tracker");
     broker.kill();
@@ -62,7 +62,7 @@ TEST(BrokenRooms, ABrokerThatComesBackIsToldAllAgain) {
   const std::int64_t dropped = sender->status().dropped;
   EXPECT_TRUE(comes_true([&] { return sender->status().dropped > dropped; })) << "the oldest give way";
   broker.start();
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   ASSERT_TRUE(comes_true([&] { return !ear.frames("tracker").empty(); }));
   EXPECT_TRUE(is_sending(*sender));
   EXPECT_TRUE(says_here(ear, true));
@@ -76,9 +76,9 @@ TEST(BrokenRooms, ABrokerThatComesBackIsToldAllAgain) {
   EXPECT_GT(after.captured, before.back().captured);
 }
 
-TEST(BrokenRooms, TheWillSaysThatTheyAreGone) {
+TEST(BrokenMeeting, TheWillSaysThatTheyAreGone) {
   Broker broker;
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   Relay relay(broker.port());
   const auto sender = make_sender(through(relay), kAllSenderKinds);
   ASSERT_TRUE(says_here(ear, true) && is_sending(*sender));
@@ -90,9 +90,9 @@ TEST(BrokenRooms, TheWillSaysThatTheyAreGone) {
   EXPECT_GE(relay.made(), 2);
 }
 
-TEST(BrokenRooms, TheWillOfAnOlderConnectionOfOursHarmsNobody) {
+TEST(BrokenMeeting, TheWillOfAnOlderConnectionOfOursHarmsNobody) {
   Broker broker;
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   Relay relay(broker.port());
   const auto sender = make_sender(through(relay), kAllSenderKinds);
   ASSERT_TRUE(says_here(ear, true) && is_sending(*sender));
@@ -106,9 +106,9 @@ TEST(BrokenRooms, TheWillOfAnOlderConnectionOfOursHarmsNobody) {
   EXPECT_TRUE(says_here(ear, true)) << "is contradicted";
 }
 
-TEST(BrokenRooms, AnOrderlyEndLeavesNothingBehind) {
+TEST(BrokenMeeting, AnOrderlyEndLeavesNothingBehind) {
   Broker broker;
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   {
     auto sender = make_sender(broker.url(), kAllSenderKinds);
     const Feeder feeder(*sender);
@@ -117,12 +117,12 @@ TEST(BrokenRooms, AnOrderlyEndLeavesNothingBehind) {
   }
   ASSERT_TRUE(says_here(ear, false));
   ASSERT_TRUE(comes_true([&] { return ear.newest("p/tracker/state")->payload.empty(); }));
-  Ear late(broker.port());
+  Subscriber late(broker.port());
   ASSERT_TRUE(comes_true([&] { return late.newest("p/tracker/presence").has_value(); }));
   EXPECT_FALSE(late.newest("p/tracker/state")) << "nothing is kept of it";
 }
 
-TEST(BrokenRooms, EndsAtOnceWhenNobodyReads) {
+TEST(BrokenMeeting, EndsAtOnceWhenNobodyReads) {
   Broker broker;
   Relay relay(broker.port());
   auto sender = make_sender(through(relay), kAllSenderKinds);
@@ -131,7 +131,7 @@ TEST(BrokenRooms, EndsAtOnceWhenNobodyReads) {
   EXPECT_TRUE(ends_at_once(std::move(sender)));
 }
 
-TEST(SlowRooms, ABrokerThatDoesNotReadIsToldAndGivenUp) {
+TEST(SlowMeeting, ABrokerThatDoesNotReadIsToldAndGivenUp) {
   Broker broker;
   Relay relay(broker.port());
   const auto sender = make_sender(through(relay), kAllSenderKinds);
@@ -144,11 +144,11 @@ TEST(SlowRooms, ABrokerThatDoesNotReadIsToldAndGivenUp) {
   EXPECT_TRUE(words.starts_with("it does not") || words.starts_with("no answer")) << words;
 }
 
-TEST(BrokenRooms, WhatWasClearedAwayIsToldAgain) {
+TEST(BrokenMeeting, WhatWasClearedAwayIsToldAgain) {
   Broker broker;
   const auto sender = make_sender(broker.url(), kAllSenderKinds);
   ASSERT_TRUE(is_sending(*sender));
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   ASSERT_TRUE(says_here(ear, true));
   ear.say("p/tracker/state", "");
   ear.say("p/tracker/presence", "");
@@ -161,15 +161,15 @@ TEST(BrokenRooms, WhatWasClearedAwayIsToldAgain) {
 }
 
 /// How often "tracker" has said that it is here; without frames it does so once a second.
-std::ptrdiff_t breaths(const Ear& ear) {
-  const std::vector<Ear::Heard> heard = ear.all();
+std::ptrdiff_t breaths(const Subscriber& ear) {
+  const std::vector<Subscriber::Heard> heard = ear.all();
   return std::count_if(heard.begin(), heard.end(),
-                       [](const Ear::Heard& one) { return one.topic == "p/tracker/presence"; });
+                       [](const Subscriber::Heard& one) { return one.topic == "p/tracker/presence"; });
 }
 
-TEST(BrokenRooms, APageThatMakesRoomIsNobodyElse) {
+TEST(BrokenMeeting, APageThatMakesRoomIsNobodyElse) {
   Broker broker;
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   ASSERT_TRUE(comes_true([&] { return ear.listens(); }));
   const auto sender = make_sender(broker.url(), kAllSenderKinds);
   ASSERT_TRUE(is_sending(*sender) && says_here(ear, true));
@@ -189,11 +189,11 @@ TEST(BrokenRooms, APageThatMakesRoomIsNobodyElse) {
   EXPECT_EQ(ear.json("p/tracker/presence").at("session"), session);
 }
 
-TEST(BrokenRooms, TwoOfOneNameAreTold) {
+TEST(BrokenMeeting, TwoOfOneNameAreTold) {
   Broker broker;
   const auto sender = make_sender(broker.url(), kAllSenderKinds);
   ASSERT_TRUE(is_sending(*sender));
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   ASSERT_TRUE(comes_true([&] { return breaths(ear) >= 3; }));
   {
     const auto twin = make_sender(broker.url(), kAllSenderKinds);
@@ -206,4 +206,4 @@ TEST(BrokenRooms, TwoOfOneNameAreTold) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -13,7 +13,7 @@
 
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 constexpr int kAttempts = 10;
@@ -147,4 +147,4 @@ std::string Broker::log() const {
   return content_of(folder_.file("log"));
 }
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

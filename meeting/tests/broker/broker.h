@@ -9,7 +9,7 @@
 
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// A Mosquitto on a port of loopback, with a configuration of its own. It ends with the test.
 class Broker {
@@ -59,4 +59,4 @@ pid_t start_program(const std::vector<std::string>& words, const std::string& ou
 /// Runs a program and waits for its end; fails the test unless that is 0.
 void run(const std::vector<std::string>& words);
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -15,7 +15,7 @@
 #include "broker.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using std::chrono::steady_clock;
@@ -39,7 +39,7 @@ std::uint16_t port_in(const std::string& url) {
 Cluster::Cluster() {
   while (attempt_ < kAttempts) {
     ++attempt_;
-    run({TELEMIME_PYTHON, TELEMIME_SOURCE_DIR "/scripts/room_cluster.py", "make", file(""), "--loopback"});
+    run({TELEMIME_PYTHON, TELEMIME_SOURCE_DIR "/scripts/cluster.py", "make", file(""), "--loopback"});
     if (try_start_all()) {
       return;
     }
@@ -140,4 +140,4 @@ std::string Cluster::log(std::size_t node) const {
   return content_of(file("node" + std::to_string(node + 1) + ".conf.log"));
 }
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -10,7 +10,7 @@
 
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// Three real nodes of nats-server for the room home/studio, as scripts/room_cluster.py configures them, on
 /// ports of loopback. They end with the test.
@@ -51,4 +51,4 @@ class Cluster {
   std::array<pid_t, kNodes> processes_{-1, -1, -1};
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

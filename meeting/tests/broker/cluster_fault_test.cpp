@@ -9,13 +9,13 @@
 #include <optional>
 
 #include "cluster.h"
-#include "ear.h"
 #include "feeder.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 #include "relay.h"
+#include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 /// The nodes may need several seconds to find a leader before they keep anything.
@@ -25,10 +25,10 @@ bool comes_true(const std::function<bool()>& condition) {
 }
 
 /// The longest time between two frames of a participant, s.
-double longest_gap(const Ear& ear, const std::string& participant) {
+double longest_gap(const Subscriber& ear, const std::string& participant) {
   double last = 0.0;
   double longest = 0.0;
-  for (const Ear::Heard& heard : ear.all()) {
+  for (const Subscriber::Heard& heard : ear.all()) {
     if (heard.topic == "p/" + participant + "/pose") {
       longest = last == 0.0 ? 0.0 : std::max(longest, heard.at - last);
       last = heard.at;
@@ -39,15 +39,15 @@ double longest_gap(const Ear& ear, const std::string& participant) {
 
 class ClusterFaults : public ::testing::Test {
  protected:
-  std::unique_ptr<Ear> ear_at(std::size_t node) const {
-    auto ear = std::make_unique<Ear>(cluster_.port(node), "studio.watch", cluster_.password("watch"));
+  std::unique_ptr<Subscriber> ear_at(std::size_t node) const {
+    auto ear = std::make_unique<Subscriber>(cluster_.port(node), "studio.watch", cluster_.password("watch"));
     EXPECT_TRUE(comes_true([&] { return ear->listens(); }));
     return ear;
   }
-  static bool hears(const Ear& ear, const std::string& participant, std::size_t count) {
+  static bool hears(const Subscriber& ear, const std::string& participant, std::size_t count) {
     return comes_true([&] { return ear.frames(participant).size() >= count; });
   }
-  static bool knows(const Ear& ear, const std::string& participant) {
+  static bool knows(const Subscriber& ear, const std::string& participant) {
     return comes_true([&] {
       const auto presence = ear.json("p/" + participant + "/presence");
       return presence.is_object() && presence.at("here") == true &&
@@ -142,7 +142,7 @@ TEST_F(ClusterFaults, WhoStopsReadingIsDisconnectedAndHoldsNobodyUp) {
   const Feeder feeder(*sender);
   ASSERT_TRUE(hears(*ear, "p01", 5));
   const Stalled stalled(cluster_, 1);
-  Ear loud(cluster_.port(0), "studio.service", cluster_.password("service"));
+  Subscriber loud(cluster_.port(0), "studio.service", cluster_.password("service"));
   ASSERT_TRUE(hears(loud, "p01", 1));
   const std::string page(60000, 'x');
   const auto disconnected = [&] { return cluster_.log(1).find("Slow Consumer") != std::string::npos; };
@@ -157,4 +157,4 @@ TEST_F(ClusterFaults, WhoStopsReadingIsDisconnectedAndHoldsNobodyUp) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rooms on a broker cluster: trackers at one node, those who hear them at another.
 #include "cluster.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 
-#include "ear.h"
 #include "feeder.h"
-#include "meeting/protocol/room_messages.h"
+#include "meeting/protocol/messages.h"
 #include "relay.h"
+#include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -23,7 +23,7 @@ bool is_sending(const Sender& sender) {
   return comes_true([&] { return sender.status().state == SenderState::sending; });
 }
 
-class ClusterRoom : public ::testing::Test {
+class ClusterMeeting : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { cluster_ = std::make_unique<Cluster>(); }
   static void TearDownTestSuite() { cluster_.reset(); }
@@ -31,30 +31,31 @@ class ClusterRoom : public ::testing::Test {
   static std::unique_ptr<Sender> sender_at(std::size_t node, const std::string& account) {
     return make_sender(cluster_->url(cluster_->port(node), account), kAllSenderKinds);
   }
-  static std::unique_ptr<Ear> ear_at(std::size_t node, const std::string& account = "watch") {
-    auto ear = std::make_unique<Ear>(cluster_->port(node), "studio." + account, cluster_->password(account));
+  static std::unique_ptr<Subscriber> ear_at(std::size_t node, const std::string& account = "watch") {
+    auto ear =
+        std::make_unique<Subscriber>(cluster_->port(node), "studio." + account, cluster_->password(account));
     EXPECT_TRUE(comes_true([&] { return ear->listens(); }));
     return ear;
   }
-  static bool says_here(const Ear& ear, const std::string& participant, bool here) {
+  static bool says_here(const Subscriber& ear, const std::string& participant, bool here) {
     return comes_true([&] {
       const auto presence = ear.json("p/" + participant + "/presence");
       return presence.is_object() && presence.at("here") == here;
     });
   }
-  static bool was_said(const Ear& ear, const std::string& topic, const std::string& payload) {
+  static bool was_said(const Subscriber& ear, const std::string& topic, const std::string& payload) {
     return comes_true([&] {
-      const std::vector<Ear::Heard> all = ear.all();
-      return std::any_of(all.begin(), all.end(), [&](const Ear::Heard& heard) {
+      const std::vector<Subscriber::Heard> all = ear.all();
+      return std::any_of(all.begin(), all.end(), [&](const Subscriber::Heard& heard) {
         return heard.topic == topic && heard.payload == payload;
       });
     });
   }
   static std::unique_ptr<Cluster> cluster_;
 };
-std::unique_ptr<Cluster> ClusterRoom::cluster_;
+std::unique_ptr<Cluster> ClusterMeeting::cluster_;
 
-TEST_F(ClusterRoom, FramesGoFromNodeToNode) {
+TEST_F(ClusterMeeting, FramesGoFromNodeToNode) {
   const auto ear = ear_at(2);
   const auto sender = sender_at(0, "p01");
   const Feeder feeder(*sender);
@@ -66,7 +67,7 @@ TEST_F(ClusterRoom, FramesGoFromNodeToNode) {
   }
 }
 
-TEST_F(ClusterRoom, WhoComesLateHearsWhatIsKept) {
+TEST_F(ClusterMeeting, WhoComesLateHearsWhatIsKept) {
   const auto first = ear_at(2);
   const auto sender = sender_at(0, "p02");
   const Feeder feeder(*sender);
@@ -75,7 +76,7 @@ TEST_F(ClusterRoom, WhoComesLateHearsWhatIsKept) {
   const auto late = ear_at(1);
   ASSERT_TRUE(comes_true([&] { return late->newest("p/p02/state") && late->newest("p/p02/presence"); }));
   EXPECT_TRUE(late->newest("p/p02/state")->retained);
-  const std::vector<Ear::Heard> heard = late->all();  // a sign of life may have followed
+  const std::vector<Subscriber::Heard> heard = late->all();  // a sign of life may have followed
   EXPECT_TRUE(std::any_of(heard.begin(), heard.end(),
                           [](const auto& one) { return one.topic == "p/p02/presence" && one.retained; }));
   EXPECT_EQ(late->newest("p/p02/state")->payload, first->newest("p/p02/state")->payload);
@@ -84,7 +85,7 @@ TEST_F(ClusterRoom, WhoComesLateHearsWhatIsKept) {
 
 // One after the other, like all here: of those who come in the same moment, nats-server 2.9 sometimes tells
 // one too little.
-TEST_F(ClusterRoom, ParticipantsAtAllNodesCountEachOther) {
+TEST_F(ClusterMeeting, ParticipantsAtAllNodesCountEachOther) {
   std::vector<std::unique_ptr<Sender>> senders;
   for (std::size_t node = 0; node < Cluster::kNodes; ++node) {
     senders.push_back(sender_at(node, "p0" + std::to_string(3 + node)));
@@ -95,7 +96,7 @@ TEST_F(ClusterRoom, ParticipantsAtAllNodesCountEachOther) {
   }
 }
 
-TEST_F(ClusterRoom, TheLastWillReachesTheOtherNodes) {
+TEST_F(ClusterMeeting, TheLastWillReachesTheOtherNodes) {
   const auto ear = ear_at(2);
   Relay relay(cluster_->port(0));
   const auto sender = make_sender(cluster_->url(relay.port(), "p06"), kAllSenderKinds);
@@ -107,7 +108,7 @@ TEST_F(ClusterRoom, TheLastWillReachesTheOtherNodes) {
   EXPECT_TRUE(says_here(*ear, "p06", true)) << "and then they are back";
 }
 
-TEST_F(ClusterRoom, AnOrderlyEndLeavesNothingBehind) {
+TEST_F(ClusterMeeting, AnOrderlyEndLeavesNothingBehind) {
   const auto ear = ear_at(1);
   {
     const auto sender = sender_at(0, "p07");
@@ -123,7 +124,7 @@ TEST_F(ClusterRoom, AnOrderlyEndLeavesNothingBehind) {
   })) << "nothing is kept of it";
 }
 
-TEST_F(ClusterRoom, WhoMayNotPublishIsToldAndHeardByNobody) {
+TEST_F(ClusterMeeting, WhoMayNotPublishIsToldAndHeardByNobody) {
   const auto ear = ear_at(2);
   const auto sender =
       make_sender(cluster_->url(cluster_->port(0), "p08") + "?participant=p01", kAllSenderKinds);
@@ -136,13 +137,13 @@ TEST_F(ClusterRoom, WhoMayNotPublishIsToldAndHeardByNobody) {
   liar->say("room", "forged");
   liar->say("p/p08/chat", "may be said");
   EXPECT_TRUE(was_said(*ear, "p/p08/chat", "may be said"));
-  for (const Ear::Heard& heard : ear->all()) {
+  for (const Subscriber::Heard& heard : ear->all()) {
     EXPECT_NE(heard.payload, "forged") << heard.topic;
   }
   EXPECT_NE(cluster_->log(1).find("Publish Violation"), std::string::npos);
 }
 
-TEST_F(ClusterRoom, OtherRoomsAreClosed) {
+TEST_F(ClusterMeeting, OtherRoomsAreClosed) {
   std::string url = cluster_->url(cluster_->port(1), "p01");
   url.replace(url.rfind("studio"), 6, "office");
   const auto sender = make_sender(url + "?participant=p01", kAllSenderKinds);
@@ -150,7 +151,7 @@ TEST_F(ClusterRoom, OtherRoomsAreClosed) {
   EXPECT_NE(sender->status().words.find("may not read there"), std::string::npos) << sender->status().words;
 }
 
-TEST_F(ClusterRoom, AWrongPasswordIsTold) {
+TEST_F(ClusterMeeting, AWrongPasswordIsTold) {
   const auto sender =
       make_sender("mqtt://studio.p01:guess@127.0.0.1:" + std::to_string(cluster_->port(2)) + "/home/studio",
                   kAllSenderKinds);
@@ -160,4 +161,4 @@ TEST_F(ClusterRoom, AWrongPasswordIsTold) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

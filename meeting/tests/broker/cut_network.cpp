@@ -8,7 +8,7 @@
 
 #include "broker.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 const std::string kTracker = "10.77.0.2";
@@ -72,4 +72,4 @@ void CutNetwork::mend() {
   ip({"-n", tracker_, "neighbour", "delete", broker(), "dev", "cable"});
 }
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

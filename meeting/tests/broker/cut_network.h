@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// Two computers and the cable between them: network namespaces of the kernel. The thread that makes it, and
 /// what it starts from then on, is at the broker's until this ends. Needs root.
@@ -32,4 +32,4 @@ class CutNetwork {
   int home_ = -1;  ///< the namespace that the thread came from
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

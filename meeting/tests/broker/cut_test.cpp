@@ -10,11 +10,11 @@
 
 #include "broker.h"
 #include "cut_network.h"
-#include "ear.h"
+#include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 #include "tracker_process.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using std::chrono::steady_clock;
@@ -31,7 +31,7 @@ double seconds(steady_clock::time_point time) {
   return std::chrono::duration<double>(time.time_since_epoch()).count();
 }
 
-class CutRooms : public ::testing::Test {
+class CutNetworkTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const std::string missing = CutNetwork::missing(); !missing.empty()) {
@@ -42,7 +42,7 @@ class CutRooms : public ::testing::Test {
   static std::string url(const Broker& broker) {
     return "mqtt://" + CutNetwork::broker() + ":" + std::to_string(broker.port()) + "/home/studio";
   }
-  static bool says_here(const Ear& ear, bool here) {
+  static bool says_here(const Subscriber& ear, bool here) {
     return comes_true([&] {
       const auto presence = ear.json("p/tracker/presence");
       return presence.is_object() && presence.at("here") == here;
@@ -50,10 +50,10 @@ class CutRooms : public ::testing::Test {
   }
 };
 
-TEST_F(CutRooms, TenSecondsWithoutANetwork) {
+TEST_F(CutNetworkTest, TenSecondsWithoutANetwork) {
   CutNetwork network;
   const Broker broker(Broker::Where::everywhere);
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   const TrackerProcess tracker(url(broker), network.at_tracker());
   ASSERT_TRUE(comes_true([&] { return ear.frames("tracker").size() >= 10; })) << tracker.output();
   const PoseFrame before = ear.frames("tracker").back();
@@ -69,7 +69,7 @@ TEST_F(CutRooms, TenSecondsWithoutANetwork) {
   EXPECT_GT(frames[0].sequence, before.sequence);
   double most = 0.0;
   double first = 0.0;
-  for (const Ear::Heard& heard : ear.all()) {
+  for (const Subscriber::Heard& heard : ear.all()) {
     if (heard.topic != "p/tracker/pose") {
       continue;
     }
@@ -87,10 +87,10 @@ TEST_F(CutRooms, TenSecondsWithoutANetwork) {
   EXPECT_TRUE(says_here(ear, true));
 }
 
-TEST_F(CutRooms, ATrackerThatDiesBehindACutIsGone) {
+TEST_F(CutNetworkTest, ATrackerThatDiesBehindACutIsGone) {
   CutNetwork network;
   const Broker broker(Broker::Where::everywhere);
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   TrackerProcess tracker(url(broker), network.at_tracker());
   ASSERT_TRUE(comes_true([&] { return ear.frames("tracker").size() >= 10; })) << tracker.output();
   network.cut();
@@ -103,4 +103,4 @@ TEST_F(CutRooms, ATrackerThatDiesBehindACutIsGone) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

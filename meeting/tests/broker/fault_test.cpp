@@ -9,34 +9,34 @@
 #include <random>
 
 #include "broker.h"
-#include "ear.h"
 #include "feeder.h"
-#include "meeting/protocol/room_messages.h"
-#include "meeting/transport/all.h"
+#include "meeting/protocol/messages.h"
+#include "meeting/transport/sender_kinds.h"
+#include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 #include "tracker_process.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
 
 constexpr double kMicro = 1e-6;  // s
 
-bool hears(const Ear& ear, std::size_t count) {
+bool hears(const Subscriber& ear, std::size_t count) {
   return comes_true([&] { return ear.frames("tracker").size() >= count; });
 }
 
-bool says_here(const Ear& ear, bool here) {
+bool says_here(const Subscriber& ear, bool here) {
   return comes_true([&] {
     const auto presence = ear.json("p/tracker/presence");
     return presence.is_object() && presence.at("here") == here;
   });
 }
 
-TEST(RoomFaults, ATrackerThatIsKilledIsGoneAndItsSuccessorIsHere) {
+TEST(MeetingFaults, ATrackerThatIsKilledIsGoneAndItsSuccessorIsHere) {
   const Broker broker;
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   std::uint16_t session = 0;
   {
     TrackerProcess tracker(broker.url());
@@ -55,16 +55,16 @@ TEST(RoomFaults, ATrackerThatIsKilledIsGoneAndItsSuccessorIsHere) {
   EXPECT_EQ(first.sequence, 0U);
 }
 
-TEST(RoomFaults, AWallClockThatJumpsChangesNothing) {
+TEST(MeetingFaults, AWallClockThatJumpsChangesNothing) {
   const Broker broker;
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   const TrackerProcess tracker(broker.url());
   ASSERT_TRUE(hears(ear, 10)) << tracker.output();
   // Told with each connection. Presence is told again when no frame comes for a while.
   const auto states = [&ear] {
-    const std::vector<Ear::Heard> heard = ear.all();
+    const std::vector<Subscriber::Heard> heard = ear.all();
     return std::count_if(heard.begin(), heard.end(),
-                         [](const Ear::Heard& one) { return one.topic == "p/tracker/state"; });
+                         [](const Subscriber::Heard& one) { return one.topic == "p/tracker/state"; });
   };
   const auto at_first = states();
   const auto jumps = [&](int signal, const std::string& line) {
@@ -147,7 +147,7 @@ std::string rubbish(std::mt19937& chance) {
   }
 }
 
-TEST(RoomFaults, TenThousandRandomMessagesHarmNoTracker) {
+TEST(MeetingFaults, TenThousandRandomMessagesHarmNoTracker) {
   constexpr int kMessages = 10000;
   constexpr int kStrangers = 40;
   const Broker broker;
@@ -155,7 +155,7 @@ TEST(RoomFaults, TenThousandRandomMessagesHarmNoTracker) {
   const Feeder feeder(*sender);
   PoseFrame before;
   {
-    const Ear ear(broker.port());
+    const Subscriber ear(broker.port());
     ASSERT_TRUE(hears(ear, 5)) << sender->status().words;
     before = ear.frames("tracker").back();
   }
@@ -181,7 +181,7 @@ TEST(RoomFaults, TenThousandRandomMessagesHarmNoTracker) {
   EXPECT_TRUE(comes_true([&] { return sender->status().receivers == 3; })) << sender->status().receivers;
   EXPECT_EQ(sender->status().state, SenderState::sending) << sender->status().words;
   EXPECT_EQ(sender->status().words, "");
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   EXPECT_TRUE(hears(ear, 30));
   for (const PoseFrame& frame : ear.frames("tracker")) {
     EXPECT_EQ(frame.session, before.session) << "it never had to begin anew";
@@ -190,4 +190,4 @@ TEST(RoomFaults, TenThousandRandomMessagesHarmNoTracker) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

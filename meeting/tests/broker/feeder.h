@@ -9,7 +9,7 @@
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/sender.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// A camera and its person: gives a sender a hundred frames a second until it ends.
 class Feeder {
@@ -57,4 +57,4 @@ class Feeder {
   std::thread thread_;
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

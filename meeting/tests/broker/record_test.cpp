@@ -8,13 +8,13 @@
 
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/protocol/session_reader.h"
-#include "meeting/transport/all.h"
-#include "sessions.h"
+#include "meeting/protocol/recording_reader.h"
+#include "meeting/transport/sender_kinds.h"
+#include "recordings.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -24,22 +24,22 @@ std::string bytes_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-TEST(RoomRecording, TheScriptReadsWhatTheProgramReads) {
+TEST(RecordedMeeting, TheScriptReadsWhatTheProgramReads) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 2, 20, 500);
-  const std::string script = std::string(TELEMIME_SOURCE_DIR) + "/scripts/room_session.py";
+  const std::string file = write_test_recording(folder.file("a.troom"), 2, 20, 500);
+  const std::string script = std::string(TELEMIME_SOURCE_DIR) + "/scripts/recording.py";
   run({"/bin/sh", "-c", "python3 " + script + " " + file + " --lines > " + folder.file("lines")});
   std::ifstream lines(folder.file("lines"));
   std::string line;
-  for (const SessionRecord& record : records_of(file)) {
+  for (const Record& record : records_of(file)) {
     ASSERT_TRUE(std::getline(lines, line));
     const auto json = nlohmann::json::parse(line);
     EXPECT_EQ(json.value("at_us", std::uint64_t{0}), time_of(record));
-    if (const auto* const message = std::get_if<SessionMessage>(&record)) {
+    if (const auto* const message = std::get_if<RecordedMessage>(&record)) {
       EXPECT_EQ(json.at("participant"), message->topic.participant);
       EXPECT_EQ(json.value("page", 0), message->topic.page);
       const auto text = json.at("payload").get<std::string>();
-      if (message->topic.kind == RoomTopicKind::pose) {
+      if (message->topic.kind == TopicKind::pose) {
         EXPECT_EQ(text.size(), 2 * message->payload.size());
         EXPECT_EQ(std::stoi(text.substr(4, 2), nullptr, 16), static_cast<unsigned char>(message->payload[2]));
       } else {
@@ -50,7 +50,7 @@ TEST(RoomRecording, TheScriptReadsWhatTheProgramReads) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(RoomRecording, ABrokerThatDiesLeavesAGap) {
+TEST(RecordedMeeting, ABrokerThatDiesLeavesAGap) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   Broker broker;
@@ -65,12 +65,12 @@ TEST(RoomRecording, ABrokerThatDiesLeavesAGap) {
   ASSERT_TRUE(recording.said("the room is heard again"));
   ASSERT_TRUE(recording.has(before + 10));
   recording.end();
-  const SessionLook look = look_at_session(file);
+  const RecordingReport look = inspect_recording(file);
   EXPECT_EQ(look.summary.gaps, 1U);
   EXPECT_EQ(look.complaint, "");
   std::string order;
   std::uint64_t last = 0;
-  for (const SessionRecord& record : records_of(file)) {
+  for (const Record& record : records_of(file)) {
     EXPECT_GE(time_of(record), last);
     last = time_of(record);
     const char letter = "SmLBDE"[record.index()];
@@ -79,15 +79,15 @@ TEST(RoomRecording, ABrokerThatDiesLeavesAGap) {
   EXPECT_EQ(order, "SmLBmE");
 }
 
-TEST(RoomRecording, ARoomThatCannotBeHeardIsTold) {
+TEST(RecordedMeeting, ARoomThatCannotBeHeardIsTold) {
   const ScratchFolder folder;
   const std::string account = "studio.watch:secretword@";
   const Broker broker({{"studio.watch", "secretword", kWatches}});
   const auto words_of = [&](const std::string& where) -> std::string {
-    RoomDoor door(where, true, "");
-    RoomRecorder recorder(
+    MeetingLogin door(where, true, "");
+    MeetingRecorder recorder(
         door, [] { return false; }, [](const std::string&) {});
-    SessionWriter writer([](std::string_view) {}, {recorder.come_in().room, ""});
+    RecordingWriter writer([](std::string_view) {}, {recorder.log_in().meeting, ""});
     try {
       recorder.record(writer);
     } catch (const Error& e) {
@@ -101,7 +101,7 @@ TEST(RoomRecording, ARoomThatCannotBeHeardIsTold) {
   EXPECT_NE(words_of("mqtt://127.0.0.1:1/home/studio").find("nobody listens there"), std::string::npos);
   const std::string file = folder.file("a.troom");
   Recording recording(broker.url(account), file);
-  const Ear ear(broker.port(), "studio.watch", "secretword");
+  const Subscriber ear(broker.port(), "studio.watch", "secretword");
   ASSERT_TRUE(comes_true([&] { return broker.log().find("record-") != std::string::npos; }));
   recording.end();
   EXPECT_EQ(bytes_of(file).find("secretword"), std::string::npos) << "passwords are in no file";
@@ -109,4 +109,4 @@ TEST(RoomRecording, ARoomThatCannotBeHeardIsTold) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <utility>
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::Fd;
@@ -81,4 +81,4 @@ void Relay::cut_broker() {
   cut_.clear();
 }
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

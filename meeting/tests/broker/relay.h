@@ -10,7 +10,7 @@
 
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// Stands between a sender and its broker, and can break a connection as networks do.
 class Relay {
@@ -52,4 +52,4 @@ class Relay {
   std::thread thread_;
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

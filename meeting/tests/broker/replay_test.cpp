@@ -10,13 +10,13 @@
 
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
+#include "recordings.h"
 #include "relay.h"
-#include "sessions.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -42,8 +42,8 @@ void expect_same_motion(const std::vector<std::string>& said, const std::vector<
   }
 }
 
-std::vector<ReplayedPerson> replay(const ReplayOptions& options) {
-  return replay_session(
+std::vector<ReplayedParticipant> replay(const ReplayOptions& options) {
+  return replay_recording(
       options, [] { return false; }, [](const std::string&) {});
 }
 
@@ -56,12 +56,12 @@ std::string refusal(const ReplayOptions& options) {
   return "";
 }
 
-TEST(RoomReplay, WhatIsReplayedIsWhatWasRecorded) {
+TEST(Replay, WhatIsReplayedIsWhatWasRecorded) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   {
     const Broker broker;
-    Ear ear(broker.port());
+    Subscriber ear(broker.port());
     ear.say("room", R"({"v":1,"epoch":4})");
     ear.say("p/p02/board/3", R"({"v":1,"epoch":4,"strokes":[]})");
     const auto ana = make_sender(broker.url() + "?participant=p01&name=Ana&look=robot", kAllSenderKinds);
@@ -76,23 +76,23 @@ TEST(RoomReplay, WhatIsReplayedIsWhatWasRecorded) {
     ASSERT_TRUE(comes_true([&] { return ear.newest("p/p01/chat").has_value(); }));
     ASSERT_TRUE(recording.has(64));
     recording.end();
-    const auto poses = recorded(file, "p01", RoomTopicKind::pose);
+    const auto poses = recorded(file, "p01", TopicKind::pose);
     const auto sent = heard(ear, "p/p01/pose");
     ASSERT_GE(poses.size(), 30U);
     EXPECT_TRUE(std::search(poses.begin(), poses.end(), sent.begin(), sent.begin() + 25) != poses.end())
         << "the file holds what was heard";
   }
-  EXPECT_EQ(look_at_session(file).complaint, "");
+  EXPECT_EQ(inspect_recording(file).complaint, "");
   const Broker broker;
-  Ear ear(broker.port());
+  Subscriber ear(broker.port());
   ear.say("room", R"({"v":1,"epoch":9})");
   ASSERT_TRUE(comes_true([&] { return ear.newest("room").has_value(); }));
   const auto people = replay(into(broker.url(), file));
   ASSERT_EQ(people.size(), 2U);
   ASSERT_TRUE(has_left(ear, "p01"));
   ASSERT_TRUE(has_left(ear, "p02"));
-  for (const ReplayedPerson& person : people) {
-    const auto said = recorded(file, person.recorded, RoomTopicKind::pose);
+  for (const ReplayedParticipant& person : people) {
+    const auto said = recorded(file, person.recorded, TopicKind::pose);
     EXPECT_EQ(person.participant, person.recorded);
     EXPECT_EQ(person.status.frames + person.status.dropped, said.size());
     expect_same_motion(said, heard(ear, "p/" + person.recorded + "/pose"), person.status.frames);
@@ -110,11 +110,11 @@ TEST(RoomReplay, WhatIsReplayedIsWhatWasRecorded) {
   EXPECT_EQ(ear.json("room").at("epoch"), 9) << "the room is nobody's";
 }
 
-TEST(RoomReplay, OnlyThoseWhoAreNamedComeIn) {
+TEST(Replay, OnlyThoseWhoAreNamedComeIn) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 3, 5);
+  const std::string file = write_test_recording(folder.file("a.troom"), 3, 5);
   const Broker broker;
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   const auto people = replay(into(broker.url(), file, {"Q1", "q2"}));
   ASSERT_EQ(people.size(), 2U);
   EXPECT_EQ(people[0].recorded, "q1");
@@ -128,15 +128,15 @@ TEST(RoomReplay, OnlyThoseWhoAreNamedComeIn) {
   EXPECT_NE(words.find("q0 \"Q0\", q1 \"Q1\""), std::string::npos) << words;
 }
 
-TEST(RoomReplay, ALinkGivesEverybodyASeat) {
+TEST(Replay, ALinkGivesEverybodyASeat) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 2, 5);
+  const std::string file = write_test_recording(folder.file("a.troom"), 2, 5);
   const std::string rights = kWatches + "topic readwrite r/home/studio/p/";
   const Broker broker({{"studio.p05", "a", rights + "p05/#\n"},
                        {"studio.p06", "b", rights + "p06/#\n"},
                        {"studio.watch", "c", kWatches}});
-  const Ear ear(broker.port(), "studio.watch", "c");
-  std::vector<RoomKey> keys;
+  const Subscriber ear(broker.port(), "studio.watch", "c");
+  std::vector<Credentials> keys;
   for (const auto& [who, password] : {std::pair("p06", "b"), std::pair("p05", "a")}) {
     keys.push_back({"mqtt://127.0.0.1:" + std::to_string(broker.port()),
                     "studio." + std::string(who),
@@ -147,13 +147,13 @@ TEST(RoomReplay, ALinkGivesEverybodyASeat) {
                     ""});
   }
   ReplayOptions options = into("http://localhost:7080/room#k=invitation", file);
-  options.enter = [&](const RoomEntry& entry) {
+  options.enter = [&](const LinkLogin& entry) {
     EXPECT_EQ(entry.link, "http://localhost:7080/room#k=invitation");
     EXPECT_FALSE(entry.watch);
     if (keys.empty()) {
       throw Error(ErrorKind::input, "no seat is free");
     }
-    const RoomKey key = keys.back();
+    const Credentials key = keys.back();
     keys.pop_back();
     return key;
   };
@@ -167,9 +167,9 @@ TEST(RoomReplay, ALinkGivesEverybodyASeat) {
   EXPECT_NE(refusal(options).find("no seat is free"), std::string::npos);
 }
 
-TEST(RoomReplay, WhoMayNotSpeakForOthersIsRefused) {
+TEST(Replay, WhoMayNotSpeakForOthersIsRefused) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 2, 5);
+  const std::string file = write_test_recording(folder.file("a.troom"), 2, 5);
   const std::string rights = kWatches + "topic readwrite r/home/studio/p/q0/#\n";
   const Broker broker({{"studio.q0", "a", rights}});
   const std::string words = refusal(into(broker.url("studio.q0:a@"), file));
@@ -179,57 +179,57 @@ TEST(RoomReplay, WhoMayNotSpeakForOthersIsRefused) {
   EXPECT_EQ(words.find(":a@"), std::string::npos) << words;
 }
 
-TEST(RoomReplay, NobodyIsTalkedOver) {
+TEST(Replay, NobodyIsTalkedOver) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 1, 5);
+  const std::string file = write_test_recording(folder.file("a.troom"), 1, 5);
   const Broker broker;
   const auto sender = make_sender(broker.url() + "?participant=q0", kAllSenderKinds);
   ASSERT_TRUE(comes_true([&] { return sender->status().state == SenderState::sending; }));
   const std::string words = refusal(into(broker.url(), file));
   EXPECT_NE(words.find("somebody takes part as \"q0\" there"), std::string::npos) << words;
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   EXPECT_TRUE(comes_true([&] {
     const auto presence = ear.json("p/q0/presence");
     return presence.is_object() && presence.at("here") == true;
   })) << "and stays";
 }
 
-TEST(RoomReplay, ABrokerThatDoesNotReadDelaysNothing) {
+TEST(Replay, ABrokerThatDoesNotReadDelaysNothing) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 1, 30, 16'000);
+  const std::string file = write_test_recording(folder.file("a.troom"), 1, 30, 16'000);
   const Broker broker;
   Relay relay(broker.port());
   std::atomic<bool> over = false;
-  std::vector<ReplayedPerson> people;
+  std::vector<ReplayedParticipant> people;
   const ReplayOptions options =
       into("mqtt://127.0.0.1:" + std::to_string(relay.port()) + "/home/studio", file);
   std::thread thread([&] {
-    people = replay_session(
+    people = replay_recording(
         options, [] { return false; }, [&](const std::string&) { relay.stall(); });  // all are in now
     over = true;
   });
   EXPECT_TRUE(comes_true([&] { return over.load(); }));
   thread.join();
   ASSERT_EQ(people.size(), 1U);
-  EXPECT_GE(people[0].status.dropped, 30 - kVoicePoses - 1);
+  EXPECT_GE(people[0].status.dropped, 30 - kQueuedPoses - 1);
 }
 
-TEST(RoomReplay, ABrokerThatComesBackIsToldAllAgain) {
+TEST(Replay, ABrokerThatComesBackIsToldAllAgain) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 1, 100'000);
+  const std::string file = write_test_recording(folder.file("a.troom"), 1, 100'000);
   Broker broker;
   std::atomic<bool> stop = false;
   std::thread thread([&] {
-    replay_session(
+    replay_recording(
         into(broker.url(), file), [&] { return stop.load(); }, [](const std::string&) {});
   });
   {
-    const Ear ear(broker.port());
+    const Subscriber ear(broker.port());
     ASSERT_TRUE(comes_true([&] { return ear.frames("q0").size() > 3; }));
     broker.kill();
   }
   broker.start();
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   EXPECT_TRUE(comes_true([&] { return ear.frames("q0").size() > 3; }));
   const auto state = ear.newest("p/q0/state");
   EXPECT_TRUE(state && read_state(state->payload)->name == "Q0");
@@ -239,17 +239,17 @@ TEST(RoomReplay, ABrokerThatComesBackIsToldAllAgain) {
   EXPECT_TRUE(has_left(ear, "q0")) << "also when it is stopped";
 }
 
-TEST(RoomReplay, ItMayBeginAgain) {
+TEST(Replay, ItMayBeginAgain) {
   const ScratchFolder folder;
-  const std::string file = write_session(folder.file("a.troom"), 1, 4);
+  const std::string file = write_test_recording(folder.file("a.troom"), 1, 4);
   const Broker broker;
-  const Ear ear(broker.port());
+  const Subscriber ear(broker.port());
   std::atomic<bool> stop = false;
   ReplayOptions options = into(broker.url(), file);
   options.speed = 2.0;
   options.loop = true;
   std::thread thread([&] {
-    replay_session(
+    replay_recording(
         options, [&] { return stop.load(); }, [](const std::string&) {});
   });
   std::map<std::uint16_t, std::size_t> sessions;
@@ -272,4 +272,4 @@ TEST(RoomReplay, ItMayBeginAgain) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -5,10 +5,10 @@
 #include "authority.h"
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using testing_receivers::comes_true;
@@ -111,4 +111,4 @@ TEST_F(Tls, EndsAtOnceWhileItSends) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

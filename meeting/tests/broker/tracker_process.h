@@ -13,14 +13,14 @@
 #include "broker.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 
 /// A tracker in a process of its own (tracker_program.cpp). It ends with the test.
 class TrackerProcess {
  public:
   /// `before`: words of a command that starts it, as "ip netns exec NAME".
   explicit TrackerProcess(const std::string& url, std::vector<std::string> before = {}) {
-    before.insert(before.end(), {TELEMIME_ROOMS_TRACKER, url});
+    before.insert(before.end(), {TELEMIME_MEETING_TRACKER, url});
     process_ = start_program(before, folder_.file("output"));
   }
   TrackerProcess(const TrackerProcess&) = delete;
@@ -46,4 +46,4 @@ class TrackerProcess {
   pid_t process_ = -1;
 };
 
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

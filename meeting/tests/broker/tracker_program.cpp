@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "feeder.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 
 namespace {
 
@@ -67,8 +67,8 @@ int main(int count, char** words) {
   }
   ::signal(SIGUSR1, an_hour_ahead);
   ::signal(SIGUSR2, an_hour_back);
-  const auto sender = telemime::make_sender(words[1], telemime::kAllSenderKinds);
-  const telemime::testing_rooms::Feeder feeder(*sender);
+  const auto sender = telemime::make_sender(words[1], telemime::meeting::kAllSenderKinds);
+  const telemime::meeting::test_support::Feeder feeder(*sender);
   for (double before = wall_minus_steady();;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const double now = wall_minus_steady();

@@ -8,10 +8,10 @@
 
 #include "cut_network.h"
 #include "feeder.h"
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using std::chrono::milliseconds;
@@ -45,4 +45,4 @@ TEST_F(Unreachable, AComputerThatIsOffIsToldByThatName) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -9,10 +9,10 @@
 #include <iterator>
 
 #include "e2e/run_program.h"
-#include "meeting/transport/room_entry.h"
-#include "visitor.h"
+#include "meeting/transport/link_login.h"
+#include "open_meeting.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,11 +40,11 @@ std::vector<pid_t> children_of(pid_t parent) {
   return found;
 }
 
-class RoomCommand : public ::testing::Test {
+class MeetingCommand : public ::testing::Test {
  protected:
-  RoomCommand() { ::setenv("XDG_STATE_HOME", folder_.path().c_str(), 1); }
-  ~RoomCommand() override { ::unsetenv("XDG_STATE_HOME"); }
-  std::vector<std::string> room(const std::vector<std::string>& more = {}) const {
+  MeetingCommand() { ::setenv("XDG_STATE_HOME", folder_.path().c_str(), 1); }
+  ~MeetingCommand() override { ::unsetenv("XDG_STATE_HOME"); }
+  std::vector<std::string> meeting(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all = {"room",      "--port", "0",           "--mqtt-port",     "0",
                                     "--ws-port", "0",      "--mosquitto", TELEMIME_MOSQUITTO};
     all.insert(all.end(), more.begin(), more.end());
@@ -62,26 +62,26 @@ class RoomCommand : public ::testing::Test {
   e2e::Folder folder_;
 };
 
-TEST_F(RoomCommand, PrintsItsLinksAndEndsWell) {
-  const e2e::Ended ended = e2e::run(room({"--title", "Blue room", "--seconds", "0.2"}));
+TEST_F(MeetingCommand, PrintsItsLinksAndEndsWell) {
+  const e2e::Ended ended = e2e::run(meeting({"--title", "Blue room", "--seconds", "0.2"}));
   EXPECT_EQ(ended.code, 0) << ended.words;
   EXPECT_EQ(ended.words, "");
   EXPECT_TRUE(has(ended.output, "the room \"Blue room\" is open: http://localhost:")) << ended.output;
   for (const char* const what : {"to speak: ", "to watch: ", "to chair: "}) {
-    EXPECT_TRUE(is_room_link(line(ended.output, what))) << ended.output;
+    EXPECT_TRUE(is_meeting_link(line(ended.output, what))) << ended.output;
   }
-  const e2e::Ended again = e2e::run(room({"--seconds", "0.2"}));
+  const e2e::Ended again = e2e::run(meeting({"--seconds", "0.2"}));
   const auto invite = [](const e2e::Ended& run) {
-    return OpenRoom::invite_of(line(run.output, "to speak: "));
+    return OpenMeeting::invite_of(line(run.output, "to speak: "));
   };
   EXPECT_EQ(invite(again), invite(ended)) << "links that were shared keep working";
-  EXPECT_NE(invite(e2e::run(room({"--seconds", "0.2", "--new-links"}))), invite(ended));
-  EXPECT_NE(invite(e2e::run(room({"--seconds", "0.2", "--name", "other"}))), invite(ended));
+  EXPECT_NE(invite(e2e::run(meeting({"--seconds", "0.2", "--new-links"}))), invite(ended));
+  EXPECT_NE(invite(e2e::run(meeting({"--seconds", "0.2", "--name", "other"}))), invite(ended));
 }
 
-TEST_F(RoomCommand, LeavesNoBrokerBehindHoweverItEnds) {
+TEST_F(MeetingCommand, LeavesNoBrokerBehindHoweverItEnds) {
   for (const int number : {SIGTERM, SIGINT, SIGHUP, SIGKILL}) {
-    e2e::Program program(room());
+    e2e::Program program(meeting());
     ASSERT_TRUE(comes_true([&] { return has(program.output(), "MQTT at port"); })) << program.words();
     const std::vector<pid_t> brokers = children_of(program.process());
     ASSERT_EQ(brokers.size(), 1U);
@@ -104,17 +104,17 @@ TEST_F(RoomCommand, LeavesNoBrokerBehindHoweverItEnds) {
   }
 }
 
-TEST_F(RoomCommand, SaysNoSecretButItsLinks) {
-  e2e::Program program(room());
+TEST_F(MeetingCommand, SaysNoSecretButItsLinks) {
+  e2e::Program program(meeting());
   ASSERT_TRUE(comes_true([&] { return has(program.output(), "MQTT at port"); })) << program.words();
-  RoomEntry entry;
+  LinkLogin entry;
   entry.link = line(program.output(), "to speak: ");
-  const RoomKey key = enter_room(entry);
+  const Credentials key = log_in_by_link(entry);
   const std::vector<pid_t> brokers = children_of(program.process());
   ASSERT_EQ(brokers.size(), 1U);
-  std::vector<std::string> secrets = {key.password, key.way_back};
+  std::vector<std::string> secrets = {key.password, key.rejoin};
   for (const char* const what : {"to speak: ", "to watch: ", "to chair: "}) {
-    secrets.push_back(OpenRoom::invite_of(line(program.output(), what)));
+    secrets.push_back(OpenMeeting::invite_of(line(program.output(), what)));
   }
   std::string seen;
   for (const pid_t process : {program.process(), brokers[0]}) {
@@ -133,14 +133,14 @@ TEST_F(RoomCommand, SaysNoSecretButItsLinks) {
     EXPECT_FALSE(has(seen + program.words(), secret));
   }
   EXPECT_FALSE(has(program.output(), key.password));
-  EXPECT_FALSE(has(program.output(), key.way_back));
+  EXPECT_FALSE(has(program.output(), key.rejoin));
 }
 
-TEST_F(RoomCommand, WhatCannotBeDoneHasItsExitCode) {
-  EXPECT_EQ(e2e::run(room({"--name", "A B"})).code, 2);
-  EXPECT_EQ(e2e::run(room({"--address", "there"})).code, 2);
-  EXPECT_EQ(e2e::run(room({"--certificate", "/nothing/here", "--key", "/nothing/here"})).code, 2);
-  EXPECT_EQ(e2e::run(room({"--avatars", "/nothing/here"})).code, 2);
+TEST_F(MeetingCommand, WhatCannotBeDoneHasItsExitCode) {
+  EXPECT_EQ(e2e::run(meeting({"--name", "A B"})).code, 2);
+  EXPECT_EQ(e2e::run(meeting({"--address", "there"})).code, 2);
+  EXPECT_EQ(e2e::run(meeting({"--certificate", "/nothing/here", "--key", "/nothing/here"})).code, 2);
+  EXPECT_EQ(e2e::run(meeting({"--avatars", "/nothing/here"})).code, 2);
   EXPECT_EQ(e2e::run({"room", "--mosquitto", "/nothing/here"}).code, 2);
   const WebServer other(any_port(), {});
   const e2e::Ended taken = e2e::run(
@@ -150,4 +150,4 @@ TEST_F(RoomCommand, WhatCannotBeDoneHasItsExitCode) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

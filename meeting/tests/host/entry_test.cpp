@@ -4,30 +4,30 @@
 
 #include <thread>
 
-#include "meeting/transport/all.h"
-#include "meeting/transport/room_entry.h"
-#include "rooms/ear.h"
-#include "rooms/feeder.h"
+#include "broker/feeder.h"
+#include "broker/subscriber.h"
+#include "meeting/transport/link_login.h"
+#include "meeting/transport/sender_kinds.h"
+#include "open_meeting.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
-#include "visitor.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using Json = nlohmann::json;
 
-TEST(RoomEntry, TheAnswerIsWhatThePageExpects) {
-  OpenRoom room;
-  const WebReply reply = room.ask(Json{{"v", 1}, {"invite", room.chair()}}.dump());
+TEST(Login, TheAnswerIsWhatThePageExpects) {
+  OpenMeeting meeting;
+  const WebReply reply = meeting.ask(Json{{"v", 1}, {"invite", meeting.chair()}}.dump());
   EXPECT_EQ(reply.status, 200);
   EXPECT_EQ(reply.header("Content-Type"), "application/json");
   EXPECT_EQ(reply.header("Cache-Control"), "no-store");
   EXPECT_EQ(reply.header("Referrer-Policy"), "no-referrer");
   EXPECT_EQ(reply.header("X-Content-Type-Options"), "nosniff");
   const Json answer = Json::parse(reply.body);
-  const std::string port = std::to_string(room.host().mqtt_port());
-  const std::string web_port = std::to_string(room.host().web_port());
+  const std::string port = std::to_string(meeting.host().mqtt_port());
+  const std::string web_port = std::to_string(meeting.host().web_port());
   EXPECT_EQ(answer.at("user"), "studio.p01");
   EXPECT_EQ(answer.at("participant"), "p01");
   EXPECT_EQ(answer.at("topic"), "r/home/studio");
@@ -35,118 +35,118 @@ TEST(RoomEntry, TheAnswerIsWhatThePageExpects) {
   EXPECT_EQ(answer.at("tcp"), "mqtt://localhost:" + port);
   EXPECT_EQ(answer.at("roles"), Json({"speak", "board", "chair"}));
   EXPECT_EQ(answer.at("looks"), Json({"plain", "robot"}));
-  const Json watcher = room.enter({{"invite", room.watch()}});
+  const Json watcher = meeting.enter({{"invite", meeting.watch()}});
   EXPECT_EQ(watcher.at("participant"), nullptr);
   EXPECT_EQ(watcher.at("roles"), Json({"watch"}));
   EXPECT_FALSE(watcher.contains("return"));
 }
 
-TEST(RoomEntry, ThePageHasItsPolicyAndNothingElseIsServed) {
-  OpenRoom room;
-  const std::uint16_t port = room.host().port();
+TEST(Login, ThePageHasItsPolicyAndNothingElseIsServed) {
+  OpenMeeting meeting;
+  const std::uint16_t port = meeting.host().port();
   const WebReply page = telemime::ask(port, "/room");
   EXPECT_EQ(page.body, "<p>the room</p>");
   EXPECT_EQ(
       page.header("Content-Security-Policy"),
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; "
       "worker-src 'self'; connect-src 'self' blob: data: https: ws://localhost:" +
-          std::to_string(room.host().web_port()) +
+          std::to_string(meeting.host().web_port()) +
           "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   EXPECT_EQ(telemime::ask(port, "/else").status, 404);
   EXPECT_EQ(telemime::ask(port, "/room/enter").status, 404) << "not by GET";
   EXPECT_EQ(telemime::ask(port, "/ws").status, 426);
 }
 
-TEST(RoomEntry, TheLinkNamesTheAddressWhereItListens) {
-  OpenRoom room([](RoomPlan& plan) { plan.address = "127.0.0.2"; });
-  EXPECT_EQ(room.host().page(), "http://127.0.0.2:" + std::to_string(room.host().port()) + "/room");
-  RoomEntry entry;
-  entry.link = room.host().speak_link();
-  EXPECT_EQ(enter_room(entry).broker, "mqtt://127.0.0.2:" + std::to_string(room.host().mqtt_port()));
+TEST(Login, TheLinkNamesTheAddressWhereItListens) {
+  OpenMeeting meeting([](HostOptions& plan) { plan.address = "127.0.0.2"; });
+  EXPECT_EQ(meeting.host().page(), "http://127.0.0.2:" + std::to_string(meeting.host().port()) + "/room");
+  LinkLogin entry;
+  entry.link = meeting.host().speak_link();
+  EXPECT_EQ(log_in_by_link(entry).broker, "mqtt://127.0.0.2:" + std::to_string(meeting.host().mqtt_port()));
 }
 
-TEST(RoomEntry, WhoMayNotIsToldByTheRightNumber) {
-  OpenRoom room([](RoomPlan& plan) { plan.most = 1; });
+TEST(Login, WhoMayNotIsToldByTheRightNumber) {
+  OpenMeeting meeting([](HostOptions& plan) { plan.most = 1; });
   const auto status = [&](const Json& question, const std::string& headers) {
-    return room.ask(question.dump(), headers).status;
+    return meeting.ask(question.dump(), headers).status;
   };
   const std::string type = "Content-Type: application/json\r\n";
-  const Json good = {{"v", 1}, {"invite", room.speak()}};
+  const Json good = {{"v", 1}, {"invite", meeting.speak()}};
   EXPECT_EQ(status({{"v", 1}, {"invite", "guess"}}, type), 403);
-  EXPECT_EQ(status({{"v", 2}, {"invite", room.speak()}}, type), 400);
+  EXPECT_EQ(status({{"v", 2}, {"invite", meeting.speak()}}, type), 400);
   EXPECT_EQ(status(good, "Content-Type: text/plain\r\n"), 415);
   EXPECT_EQ(status(good, type + "Origin: http://evil.example\r\n"), 403);
   EXPECT_EQ(status(good, type + "Origin: null\r\n"), 403);
   EXPECT_EQ(status(good, type + "Sec-Fetch-Site: cross-site\r\n"), 403);
-  EXPECT_EQ(status(good, type + "Origin: http://localhost:" + std::to_string(room.host().port()) + "\r\n"),
+  EXPECT_EQ(status(good, type + "Origin: http://localhost:" + std::to_string(meeting.host().port()) + "\r\n"),
             200);
   EXPECT_EQ(status(good, type), 409);
 }
 
-TEST(RoomEntry, AProgramComesInByALink) {
-  OpenRoom room;
-  RoomEntry entry;
-  entry.link = room.host().speak_link();
-  ASSERT_TRUE(is_room_link(entry.link));
-  EXPECT_EQ(without_invite(entry.link), room.host().page());
-  const RoomKey key = enter_room(entry);
-  EXPECT_EQ(key.broker, "mqtt://localhost:" + std::to_string(room.host().mqtt_port()));
+TEST(Login, AProgramComesInByALink) {
+  OpenMeeting meeting;
+  LinkLogin entry;
+  entry.link = meeting.host().speak_link();
+  ASSERT_TRUE(is_meeting_link(entry.link));
+  EXPECT_EQ(without_secret(entry.link), meeting.host().page());
+  const Credentials key = log_in_by_link(entry);
+  EXPECT_EQ(key.broker, "mqtt://localhost:" + std::to_string(meeting.host().mqtt_port()));
   EXPECT_EQ(key.topic, "r/home/studio");
   EXPECT_EQ(key.participant, "p01");
   EXPECT_EQ(key.roles, (std::vector<std::string>{"speak", "board"}));
-  entry.way_back = key.way_back;
-  EXPECT_EQ(enter_room(entry).participant, "p01");
-  entry.link = room.host().page();
-  EXPECT_EQ(enter_room(entry).participant, "p01") << "the way back alone";
-  entry.link = room.host().watch_link();
-  entry.way_back.clear();
-  EXPECT_EQ(enter_room(entry).participant, "");
+  entry.rejoin = key.rejoin;
+  EXPECT_EQ(log_in_by_link(entry).participant, "p01");
+  entry.link = meeting.host().page();
+  EXPECT_EQ(log_in_by_link(entry).participant, "p01") << "the way back alone";
+  entry.link = meeting.host().watch_link();
+  entry.rejoin.clear();
+  EXPECT_EQ(log_in_by_link(entry).participant, "");
   const auto refusal = [](const std::string& link) {
-    RoomEntry wrong;
+    LinkLogin wrong;
     wrong.link = link;
     try {
-      enter_room(wrong);
+      log_in_by_link(wrong);
     } catch (const Error& e) {
       return std::string(e.what());
     }
     return std::string("nothing was refused");
   };
-  EXPECT_NE(refusal(room.host().page() + "#k=secretguess").find("does not open it"), std::string::npos);
+  EXPECT_NE(refusal(meeting.host().page() + "#k=secretguess").find("does not open it"), std::string::npos);
   for (const std::string& bad :
-       {std::string("http://127.0.0.1:9/room#k=secretguess"), room.host().page() + "#k=secretguess",
-        room.host().page() + "#x=secretguess", std::string("mqtt://h/a/b#k=secretguess"),
+       {std::string("http://127.0.0.1:9/room#k=secretguess"), meeting.host().page() + "#k=secretguess",
+        meeting.host().page() + "#x=secretguess", std::string("mqtt://h/a/b#k=secretguess"),
         std::string("http://h/other#k=secretguess"), std::string("http://h:x/room#k=secretguess")}) {
     EXPECT_EQ(refusal(bad).find("secretguess"), std::string::npos) << refusal(bad);
     EXPECT_NE(refusal(bad), "nothing was refused") << bad;
   }
 }
 
-TEST(RoomEntry, ATrackerTakesPartByALink) {
-  OpenRoom room;
-  const Json watcher = room.enter({{"invite", room.watch()}});
-  const Ear ear(room.host().mqtt_port(), watcher.at("user"), watcher.at("password"));
-  std::string link = room.host().speak_link();
+TEST(Login, ATrackerTakesPartByALink) {
+  OpenMeeting meeting;
+  const Json watcher = meeting.enter({{"invite", meeting.watch()}});
+  const Subscriber ear(meeting.host().mqtt_port(), watcher.at("user"), watcher.at("password"));
+  std::string link = meeting.host().speak_link();
   link.insert(link.find('#'), "?name=Ana&look=robot");
   const auto sender = make_sender(link, kAllSenderKinds);
   const Feeder feeder(*sender);
   EXPECT_TRUE(comes_true([&] { return ear.frames("p01").size() > 5; })) << sender->status().words;
   EXPECT_EQ(ear.json("p/p01/state").at("name"), "Ana");
-  EXPECT_EQ(sender->status().url, room.host().page() + "?name=Ana&look=robot");
-  EXPECT_EQ(sender->status().words.find(room.speak()), std::string::npos);
-  const auto stranger = make_sender(room.host().page() + "#k=guess", kAllSenderKinds);
+  EXPECT_EQ(sender->status().url, meeting.host().page() + "?name=Ana&look=robot");
+  EXPECT_EQ(sender->status().words.find(meeting.speak()), std::string::npos);
+  const auto stranger = make_sender(meeting.host().page() + "#k=guess", kAllSenderKinds);
   ASSERT_TRUE(comes_true([&] { return stranger->status().state == SenderState::failed; }));
   EXPECT_NE(stranger->status().words.find("does not open it"), std::string::npos) << stranger->status().words;
-  const auto onlooker = make_sender(room.host().watch_link(), kAllSenderKinds);
+  const auto onlooker = make_sender(meeting.host().watch_link(), kAllSenderKinds);
   ASSERT_TRUE(comes_true([&] { return onlooker->status().state == SenderState::failed; }));
   EXPECT_NE(onlooker->status().words.find("only for watching"), std::string::npos);
 }
 
-TEST(RoomEntry, ManyComeAtOnceAndEachIsSomebodyElse) {
-  OpenRoom room;
+TEST(Login, ManyComeAtOnceAndEachIsSomebodyElse) {
+  OpenMeeting meeting;
   std::vector<std::thread> threads;
   std::vector<Json> answers(24);
   for (std::size_t i = 0; i < answers.size(); ++i) {
-    threads.emplace_back([&room, &answers, i] { answers[i] = room.newcomer(); });
+    threads.emplace_back([&meeting, &answers, i] { answers[i] = meeting.newcomer(); });
   }
   for (std::thread& thread : threads) {
     thread.join();
@@ -155,13 +155,13 @@ TEST(RoomEntry, ManyComeAtOnceAndEachIsSomebodyElse) {
   for (const Json& answer : answers) {
     ids.insert(answer.at("participant").get<std::string>());
     const std::string topic = "r/home/studio/p/" + answer.at("participant").get<std::string>() + "/chat";
-    EXPECT_TRUE(say(room.host().mqtt_port(), answer, topic, "hello")) << "its account works at once";
+    EXPECT_TRUE(say(meeting.host().mqtt_port(), answer, topic, "hello")) << "its account works at once";
   }
   EXPECT_EQ(ids.size(), answers.size());
 }
 
-TEST(RoomEntry, RubbishDoesNoHarm) {
-  OpenRoom room;
+TEST(Login, RubbishDoesNoHarm) {
+  OpenMeeting meeting;
   Random random(1);
   const std::string type = "Content-Type: application/json\r\n";
   std::map<int, int> answers;
@@ -178,18 +178,18 @@ TEST(RoomEntry, RubbishDoesNoHarm) {
         c = static_cast<char>(static_cast<unsigned char>(random.uniform(0, 256)));
       }
     }
-    ++answers[room.ask(body, type).status];
+    ++answers[meeting.ask(body, type).status];
   }
   EXPECT_EQ(answers[200], 0);
   EXPECT_GT(answers[413], 500);
   EXPECT_GT(answers[429], 5000) << "guessing gets slower";
   EXPECT_EQ(answers[500], 0);
   EXPECT_EQ(answers[413] + answers[429] + answers[400] + answers[403], 10'000);
-  EXPECT_EQ(telemime::ask(room.host().port(), "/room").status, 200);
+  EXPECT_EQ(telemime::ask(meeting.host().port(), "/room").status, 200);
   EXPECT_TRUE(comes_true([&] {  // who guessed has to wait
-    return room.ask(Json{{"v", 1}, {"invite", room.speak()}}.dump()).status == 200;
+    return meeting.ask(Json{{"v", 1}, {"invite", meeting.speak()}}.dump()).status == 200;
   }));
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -2,11 +2,11 @@
 // What the broker of an open room lets accounts do.
 #include <gtest/gtest.h>
 
+#include "broker/subscriber.h"
 #include "meeting/hosting/hosted_broker.h"
-#include "rooms/ear.h"
-#include "visitor.h"
+#include "open_meeting.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 using Json = nlohmann::json;
@@ -17,7 +17,7 @@ class Rights : public ::testing::Test {
  protected:
   /// Whether the rest of the room hears what the account says.
   bool reaches(const Json& account, const std::string& topic, const std::string& payload = "x") {
-    const Ear ear(port(), watcher_.at("user"), watcher_.at("password"));
+    const Subscriber ear(port(), watcher_.at("user"), watcher_.at("password"));
     EXPECT_TRUE(comes_true([&] { return ear.newest("room").has_value(); }));
     say(port(), account, kBase + topic, payload);
     // The broker delivers in order: behind this one nothing more comes.
@@ -31,13 +31,13 @@ class Rights : public ::testing::Test {
     say(port(), ana_, kBase + "p/p01/presence", "");
     return reached;
   }
-  std::uint16_t port() { return room_.host().mqtt_port(); }
+  std::uint16_t port() { return meeting_.host().mqtt_port(); }
 
-  OpenRoom room_;
-  Json ana_ = room_.newcomer();
-  Json bo_ = room_.newcomer();
-  Json chair_ = room_.enter({{"invite", room_.chair()}});
-  Json watcher_ = room_.enter({{"invite", room_.watch()}});
+  OpenMeeting meeting_;
+  Json ana_ = meeting_.newcomer();
+  Json bo_ = meeting_.newcomer();
+  Json chair_ = meeting_.enter({{"invite", meeting_.chair()}});
+  Json watcher_ = meeting_.enter({{"invite", meeting_.watch()}});
 };
 
 TEST_F(Rights, ParticipantsSpeakAsThemselvesAlone) {
@@ -60,10 +60,10 @@ TEST_F(Rights, ChairsSayWhatTheRoomIs) {
   const std::string told = R"({"v":1,"title":"Red","seats":4,"epoch":2,"chairs":["p03"],"locked":true})";
   EXPECT_TRUE(reaches(chair_, "room", told));
   EXPECT_TRUE(comes_true([&] {
-    return room_.ask(Json{{"v", 1}, {"invite", room_.speak()}}.dump()).status == 423;
+    return meeting_.ask(Json{{"v", 1}, {"invite", meeting_.speak()}}.dump()).status == 423;
   })) << "locked for newcomers";
-  EXPECT_EQ(room_.enter({{"return", ana_.at("return")}}).at("participant"), "p01") << "not for who was in";
-  const Ear ear(port(), watcher_.at("user"), watcher_.at("password"));
+  EXPECT_EQ(meeting_.enter({{"return", ana_.at("return")}}).at("participant"), "p01") << "not for who was in";
+  const Subscriber ear(port(), watcher_.at("user"), watcher_.at("password"));
   EXPECT_TRUE(comes_true([&] {
     const Json heard = ear.json("room");
     return heard.is_object() && heard.at("title") == "Red";
@@ -73,7 +73,7 @@ TEST_F(Rights, ChairsSayWhatTheRoomIs) {
 
 TEST_F(Rights, WhatIsNoRoomIsPutRight) {
   ASSERT_TRUE(say(port(), chair_, kBase + "room", "rubbish"));
-  const Ear ear(port(), watcher_.at("user"), watcher_.at("password"));
+  const Subscriber ear(port(), watcher_.at("user"), watcher_.at("password"));
   EXPECT_TRUE(comes_true([&] {
     const auto heard = ear.newest("room");
     return heard && heard->payload != "rubbish" && ear.json("room").at("title") == "Blue room";
@@ -92,11 +92,11 @@ TEST_F(Rights, OthersAreNotLetIn) {
 }
 
 // No account of a room hears another room: here one more does, at a broker with the same rules.
-TEST(RoomAccounts, AnotherRoomIsNotReached) {
-  const RoomAddress room{"home", "studio"};
-  const std::vector<BrokerAccount> members = {participant_account(room, "key", "p01", /*chair=*/true),
-                                              participant_account(room, "key", "p02", /*chair=*/false),
-                                              watcher_account(room, "key"), service_account(room)};
+TEST(MeetingAccounts, AnotherRoomIsNotReached) {
+  const MeetingAddress meeting{"home", "studio"};
+  const std::vector<BrokerAccount> members = {participant_account(meeting, "key", "p01", /*chair=*/true),
+                                              participant_account(meeting, "key", "p02", /*chair=*/false),
+                                              watcher_account(meeting, "key"), service_account(meeting)};
   const BrokerAccount all{"all", "hears all", {"r/#"}, {"r/#"}};
   std::vector<BrokerAccount> accounts = members;
   accounts.push_back(all);
@@ -104,8 +104,8 @@ TEST(RoomAccounts, AnotherRoomIsNotReached) {
   place.program = TELEMIME_MOSQUITTO;
   place.port = 0;
   place.web_port = 0;
-  const HostedBroker broker(place, room, accounts, [](const std::string&) {});
-  const Ear ear(broker.port(), all.user, all.password, "r/");
+  const HostedBroker broker(place, meeting, accounts, [](const std::string&) {});
+  const Subscriber ear(broker.port(), all.user, all.password, "r/");
   ASSERT_TRUE(comes_true([&] { return ear.listens(); }));
   const auto from = [&](const BrokerAccount& account, const std::string& topic) {
     // The receipt says nothing: MQTT 3.1.1 has no word for a refusal.
@@ -127,37 +127,37 @@ TEST(RoomAccounts, AnotherRoomIsNotReached) {
   // The broker delivers in order: behind this one nothing more comes.
   ASSERT_TRUE(comes_true([&] { return ear.newest("home/other/room").has_value(); }));
   std::vector<std::string> heard;
-  for (const Ear::Heard& one : ear.all()) {
+  for (const Subscriber::Heard& one : ear.all()) {
     heard.push_back(one.topic + " by " + one.payload);
   }
   EXPECT_EQ(heard,
             (std::vector<std::string>{"home/studio/p/p02/chat by studio.p02", "home/other/room by all"}));
 }
 
-TEST(RoomAccounts, WhoWasFreedCannotSpeakAsAnybody) {
-  OpenRoom room([](RoomPlan& plan) {
+TEST(MeetingAccounts, WhoWasFreedCannotSpeakAsAnybody) {
+  OpenMeeting meeting([](HostOptions& plan) {
     plan.most = 1;
     plan.keeps_seat = 0.0;
   });
-  const std::uint16_t port = room.host().mqtt_port();
-  const Json first = room.newcomer();
+  const std::uint16_t port = meeting.host().mqtt_port();
+  const Json first = meeting.newcomer();
   EXPECT_TRUE(say(port, first, kBase + "p/p01/state", "left behind"));
-  const Json second = room.newcomer();
+  const Json second = meeting.newcomer();
   EXPECT_EQ(second.at("participant"), "p02");
   EXPECT_FALSE(say(port, first, kBase + "p/p02/chat", "x")) << "the account is gone";
   EXPECT_TRUE(say(port, second, kBase + "p/p02/chat", "hello"));
-  const Ear ear(port, second.at("user"), second.at("password"));
+  const Subscriber ear(port, second.at("user"), second.at("password"));
   EXPECT_TRUE(comes_true([&] { return ear.newest("p/p02/chat").has_value(); }));
   EXPECT_TRUE(comes_true([&] {
-    const Ear late(port, second.at("user"), second.at("password"));
+    const Subscriber late(port, second.at("user"), second.at("password"));
     comes_true([&] { return late.newest("room").has_value() && late.newest("p/p02/chat").has_value(); });
     return !late.newest("p/p01/state");
   })) << "and what was kept of them";
-  const Json back = room.enter({{"return", first.at("return")}});
+  const Json back = meeting.enter({{"return", first.at("return")}});
   EXPECT_EQ(back.at("participant"), "p01") << "who comes back is who they were";
   EXPECT_TRUE(say(port, back, kBase + "p/p01/chat", "x"));
   EXPECT_FALSE(say(port, second, kBase + "p/p01/chat", "x"));
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

@@ -13,14 +13,14 @@
 #include <fstream>
 #include <thread>
 
-#include "meeting/transport/all.h"
-#include "meeting/transport/room_entry.h"
-#include "rooms/authority.h"
-#include "rooms/feeder.h"
+#include "broker/authority.h"
+#include "broker/feeder.h"
+#include "meeting/transport/link_login.h"
+#include "meeting/transport/sender_kinds.h"
+#include "open_meeting.h"
 #include "telemime/core/errors.h"
-#include "visitor.h"
 
-namespace telemime::testing_rooms {
+namespace telemime::meeting::test_support {
 namespace {
 
 namespace asio = boost::asio;
@@ -69,19 +69,21 @@ class Listener {
   std::thread thread_;
 };
 
-class TlsRoom : public ::testing::Test {
+class TlsMeeting : public ::testing::Test {
  protected:
-  TlsRoom() { authority_.certify("room", "DNS:localhost"); }
-  OpenRoom::Change with(const std::string& certificate, const std::string& key) const {
-    return [certificate, key](RoomPlan& plan) {
+  TlsMeeting() { authority_.certify("room", "DNS:localhost"); }
+  OpenMeeting::Change with(const std::string& certificate, const std::string& key) const {
+    return [certificate, key](HostOptions& plan) {
       plan.certificate = certificate;
       plan.key = key;
     };
   }
-  OpenRoom::Change secure() const { return with(authority_.file("room.pem"), authority_.file("room.key")); }
-  static std::string refusal(const OpenRoom::Change& change) {
+  OpenMeeting::Change secure() const {
+    return with(authority_.file("room.pem"), authority_.file("room.key"));
+  }
+  static std::string refusal(const OpenMeeting::Change& change) {
     try {
-      const OpenRoom room(change);
+      const OpenMeeting meeting(change);
     } catch (const Error& e) {
       return e.what();
     }
@@ -120,49 +122,50 @@ class TlsRoom : public ::testing::Test {
   Authority authority_;
 };
 
-TEST_F(TlsRoom, AllIsEncryptedWithOneCertificate) {
-  OpenRoom room(secure());
-  const std::string port = std::to_string(room.host().port());
-  EXPECT_EQ(room.host().page(), "https://localhost:" + port + "/room");
-  const std::string page = told(
-      room.host().port(), "GET /room HTTP/1.1\r\nHost: localhost:" + port + "\r\nConnection: close\r\n\r\n");
+TEST_F(TlsMeeting, AllIsEncryptedWithOneCertificate) {
+  OpenMeeting meeting(secure());
+  const std::string port = std::to_string(meeting.host().port());
+  EXPECT_EQ(meeting.host().page(), "https://localhost:" + port + "/room");
+  const std::string page = told(meeting.host().port(), "GET /room HTTP/1.1\r\nHost: localhost:" + port +
+                                                           "\r\nConnection: close\r\n\r\n");
   EXPECT_TRUE(page.starts_with("HTTP/1.1 200")) << page;
-  EXPECT_NE(page.find(" wss://localhost:" + std::to_string(room.host().web_port()) + ";"), std::string::npos);
+  EXPECT_NE(page.find(" wss://localhost:" + std::to_string(meeting.host().web_port()) + ";"),
+            std::string::npos);
   const std::string upgrade =
-      told(room.host().web_port(),
+      told(meeting.host().web_port(),
            "GET /mqtt HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: "
            "13\r\nSec-WebSocket-Protocol: mqtt\r\n\r\n");
   EXPECT_TRUE(upgrade.starts_with("HTTP/1.1 101")) << upgrade;
-  RawClient plain(room.host().port());
-  plain.send(request_text(room.host().port(), "/room"));
+  RawClient plain(meeting.host().port());
+  plain.send(request_text(meeting.host().port(), "/room"));
   EXPECT_EQ(plain.rest().find("HTTP"), std::string::npos) << "nothing by plain HTTP";
 }
 
-TEST_F(TlsRoom, ATrackerComesInByItsLink) {
-  OpenRoom room(secure());
-  RoomEntry entry;
-  entry.link = room.host().speak_link();
+TEST_F(TlsMeeting, ATrackerComesInByItsLink) {
+  OpenMeeting meeting(secure());
+  LinkLogin entry;
+  entry.link = meeting.host().speak_link();
   entry.ca = authority_.file("ca.pem");
-  const RoomKey key = enter_room(entry);
-  EXPECT_EQ(key.broker, "mqtts://localhost:" + std::to_string(room.host().mqtt_port()));
-  std::string link = room.host().speak_link();
+  const Credentials key = log_in_by_link(entry);
+  EXPECT_EQ(key.broker, "mqtts://localhost:" + std::to_string(meeting.host().mqtt_port()));
+  std::string link = meeting.host().speak_link();
   link.insert(link.find('#'), "?ca=" + authority_.file("ca.pem"));
   const auto sender = make_sender(link, kAllSenderKinds);
   const Feeder feeder(*sender);
   EXPECT_TRUE(comes_true([&] { return sender->status().sent > 5; })) << sender->status().words;
 }
 
-std::string words_of_entry(const RoomEntry& entry) {
+std::string words_of_entry(const LinkLogin& entry) {
   try {
-    enter_room(entry);
+    log_in_by_link(entry);
   } catch (const Error& e) {
     return e.what();
   }
   return "nothing was refused";
 }
 
-TEST_F(TlsRoom, WhoIsNotTrustedIsNotToldTheSecret) {
+TEST_F(TlsMeeting, WhoIsNotTrustedIsNotToldTheSecret) {
   const std::string secret = "a-secret-of-this-room";
   const std::string nobody = "signed by nobody who is trusted here";
   const Authority other;
@@ -176,7 +179,7 @@ TEST_F(TlsRoom, WhoIsNotTrustedIsNotToldTheSecret) {
                          {"localhost", other.file("ca.pem"), nobody},
                          {"127.0.0.1", authority_.file("ca.pem"), R"(not one for "127.0.0.1")"}}) {
     Listener listener(authority_.file("room.pem"), authority_.file("room.key"));
-    RoomEntry entry;
+    LinkLogin entry;
     entry.link = listener.link(one.host, secret);
     entry.ca = one.ca;
     const std::string words = words_of_entry(entry);
@@ -185,7 +188,7 @@ TEST_F(TlsRoom, WhoIsNotTrustedIsNotToldTheSecret) {
     EXPECT_EQ(listener.told(), "");
   }
   Listener trusted(authority_.file("room.pem"), authority_.file("room.key"));
-  RoomEntry entry;
+  LinkLogin entry;
   entry.link = trusted.link("localhost", secret);
   entry.ca = authority_.file("ca.pem");
   const std::string words = words_of_entry(entry);
@@ -194,38 +197,39 @@ TEST_F(TlsRoom, WhoIsNotTrustedIsNotToldTheSecret) {
 }
 
 // Who writes http sends the secret as it is; but it opens nothing there.
-TEST_F(TlsRoom, ALinkWithoutTlsOpensNothing) {
-  OpenRoom room(secure());
-  RoomEntry entry;
-  entry.link = room.host().speak_link();
+TEST_F(TlsMeeting, ALinkWithoutTlsOpensNothing) {
+  OpenMeeting meeting(secure());
+  LinkLogin entry;
+  entry.link = meeting.host().speak_link();
   entry.link.replace(0, 5, "http");
   const std::string words = words_of_entry(entry);
   EXPECT_NE(words.find("cannot be entered"), std::string::npos) << words;
-  EXPECT_EQ(words.find(room.speak()), std::string::npos) << words;
+  EXPECT_EQ(words.find(meeting.speak()), std::string::npos) << words;
 }
 
-TEST_F(TlsRoom, TheCertificateIsThatOfTheOpeningUntilTheRoomIsClosed) {
-  OpenRoom room(secure());
+TEST_F(TlsMeeting, TheCertificateIsThatOfTheOpeningUntilTheRoomIsClosed) {
+  OpenMeeting meeting(secure());
   namespace fs = std::filesystem;
   fs::resize_file(authority_.file("room.pem"), 0);
   fs::remove(authority_.file("room.key"));
   const auto handshakes = [&] {
-    RoomEntry entry;
-    entry.link = room.host().speak_link();
+    LinkLogin entry;
+    entry.link = meeting.host().speak_link();
     entry.ca = authority_.file("ca.pem");
-    enter_room(entry);  // the broker has read its files anew
-    for (const std::uint16_t port : {room.host().port(), room.host().mqtt_port(), room.host().web_port()}) {
+    log_in_by_link(entry);  // the broker has read its files anew
+    for (const std::uint16_t port :
+         {meeting.host().port(), meeting.host().mqtt_port(), meeting.host().web_port()}) {
       shake_hands(port);
     }
   };
   EXPECT_NO_THROW(handshakes());
-  const pid_t before = room.host().broker();
+  const pid_t before = meeting.host().broker();
   ASSERT_EQ(::kill(before, SIGKILL), 0);
-  ASSERT_TRUE(comes_true([&] { return room.host().broker() > 0 && room.host().broker() != before; }));
-  EXPECT_NO_THROW(handshakes()) << room.heard();
+  ASSERT_TRUE(comes_true([&] { return meeting.host().broker() > 0 && meeting.host().broker() != before; }));
+  EXPECT_NO_THROW(handshakes()) << meeting.heard();
 }
 
-TEST_F(TlsRoom, WrongFilesAreToldApart) {
+TEST_F(TlsMeeting, WrongFilesAreToldApart) {
   authority_.certify("other", "DNS:localhost");
   const std::string pem = authority_.file("room.pem");
   const std::string key = authority_.file("room.key");
@@ -241,4 +245,4 @@ TEST_F(TlsRoom, WrongFilesAreToldApart) {
 }
 
 }  // namespace
-}  // namespace telemime::testing_rooms
+}  // namespace telemime::meeting::test_support

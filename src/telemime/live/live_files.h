@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "telemime/live/avatar_folder.h"
 #include "telemime/live/recorder.h"
+#include "telemime/streaming/avatar_folder.h"
 #include "telemime/streaming/web_server.h"
 
 namespace telemime {

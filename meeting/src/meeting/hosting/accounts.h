@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "meeting/protocol/room_topic.h"
+#include "meeting/protocol/topics.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// An account at the room's broker.
 struct BrokerAccount {
@@ -26,24 +26,24 @@ std::string participant_id(unsigned number);
 std::string participant_password(std::string_view key, const std::string& participant);
 
 /// What a participant shows to get their seat again.
-struct WayBack {
+struct RejoinToken {
   unsigned number = 0;  ///< of the participant
   bool chair = false;
 };
-std::string way_back_text(std::string_view key, const WayBack& way);
+std::string write_rejoin_token(std::string_view key, const RejoinToken& way);
 /// Nothing when it was not made with this key.
-std::optional<WayBack> read_way_back(std::string_view key, std::string_view text);
+std::optional<RejoinToken> read_rejoin_token(std::string_view key, std::string_view text);
 
 /// May read the room and write what participants say (docs/room-protocol.md), as themselves; chairs may also
 /// write what the room is.
-BrokerAccount participant_account(const RoomAddress& room, std::string_view key,
+BrokerAccount participant_account(const MeetingAddress& meeting, std::string_view key,
                                   const std::string& participant, bool chair);
 /// May read the room.
-BrokerAccount watcher_account(const RoomAddress& room, std::string_view key);
+BrokerAccount watcher_account(const MeetingAddress& meeting, std::string_view key);
 /// May do all in the room: the program's own.
-BrokerAccount service_account(const RoomAddress& room);
+BrokerAccount service_account(const MeetingAddress& meeting);
 
 /// "r/<tenant>/<room>"
-std::string room_base(const RoomAddress& room);
+std::string topic_base(const MeetingAddress& meeting);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <set>
 
-#include "meeting/hosting/random_text.h"
+#include "meeting/hosting/crypto.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
-const RoomAddress kRoom{"home", "blue"};
+const MeetingAddress kMeeting{"home", "blue"};
 
 TEST(RandomText, Base64IsThatOfRfc4648) {
   EXPECT_EQ(base64(""), "");
@@ -52,14 +52,14 @@ TEST(Accounts, IdsAreSegmentsInOrder) {
   EXPECT_EQ(participant_id(1), "p01");
   EXPECT_EQ(participant_id(10), "p10");
   EXPECT_EQ(participant_id(1234), "p1234");
-  EXPECT_TRUE(is_room_segment(participant_id(1'000'000'000)));
+  EXPECT_TRUE(is_topic_segment(participant_id(1'000'000'000)));
 }
 
 TEST(Accounts, AWayBackIsReadAsItWasWritten) {
   for (const unsigned number : {1U, 9U, 10U, 12345U, 999'999'999U}) {
     for (const bool chair : {false, true}) {
-      const std::string text = way_back_text("key", {number, chair});
-      const auto way = read_way_back("key", text);
+      const std::string text = write_rejoin_token("key", {number, chair});
+      const auto way = read_rejoin_token("key", text);
       ASSERT_TRUE(way) << text;
       EXPECT_EQ(way->number, number);
       EXPECT_EQ(way->chair, chair);
@@ -69,18 +69,18 @@ TEST(Accounts, AWayBackIsReadAsItWasWritten) {
 }
 
 TEST(Accounts, AWayBackThatWasChangedIsNone) {
-  const std::string good = way_back_text("key", {12, false});
+  const std::string good = write_rejoin_token("key", {12, false});
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::string bad = good;
     bad[i] = bad[i] == 'A' ? 'B' : 'A';
-    EXPECT_FALSE(read_way_back("key", bad)) << bad;
-    EXPECT_FALSE(read_way_back("key", good.substr(0, i))) << i;
+    EXPECT_FALSE(read_rejoin_token("key", bad)) << bad;
+    EXPECT_FALSE(read_rejoin_token("key", good.substr(0, i))) << i;
   }
-  EXPECT_FALSE(read_way_back("other", good));
-  EXPECT_FALSE(read_way_back("key", good + "A"));
-  EXPECT_FALSE(read_way_back("key", "13" + good.substr(2))) << "another participant";
-  EXPECT_FALSE(read_way_back("key", "12.c" + good.substr(4))) << "more rights";
-  EXPECT_FALSE(read_way_back("key", "012" + good.substr(2))) << "one text for one way";
+  EXPECT_FALSE(read_rejoin_token("other", good));
+  EXPECT_FALSE(read_rejoin_token("key", good + "A"));
+  EXPECT_FALSE(read_rejoin_token("key", "13" + good.substr(2))) << "another participant";
+  EXPECT_FALSE(read_rejoin_token("key", "12.c" + good.substr(4))) << "more rights";
+  EXPECT_FALSE(read_rejoin_token("key", "012" + good.substr(2))) << "one text for one way";
 }
 
 TEST(Accounts, PasswordsBelongToOneParticipantOfOneRoom) {
@@ -89,14 +89,14 @@ TEST(Accounts, PasswordsBelongToOneParticipantOfOneRoom) {
     for (unsigned number = 1; number < 100; ++number) {
       all.insert(participant_password(key, participant_id(number)));
     }
-    all.insert(watcher_account(kRoom, key).password);
+    all.insert(watcher_account(kMeeting, key).password);
   }
   EXPECT_EQ(all.size(), 200U);
   EXPECT_EQ(participant_password("a", "p01"), participant_password("a", "p01"));
 }
 
 TEST(Accounts, AParticipantWritesOnlyBelowTheirOwnTopics) {
-  const BrokerAccount account = participant_account(kRoom, "key", "p07", false);
+  const BrokerAccount account = participant_account(kMeeting, "key", "p07", false);
   EXPECT_EQ(account.user, "blue.p07");
   EXPECT_EQ(account.read, std::vector<std::string>{"r/home/blue/#"});
   for (const std::string& topic : account.write) {
@@ -110,10 +110,10 @@ TEST(Accounts, AParticipantWritesOnlyBelowTheirOwnTopics) {
     EXPECT_TRUE(may(account, std::string("r/home/blue/p/p07/") + what)) << what;
   }
   EXPECT_FALSE(may(account, "r/home/blue/room"));
-  EXPECT_TRUE(may(participant_account(kRoom, "key", "p07", true), "r/home/blue/room"));
-  EXPECT_TRUE(watcher_account(kRoom, "key").write.empty());
-  EXPECT_EQ(participant_of_user(kRoom, account.user), "p07");
+  EXPECT_TRUE(may(participant_account(kMeeting, "key", "p07", true), "r/home/blue/room"));
+  EXPECT_TRUE(watcher_account(kMeeting, "key").write.empty());
+  EXPECT_EQ(participant_of_user(kMeeting, account.user), "p07");
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

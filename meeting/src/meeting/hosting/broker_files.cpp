@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 
-#include "meeting/hosting/random_text.h"
+#include "meeting/hosting/crypto.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr int kRounds = 101;  // as mosquitto_passwd
@@ -103,4 +103,4 @@ std::string access_rules(std::span<const BrokerAccount> accounts) {
   return text;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

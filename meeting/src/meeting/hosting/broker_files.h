@@ -8,7 +8,7 @@
 
 #include "meeting/hosting/accounts.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// What Mosquitto is told when it starts.
 struct BrokerSettings {
@@ -38,4 +38,4 @@ std::string password_line(const std::string& user, const std::string& password);
 /// Mosquitto's access rules for these accounts; nobody else may do anything.
 std::string access_rules(std::span<const BrokerAccount> accounts);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

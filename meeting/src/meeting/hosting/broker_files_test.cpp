@@ -5,7 +5,7 @@
 
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 bool has_line(const std::string& text, const std::string& line) {
@@ -67,4 +67,4 @@ TEST(BrokerFiles, RulesNameEveryAccount) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <string_view>
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr int kPatience = 1000;  // ms
@@ -102,4 +102,4 @@ BrokerAnswer ask_broker(const std::filesystem::path& socket, const std::string& 
   return answer[3] == 0 ? BrokerAnswer::accepted : BrokerAnswer::refused;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

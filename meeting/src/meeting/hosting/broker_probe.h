@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace telemime {
+namespace telemime::meeting {
 
 enum class BrokerAnswer {
   accepted,  ///< it knows this account
@@ -16,4 +16,4 @@ enum class BrokerAnswer {
 BrokerAnswer ask_broker(const std::filesystem::path& socket, const std::string& user,
                         const std::string& password);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

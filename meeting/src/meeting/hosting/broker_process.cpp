@@ -18,7 +18,7 @@
 #include "meeting/hosting/child_process.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr int kFirstPause = 200;  // ms
@@ -260,4 +260,4 @@ std::filesystem::path find_mosquitto(const std::string& given, const char* path)
               "On Debian: apt install mosquitto. --mosquitto FILE says where it is.");
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// The broker's program in the care of a thread: it hears what the program says, starts it anew when it has
 /// ended, and ends it. When this process dies, however, the program is killed.
@@ -70,4 +70,4 @@ class BrokerProcess {
 /// Error(usage) when there is none.
 std::filesystem::path find_mosquitto(const std::string& given, const char* path);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -14,7 +14,7 @@
 #include "telemime/core/scratch_folder.h"
 #include "telemime/streaming/testing_web.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 class BrokerProcesses : public ::testing::Test {
@@ -88,4 +88,4 @@ TEST_F(BrokerProcesses, OneThatClosesItsOutputIsEndedAllTheSame) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -14,7 +14,7 @@
 
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr int kNotStarted = 127;
@@ -82,4 +82,4 @@ ChildProcess start_child(const std::vector<std::string>& words) {
   return {child, pipe[0]};
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// A program that was started, with a pipe from its standard output and error.
 struct ChildProcess {
@@ -20,4 +20,4 @@ struct ChildProcess {
 /// with 127.
 ChildProcess start_child(const std::vector<std::string>& words);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -14,12 +14,12 @@
 #include <utility>
 
 #include "meeting/hosting/broker_probe.h"
-#include "meeting/hosting/free_port.h"
+#include "meeting/hosting/crypto.h"
+#include "meeting/hosting/ports.h"
 #include "meeting/hosting/private_file.h"
-#include "meeting/hosting/random_text.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -75,9 +75,9 @@ std::filesystem::path keep_copy(const std::filesystem::path& file, const std::fi
 
 }  // namespace
 
-HostedBroker::HostedBroker(BrokerPlace place, const RoomAddress& room, std::vector<BrokerAccount> accounts,
-                           Tell tell)
-    : room_(room.room), tell_(std::move(tell)), accounts_(std::move(accounts)) {
+HostedBroker::HostedBroker(BrokerPlace place, const MeetingAddress& meeting,
+                           std::vector<BrokerAccount> accounts, Tell tell)
+    : meeting_(meeting.meeting), tell_(std::move(tell)), accounts_(std::move(accounts)) {
   const std::filesystem::path program = find_mosquitto(place.program, std::getenv("PATH"));
   if (socket().string().size() >= sizeof(sockaddr_un::sun_path)) {
     throw Error(ErrorKind::output,
@@ -135,7 +135,7 @@ std::string HostedBroker::why_not() const {
 
 void HostedBroker::write_accounts() {
   ++generation_;
-  newest_ = {room_ + ".news-" + std::to_string(generation_), random_secret(), {}, {}};
+  newest_ = {meeting_ + ".news-" + std::to_string(generation_), random_secret(), {}, {}};
   std::string passwords = password_line(newest_.user, newest_.password) + "\n";
   for (const BrokerAccount& account : accounts_) {
     passwords += password_line(account.user, account.password) + "\n";
@@ -172,4 +172,4 @@ bool HostedBroker::set_accounts(std::vector<BrokerAccount> accounts) {
   return false;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

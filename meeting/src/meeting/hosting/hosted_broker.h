@@ -15,7 +15,7 @@
 #include "meeting/hosting/broker_process.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Where the room's broker shall listen.
 struct BrokerPlace {
@@ -35,7 +35,8 @@ class HostedBroker {
 
   /// Returns when it works. Throws Error(usage) when there is no Mosquitto or it refuses what it was told,
   /// Error(output) when a port that was asked for is taken or it does not start.
-  HostedBroker(BrokerPlace place, const RoomAddress& room, std::vector<BrokerAccount> accounts, Tell tell);
+  HostedBroker(BrokerPlace place, const MeetingAddress& meeting, std::vector<BrokerAccount> accounts,
+               Tell tell);
 
   std::uint16_t port() const { return settings_.port; }
   std::uint16_t web_port() const { return settings_.web_port; }
@@ -57,7 +58,7 @@ class HostedBroker {
   bool knows_newest() const;
 
   const ScratchFolder folder_;
-  const std::string room_;
+  const std::string meeting_;
   BrokerSettings settings_;
   Tell tell_;
   std::vector<BrokerAccount> accounts_;
@@ -67,4 +68,4 @@ class HostedBroker {
   std::unique_ptr<BrokerProcess> process_;
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -10,7 +10,7 @@
 
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& path, int number) {
@@ -76,4 +76,4 @@ void make_private_folders(const std::filesystem::path& folder) {
   }
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

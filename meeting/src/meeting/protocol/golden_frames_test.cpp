@@ -11,14 +11,14 @@
 #include "meeting/protocol/pose_frame.h"
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Json = nlohmann::json;
 
 Json golden() {
-  std::ifstream file(std::string(TELEMIME_SOURCE_DIR) + "/data/room-frames/golden.json");
+  std::ifstream file(std::string(TELEMIME_SOURCE_DIR) + "/data/frames/golden.json");
   return Json::parse(file);
 }
 
@@ -109,4 +109,4 @@ TEST(GoldenFrames, AreWritten) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

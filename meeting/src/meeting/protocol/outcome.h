@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// What a reader makes of bytes from outside: a value, or the reason why there is none. What strangers send
 /// is wrong often enough to be no exception.
@@ -25,4 +25,4 @@ class Outcome {
   std::variant<Value, Fault> content_;
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

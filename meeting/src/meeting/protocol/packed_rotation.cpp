@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr int kComponentBits = 15;
@@ -65,4 +65,4 @@ std::optional<Eigen::Quaterniond> unpack_rotation(std::uint64_t bits) {
   return Eigen::Quaterniond(q.normalized());
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Bits of a packed rotation; one more, the highest of its six bytes, is 0.
 inline constexpr int kPackedRotationBits = 47;
@@ -21,4 +21,4 @@ std::uint64_t pack_rotation(const Eigen::Quaterniond& rotation);
 /// of the three components' squares is more than 1.001: that is no rotation.
 std::optional<Eigen::Quaterniond> unpack_rotation(std::uint64_t bits);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

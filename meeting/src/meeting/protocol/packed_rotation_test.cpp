@@ -10,7 +10,7 @@
 #include "telemime/core/random.h"
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr double kWorst = 0.01;  // degrees
@@ -124,4 +124,4 @@ TEST(PackedRotation, SquaresMayExceedOneByAThousandth) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -8,7 +8,7 @@
 #include "meeting/protocol/packed_rotation.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
@@ -196,4 +196,4 @@ Outcome<PoseFrame, PoseFault> decode_pose_frame(std::span<const std::uint8_t> by
   return frame;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -12,7 +12,7 @@
 #include "meeting/protocol/outcome.h"
 #include "telemime/outputs/humanoid.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Bytes of a pose frame before its confidences, and of the longest one.
 inline constexpr std::size_t kPoseFrameHead = 26;
@@ -67,4 +67,4 @@ std::vector<std::uint8_t> encode(const PoseFrame& frame);
 /// The frame of these bytes. Never throws.
 Outcome<PoseFrame, PoseFault> decode_pose_frame(std::span<const std::uint8_t> bytes);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -11,7 +11,7 @@
 #include "telemime/core/random.h"
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -170,4 +170,4 @@ TEST(PoseFrame, WhatCannotBeSaidIsNotWritten) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

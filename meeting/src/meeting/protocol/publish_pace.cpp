@@ -7,7 +7,7 @@
 
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr double kFramesForEach = 300.0;  // a second, of all participants together
@@ -61,4 +61,4 @@ void PublishPace::sent(const PoseFrame& frame, double now) {
   last_ = frame;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -6,7 +6,7 @@
 
 #include "meeting/protocol/pose_frame.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Frames a second that each of so many participants publishes: 300 / participants, from 5 to 30. Everybody
 /// then gets about 300 frames a second.
@@ -40,4 +40,4 @@ class PublishPace {
   std::optional<PoseFrame> last_;
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -8,7 +8,7 @@
 
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 PoseFrame turned(double degrees, std::int16_t hips_x = 0) {
@@ -127,4 +127,4 @@ TEST(PublishPace, StillnessHasBounds) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -7,7 +7,7 @@
 
 #include "telemime/outputs/numbers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr double kSure = 0.02;   // m
@@ -47,4 +47,4 @@ PoseFrame pose_frame_of(const HumanoidMotion& motion, const std::optional<PoseSp
   return frame;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -8,7 +8,7 @@
 #include "telemime/body/motion_frame.h"
 #include "telemime/outputs/humanoid.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// The bones that this project's tracker knows: hips to hands. Legs are left out, they stand still.
 inline constexpr std::uint32_t kTrackedBones = (1U << static_cast<unsigned>(HumanBone::l_upper_leg)) - 1U;
@@ -23,4 +23,4 @@ std::uint8_t confidence_of(double deviation);
 /// spread. Hips are held within the 32 m that the frame can say.
 PoseFrame pose_frame_of(const HumanoidMotion& motion, const std::optional<PoseSpread>& spread);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

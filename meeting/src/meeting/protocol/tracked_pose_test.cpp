@@ -5,7 +5,7 @@
 
 #include "telemime/outputs/testing_motion.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 TEST(BoneConfidence, FallsWithTheDeviation) {
@@ -69,4 +69,4 @@ TEST_F(TrackedPose, HipsFarAwayStayWithinReach) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -12,7 +12,7 @@
 #include "telemime/streaming/resolve.h"
 #include "telemime/streaming/tcp.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 namespace asio = boost::asio;
 
@@ -188,4 +188,4 @@ std::string MqttConnection::words_for(int result, int error) const {
   }
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

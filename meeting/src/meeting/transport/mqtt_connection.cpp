@@ -10,7 +10,7 @@
 #include <chrono>
 #include <utility>
 
-namespace telemime {
+namespace telemime::meeting {
 
 namespace asio = boost::asio;
 using std::chrono::milliseconds;
@@ -234,4 +234,4 @@ void MqttConnection::close() noexcept {
   incoming_.clear();
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

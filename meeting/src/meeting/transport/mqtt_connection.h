@@ -20,7 +20,7 @@
 struct mosquitto;
 struct mosquitto_message;
 
-namespace telemime {
+namespace telemime::meeting {
 
 struct MqttServer {
   std::string host;
@@ -110,4 +110,4 @@ class MqttConnection {
   std::vector<MqttMessage> incoming_;  ///< heard while the library was at work
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

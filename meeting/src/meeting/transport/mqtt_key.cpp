@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "meeting/transport/plain_file.h"
+#include "meeting/transport/files.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 using Json = nlohmann::json;
@@ -39,9 +39,9 @@ MqttKey checked(MqttKey key, const std::string& where) {
 }  // namespace
 
 MqttKey read_key_file(const std::filesystem::path& file) {
-  const PlainFile read = [&file] {
+  const SmallFile read = [&file] {
     try {
-      return read_plain_file(file, kLongestFile);
+      return read_small_file(file, kLongestFile);
     } catch (const std::runtime_error& e) {
       unusable(file, e.what());
     }
@@ -79,7 +79,7 @@ std::optional<MqttKey> key_of(const SendUrl& url, const char* environment) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     key = checked(
         {std::string(text.substr(0, colon)), std::string(text.substr(std::min(colon + 1, text.size()))), ""},
-        kRoomKeyVariable);
+        kMeetingKeyVariable);
   }
   if (!url.user.empty() && (!key || key->user != url.user)) {
     throw Error(
@@ -87,9 +87,9 @@ std::optional<MqttKey> key_of(const SendUrl& url, const char* environment) {
         "the output \"" + url.text + "\" has a user but no password" +
             (key ? ": the key is of the user \"" + key->user + "\"" : ""),
         "Passwords are not kept. Give it again as user:password@ before the host, or by key=FILE or " +
-            std::string(kRoomKeyVariable) + ".");
+            std::string(kMeetingKeyVariable) + ".");
   }
   return key;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

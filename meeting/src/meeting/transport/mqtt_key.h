@@ -8,10 +8,10 @@
 
 #include "telemime/streaming/url.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// The environment variable that may hold "user:password".
-inline constexpr const char* kRoomKeyVariable = "TELEMIME_ROOM_KEY";
+inline constexpr const char* kMeetingKeyVariable = "TELEMIME_ROOM_KEY";
 
 /// An account at a broker. The password is told to nobody but the broker.
 struct MqttKey {
@@ -25,8 +25,8 @@ struct MqttKey {
 MqttKey read_key_file(const std::filesystem::path& file);
 
 /// The account for this output: "user:password@" of the URL, else the file of its option `key`, else
-/// `environment` (what kRoomKeyVariable holds; may be null); nothing when there is none of them. Throws
+/// `environment` (what kMeetingKeyVariable holds; may be null); nothing when there is none of them. Throws
 /// Error(usage) when a key cannot be used, or is of another user than the URL names.
 std::optional<MqttKey> key_of(const SendUrl& url, const char* environment);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -9,7 +9,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 SendUrl parsed(const std::string& url) {
@@ -98,7 +98,7 @@ TEST_F(MqttKeys, AUserWithoutAPasswordIsToldSo) {
       key_of(parsed("mqtt://studio.p01@h/a/b"), environment);
       ADD_FAILURE();
     } catch (const Error& e) {
-      EXPECT_NE(std::string(e.what()).find(kRoomKeyVariable), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find(kMeetingKeyVariable), std::string::npos) << e.what();
       EXPECT_EQ(std::string(e.what()).find("secret"), std::string::npos) << e.what();
     }
   }
@@ -107,4 +107,4 @@ TEST_F(MqttKeys, AUserWithoutAPasswordIsToldSo) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -5,7 +5,7 @@
 
 #include <mutex>
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 // The library's count has no lock of its own, and it is one for the whole process: so must this be.
@@ -26,4 +26,4 @@ MqttLibrary::~MqttLibrary() {
   mosquitto_lib_cleanup();
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

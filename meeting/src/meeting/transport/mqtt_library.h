@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Keeps libmosquitto ready as long as one of these lives. The library counts its users itself, but not
 /// safely among threads. It also has the whole process ignore SIGPIPE from its first connection on.
@@ -13,4 +13,4 @@ class MqttLibrary {
   ~MqttLibrary();
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -4,7 +4,7 @@
 #include <random>
 #include <string_view>
 
-namespace telemime {
+namespace telemime::meeting {
 
 std::uint16_t any_session() {
   std::random_device chance;
@@ -22,4 +22,4 @@ std::string any_client_id(const std::string& who) {
   return id;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// The number of a run of a participant, drawn at random: 1 to 65535.
 std::uint16_t any_session();
@@ -13,4 +13,4 @@ std::uint16_t any_session();
 /// the broker still holds stays out of the way.
 std::string any_client_id(const std::string& who);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

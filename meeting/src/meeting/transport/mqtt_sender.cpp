@@ -3,12 +3,12 @@
 
 #include <cstdlib>
 
+#include "meeting/transport/meeting_link.h"
 #include "meeting/transport/mqtt_key.h"
-#include "meeting/transport/mqtt_room_link.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/send_queue.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 constexpr std::string_view kNobody = "tracker";  // who takes part without an account
@@ -31,16 +31,16 @@ std::optional<std::string> plain_option(const SendUrl& url, std::string_view nam
   throw Error(ErrorKind::usage, "the output \"" + url.text + "\" " + what, remedy);
 }
 
-RoomAddress room_of(const SendUrl& url) {
+MeetingAddress meeting_of(const SendUrl& url) {
   const std::string_view path = std::string_view(url.path).substr(url.path.empty() ? 0 : 1);
   const std::size_t slash = path.find('/');
-  RoomAddress room{std::string(path.substr(0, slash)),
-                   slash == std::string_view::npos ? "" : std::string(path.substr(slash + 1))};
-  if (!is_room_segment(room.tenant) || !is_room_segment(room.room)) {
+  MeetingAddress meeting{std::string(path.substr(0, slash)),
+                         slash == std::string_view::npos ? "" : std::string(path.substr(slash + 1))};
+  if (!is_topic_segment(meeting.tenant) || !is_topic_segment(meeting.meeting)) {
     refuse(url, "does not name a room",
            "Write it like mqtt://localhost:1883/home/studio: small letters, digits, _ and - are a name.");
   }
-  return room;
+  return meeting;
 }
 
 std::optional<int> seat_of(const SendUrl& url) {
@@ -58,7 +58,7 @@ std::optional<int> seat_of(const SendUrl& url) {
 
 }  // namespace
 
-RoomOutput room_output_of(const SendUrl& url) {
+MeetingOutput meeting_output_of(const SendUrl& url) {
   for (const auto& [name, value] : url.options) {
     if (name == "password" || name == "user") {  // before anything shows the URL
       throw Error(ErrorKind::usage, "an output's user and password are no options",
@@ -68,8 +68,8 @@ RoomOutput room_output_of(const SendUrl& url) {
   check_options(url, {"name", "look", "seat", "participant", "key", "ca", "mirror"});
   require_host(url);
   const bool tls = url.scheme == "mqtts";
-  RoomOutput output;
-  output.room = room_of(url);
+  MeetingOutput output;
+  output.meeting = meeting_of(url);
   output.server.host = url.host;
   output.server.port = url.port.value_or(tls ? kMqttsPort : kMqttPort);
   if (output.server.port == 0) {
@@ -80,7 +80,7 @@ RoomOutput room_output_of(const SendUrl& url) {
   } else if (free_option(url, "ca")) {
     refuse(url, "names certificates, and is not encrypted", "Write mqtts:// for TLS.");
   }
-  const auto key = key_of(url, std::getenv(kRoomKeyVariable));
+  const auto key = key_of(url, std::getenv(kMeetingKeyVariable));
   if (key) {
     output.server.user = key->user;
     output.server.password = key->password;
@@ -88,8 +88,8 @@ RoomOutput room_output_of(const SendUrl& url) {
   }
   output.participant =
       plain_option(url, "participant")
-          .value_or(participant_of_user(output.room, output.server.user).value_or(std::string(kNobody)));
-  if (!is_room_segment(output.participant)) {
+          .value_or(participant_of_user(output.meeting, output.server.user).value_or(std::string(kNobody)));
+  if (!is_topic_segment(output.participant)) {
     refuse(url, "names a participant that cannot be one",
            "1 to 32 small letters, digits, _ and - are a name.");
   }
@@ -98,7 +98,7 @@ RoomOutput room_output_of(const SendUrl& url) {
     refuse(url, "has a name that cannot be shown", "A name is 1 to 40 characters, in UTF-8.");
   }
   output.look = plain_option(url, "look").value_or(output.look);
-  if (!is_room_segment(output.look)) {
+  if (!is_topic_segment(output.look)) {
     refuse(url, "has a look that cannot be one", "Looks are plain, robot and the like.");
   }
   output.seat = seat_of(url);
@@ -106,8 +106,8 @@ RoomOutput room_output_of(const SendUrl& url) {
 }
 
 std::unique_ptr<Sender> make_mqtt_sender(const SendUrl& url) {
-  const RoomOutput output = room_output_of(url);
-  return make_queued_sender(url, [&](SendLoop& loop) { return std::make_unique<RoomLink>(loop, output); });
+  const MeetingOutput output = meeting_output_of(url);
+  return make_queued_sender(url, [&](SendLoop& loop) { return std::make_unique<MeetingLink>(loop, output); });
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <memory>
 
-#include "meeting/transport/mqtt_room_link.h"
+#include "meeting/transport/meeting_link.h"
 #include "telemime/streaming/sender.h"
 #include "telemime/streaming/url.h"
 
-namespace telemime {
+namespace telemime::meeting {
 
 inline constexpr std::uint16_t kMqttPort = 1883;
 inline constexpr std::uint16_t kMqttsPort = 8883;
 
 /// What the URL below names. Throws Error(usage).
-RoomOutput room_output_of(const SendUrl& url);
+MeetingOutput meeting_output_of(const SendUrl& url);
 
 /// mqtt://[user:password@]host[:1883]/tenant/room[?name=Ana&look=plain&...], or mqtts:// with TLS: takes part
 /// in a room (docs/room-protocol.md). The account comes from the URL, from the file of the option `key`, or
@@ -22,4 +22,4 @@ RoomOutput room_output_of(const SendUrl& url);
 /// Error(usage).
 std::unique_ptr<Sender> make_mqtt_sender(const SendUrl& url);
 
-}  // namespace telemime
+}  // namespace telemime::meeting

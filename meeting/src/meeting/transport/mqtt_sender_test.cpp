@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "meeting/transport/all.h"
+#include "meeting/transport/sender_kinds.h"
 #include "telemime/core/errors.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/testing_receivers.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 using testing_receivers::comes_true;
@@ -132,4 +132,4 @@ TEST(MqttSender, OptionsAreChecked) {
 }
 
 }  // namespace
-}  // namespace telemime
+}  // namespace telemime::meeting

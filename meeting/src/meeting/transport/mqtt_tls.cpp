@@ -7,10 +7,10 @@
 
 #include <boost/asio/ip/address.hpp>
 
-#include "meeting/transport/certificates.h"
+#include "meeting/transport/tls_authorities.h"
 #include "telemime/core/errors.h"
 
-namespace telemime {
+namespace telemime::meeting {
 namespace {
 
 MqttTls& owner_of(const SSL* connection) {
@@ -92,4 +92,4 @@ void MqttTls::on_progress(const SSL* connection, int where, int /*value*/) {
   own.shaken_ = own.shaken_ || (where & SSL_CB_HANDSHAKE_DONE) != 0;
 }
 
-}  // namespace telemime
+}  // namespace telemime::meeting

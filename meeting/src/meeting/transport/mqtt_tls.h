@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-namespace telemime {
+namespace telemime::meeting {
 
 /// Why a certificate was refused, in words: the result of OpenSSL's verification for that host.
 std::string tls_refusal(long result, const std::string& host);
@@ -44,4 +44,4 @@ class MqttTls {
   std::unique_ptr<SSL_CTX, Free> context_;
 };
 
-}  // namespace telemime
+}  // namespace telemime::meeting

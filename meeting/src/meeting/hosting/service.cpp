@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meeting/hosting/service.h"
+
+#include <mosquitto.h>
+
+#include <string_view>
+#include <utility>
+
+#include "meeting/protocol/messages.h"
+#include "telemime/core/errors.h"
+
+namespace telemime::meeting {
+namespace {
+
+constexpr int kKeepAlive = 10;  // s
+constexpr int kTick = 50;       // ms
+constexpr std::chrono::milliseconds kPause{100};
+// What the broker still keeps comes before that; what a chair says meanwhile is not talked over.
+constexpr std::chrono::milliseconds kListenFirst{200};
+constexpr std::chrono::milliseconds kTellAgain{300};
+constexpr int kAtLeastOnce = 1;
+constexpr std::size_t kLongestPayload = 16384;
+
+}  // namespace
+
+void MeetingService::Destroy::operator()(mosquitto* client) const {
+  mosquitto_destroy(client);
+}
+
+MeetingService::MeetingService(std::filesystem::path socket, MeetingAddress address, BrokerAccount account,
+                               MeetingInfo meeting, Hooks hooks)
+    : socket_(std::move(socket)),
+      address_(std::move(address)),
+      account_(std::move(account)),
+      hooks_(std::move(hooks)),
+      meeting_(std::move(meeting)) {
+  client_.reset(mosquitto_new(nullptr, /*clean_session=*/true, this));
+  if (!client_) {
+    throw Error(ErrorKind::output, "no connection to the broker can be made here");
+  }
+  mosquitto_int_option(client_.get(), MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311);
+  mosquitto_username_pw_set(client_.get(), account_.user.c_str(), account_.password.c_str());
+  mosquitto_connect_callback_set(client_.get(), on_connect);
+  mosquitto_message_callback_set(client_.get(), on_message);
+  thread_ = std::thread([this] { work(); });
+}
+
+MeetingService::~MeetingService() {
+  end_ = true;
+  thread_.join();
+}
+
+void MeetingService::on_connect(mosquitto* client, void* self, int code) {
+  auto& own = *static_cast<MeetingService*>(self);
+  if (code == 0) {
+    for (const std::string& filter :
+         {presence_filter(own.address_), topic_text(own.address_, {TopicKind::meeting, "", 0})}) {
+      mosquitto_subscribe(client, nullptr, filter.c_str(), kAtLeastOnce);
+    }
+    own.due_ = Clock::now() + kListenFirst;
+  }
+}
+
+void MeetingService::on_message(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
+  const auto size = static_cast<std::size_t>(message->payloadlen);
+  if (size <= kLongestPayload) {
+    static_cast<MeetingService*>(self)->hear(
+        message->topic, size == 0 ? "" : std::string(static_cast<const char*>(message->payload), size));
+  }
+}
+
+void MeetingService::work() {
+  while (!end_) {
+    told_ = false;
+    if (mosquitto_connect(client_.get(), socket_.c_str(), 0, kKeepAlive) == MOSQ_ERR_SUCCESS) {
+      talk();
+      hooks_.lost();
+    }
+    if (!end_) {
+      std::this_thread::sleep_for(kPause);
+    }
+  }
+}
+
+// Until the connection breaks.
+void MeetingService::talk() {
+  while (mosquitto_loop(client_.get(), kTick, 1) == MOSQ_ERR_SUCCESS) {
+    say_what_is_due();
+    if (end_) {
+      mosquitto_disconnect(client_.get());
+      return;
+    }
+  }
+  due_.reset();
+}
+
+bool MeetingService::publish(const std::string& topic, const std::string& payload) {
+  return mosquitto_publish(client_.get(), nullptr, topic.c_str(), static_cast<int>(payload.size()),
+                           payload.data(), kAtLeastOnce, /*retain=*/true) == MOSQ_ERR_SUCCESS;
+}
+
+void MeetingService::say_what_is_due() {
+  std::vector<std::string> forgotten;
+  std::optional<MeetingInfo> meeting;
+  {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(chairs_changed_, false) && told_) {
+      due_ = Clock::now();
+    }
+    if (due_ && Clock::now() >= *due_) {
+      meeting = meeting_;
+      due_.reset();
+    }
+    if (told_) {  // else there is nothing: the broker is a new one
+      forgotten.swap(forgotten_);
+    }
+  }
+  if (meeting) {
+    told_ = publish(topic_text(address_, {TopicKind::meeting, "", 0}), write_meeting_info(*meeting));
+  }
+  for (const std::string& id : forgotten) {
+    for (const TopicKind kind : {TopicKind::presence, TopicKind::state, TopicKind::chat, TopicKind::pose}) {
+      publish(topic_text(address_, {kind, id, 0}), "");
+    }
+    for (int page = 0; page < kMostBoardPages; ++page) {
+      publish(topic_text(address_, {TopicKind::board, id, page}), "");
+    }
+  }
+}
+
+void MeetingService::hear(const std::string& text, const std::string& payload) {
+  const auto topic = read_topic(address_, text);
+  if (!topic) {
+    return;
+  }
+  if (topic->kind == TopicKind::meeting) {
+    hear_room(payload);
+  } else if (topic->kind == TopicKind::presence) {
+    const auto presence = read_presence(payload);
+    hooks_.seen(topic->participant, presence && presence->here);
+  }
+}
+
+void MeetingService::hear_room(const std::string& payload) {
+  const std::optional<MeetingInfo> said = read_meeting_info(payload);
+  std::optional<MeetingInfo> next;
+  bool wrong = false;
+  {
+    const std::lock_guard lock(mutex_);
+    next = after_change(meeting_, said);
+    meeting_ = next.value_or(meeting_);
+    wrong = said != meeting_;
+  }
+  if (wrong) {
+    due_ = due_.value_or(Clock::now() + kTellAgain);
+  }
+  if (next) {
+    hooks_.changed(*next);
+  }
+}
+
+void MeetingService::set_chairs(std::vector<std::string> chairs) {
+  const std::lock_guard lock(mutex_);
+  chairs_changed_ = chairs_changed_ || chairs != meeting_.chairs;
+  meeting_.chairs = std::move(chairs);
+}
+
+void MeetingService::forget(const std::vector<std::string>& participants) {
+  const std::lock_guard lock(mutex_);
+  forgotten_.insert(forgotten_.end(), participants.begin(), participants.end());
+}
+
+}  // namespace telemime::meeting

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_frame.h"
+#include "meeting/transport/recorder.h"
+#include "meeting/transport/replay.h"
+#include "subscriber.h"
+#include "telemime/streaming/testing_receivers.h"
+
+namespace telemime::meeting::test_support {
+
+inline const std::string kWatches = "topic read r/home/studio/#\n";
+inline constexpr std::uint64_t kFrameTime = 33'333;  // us
+
+/// A recording that goes on until it is ended.
+class Recording {
+ public:
+  Recording(const std::string& where, const std::string& file)
+      : door_(where, /*watch=*/true, ""),
+        recorder_(
+            door_, [this] { return stop_.load(); }, [this](const std::string& words) { say(words); }),
+        writer_(new_recording_file(file), {recorder_.log_in().meeting, "today"}),
+        thread_([this] { writer_.end(recorder_.record(writer_)); }) {}
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  ~Recording() { end(); }
+
+  void end() {
+    stop_ = true;
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  bool has(std::uint64_t messages) const {
+    return testing_receivers::comes_true([&] { return writer_.messages() >= messages; });
+  }
+  std::uint64_t messages() const { return writer_.messages(); }
+  bool said(const std::string& words) {
+    return testing_receivers::comes_true([&] {
+      const std::lock_guard lock(mutex_);
+      return words_.find(words) != std::string::npos;
+    });
+  }
+
+ private:
+  void say(const std::string& words) {
+    const std::lock_guard lock(mutex_);
+    words_ += words + '\n';
+  }
+  std::atomic<bool> stop_ = false;
+  std::mutex mutex_;
+  std::string words_;
+  MeetingLogin door_;
+  MeetingRecorder recorder_;
+  RecordingWriter writer_;
+  std::thread thread_;
+};
+
+inline std::vector<Record> records_of(const std::string& file) {
+  RecordingReader reader(file);
+  std::vector<Record> records;
+  while (auto record = reader.next()) {
+    records.push_back(std::move(*record));
+  }
+  return records;
+}
+
+inline std::vector<std::string> recorded(const std::string& file, const std::string& participant,
+                                         TopicKind kind) {
+  std::vector<std::string> payloads;
+  for (const Record& record : records_of(file)) {
+    const auto* const message = std::get_if<RecordedMessage>(&record);
+    if (message != nullptr && message->topic.participant == participant && message->topic.kind == kind) {
+      payloads.push_back(message->payload);
+    }
+  }
+  return payloads;
+}
+
+inline std::vector<std::string> heard(const Subscriber& ear, const std::string& topic) {
+  std::vector<std::string> payloads;
+  for (const Subscriber::Heard& one : ear.all()) {
+    if (one.topic == topic) {
+      payloads.push_back(one.payload);
+    }
+  }
+  return payloads;
+}
+
+inline PoseFrame frame_of(const std::string& bytes) {
+  const auto frame = decode_pose_frame({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+  EXPECT_TRUE(frame);
+  return frame ? *frame : PoseFrame();
+}
+
+/// A recording of `count` participants q0, q1, ... who are called Q0, Q1, ..., and hold still.
+inline std::string write_test_recording(const std::string& file, int count, int frames,
+                                        std::size_t page = 0) {
+  RecordingWriter writer(new_recording_file(file), {{"home", "studio"}, "today"});
+  for (int who = 0; who < count; ++who) {
+    const std::string name = "q" + std::to_string(who);
+    ParticipantState state;
+    state.session = 7;
+    state.name = "Q" + std::to_string(who);
+    writer.add(RecordedMessage{0, {TopicKind::presence, name, 0}, write_presence({true, 7})});
+    writer.add(RecordedMessage{0, {TopicKind::state, name, 0}, write_state(state)});
+    for (int n = 0; n < kMostBoardPages && page > 0; ++n) {
+      const std::string strokes =
+          R"({"v":1,"epoch":0,"strokes":[],"fill":")" + std::string(page, 'x') + "\"}";
+      writer.add(RecordedMessage{0, {TopicKind::board, name, n}, strokes});
+    }
+  }
+  for (int i = 0; i < frames; ++i) {
+    for (int who = 0; who < count; ++who) {
+      PoseFrame frame;
+      frame.session = 7;
+      frame.sequence = static_cast<std::uint32_t>(i);
+      frame.captured = 1'000'000 + i * kFrameTime;
+      const auto bytes = encode(frame);
+      writer.add(RecordedMessage{
+          i * kFrameTime, {TopicKind::pose, "q" + std::to_string(who), 0}, {bytes.begin(), bytes.end()}});
+    }
+  }
+  writer.end(frames * kFrameTime);
+  return file;
+}
+
+inline ReplayOptions into(const std::string& meeting, const std::string& file,
+                          const std::set<std::string>& only = {}) {
+  ReplayOptions options;
+  options.file = file;
+  options.to = meeting;
+  options.only = only;
+  return options;
+}
+
+inline bool has_left(const Subscriber& ear, const std::string& participant) {
+  return testing_receivers::comes_true([&] {
+    const auto state = ear.newest("p/" + participant + "/state");
+    const auto presence = ear.json("p/" + participant + "/presence");
+    return state && state->payload.empty() && presence.is_object() && presence.at("here") == false;
+  });
+}
+
+}  // namespace telemime::meeting::test_support

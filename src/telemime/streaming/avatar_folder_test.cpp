@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/streaming/avatar_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
+
+namespace telemime {
+namespace {
+
+class Avatars : public ::testing::Test {
+ protected:
+  void put(const std::string& name) const { std::ofstream(folder_.file(name)) << "glTF"; }
+  /// The name of the file for a web path; "" if there is none.
+  std::string at(const std::string& path) const {
+    const auto content = AvatarFolder(folder_.path()).file(path);
+    return content ? content->file.filename().string() : "";
+  }
+  ScratchFolder folder_;
+};
+
+TEST_F(Avatars, LightVariantIsSentIfPresent) {
+  put("x.vrm");
+  put("x-light.vrm");
+  EXPECT_EQ(at("/avatars/x.vrm"), "x.vrm");
+  EXPECT_EQ(at("/avatars/x-light.vrm"), "x-light.vrm");
+}
+
+TEST_F(Avatars, MissingLightVariantFallsBack) {
+  put("x.vrm");
+  EXPECT_EQ(at("/avatars/x-light.vrm"), "x.vrm");
+  EXPECT_EQ(at("/avatars/y-light.vrm"), "");
+  EXPECT_EQ(at("/avatars/x-light-light.vrm"), "");
+}
+
+TEST_F(Avatars, OtherFilesAreNotServed) {
+  put("x.vrm");
+  put("X Y.vrm");
+  put("notes.txt");
+  EXPECT_EQ(AvatarFolder(folder_.path()).looks(), std::vector<std::string>{"x"});
+  for (const char* const path : {"/avatars/X Y.vrm", "/avatars/notes.txt", "/avatars/../x.vrm",
+                                 "/avatars/.vrm", "/avatars/-light.vrm", "/avatars.vrm", "/x.vrm", ""}) {
+    EXPECT_EQ(at(path), "") << path;
+  }
+  EXPECT_FALSE(AvatarFolder("").file("/avatars/x.vrm"));
+  EXPECT_THROW(AvatarFolder(folder_.path() / "none"), Error);
+}
+
+TEST_F(Avatars, LooksBeginWithThePlainOne) {
+  for (const char* const name : {"robot", "plain", "plain-light", "casual"}) {
+    put(name + std::string(".vrm"));
+  }
+  EXPECT_EQ(AvatarFolder(folder_.path()).looks(), (std::vector<std::string>{"plain", "casual", "robot"}));
+}
+
+}  // namespace
+}  // namespace telemime
