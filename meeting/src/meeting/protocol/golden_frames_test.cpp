@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frames of data/room-frames/golden.json, which scripts/room_frames.py packs by itself.
+// The frames of data/room-frames/golden.json, which scripts/golden_frames.py packs with code of its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,21 +8,21 @@ namespace {
 
 const MeetingInfo kBlue{"Blue \"room\"", 12, 3, {"p01", "p09"}, true};
 
-TEST(MeetingInfo, IsReadAsItWasWritten) {
+TEST(MeetingInfo, IsReadAsWritten) {
   EXPECT_EQ(read_meeting_info(write_meeting_info(kBlue)), kBlue);
   EXPECT_EQ(read_meeting_info(write_meeting_info(MeetingInfo())), MeetingInfo());
   EXPECT_EQ(write_meeting_info({"Blue", 8, 2, {"p01"}, false}),
             R"({"chairs":["p01"],"epoch":2,"locked":false,"seats":8,"title":"Blue","v":1})");
 }
 
-TEST(MeetingInfo, WhatIsLeftOutHasItsUsualValue) {
+TEST(MeetingInfo, MissingMembersHaveDefaults) {
   const auto meeting =
       read_meeting_info(R"({"v":1,"epoch":7,"seats":101,"chairs":["p01","A B",3],"locked":1})");
   ASSERT_TRUE(meeting);
   EXPECT_EQ(*meeting, (MeetingInfo{"", 8, 7, {"p01"}, false}));
 }
 
-TEST(MeetingInfo, WhatIsNoneIsRefused) {
+TEST(MeetingInfo, InvalidMessagesAreRejected) {
   for (const char* const bad : {"", "{", "[]", R"({"v":2,"epoch":1})", R"({"v":1})", R"({"v":1,"epoch":-1})",
                                 R"({"v":1,"epoch":4294967296})", R"({"v":1,"epoch":1.5})",
                                 R"({"v":1,"epoch":1,"x":[[[[[[[[1]]]]]]]]})"}) {
@@ -31,7 +31,7 @@ TEST(MeetingInfo, WhatIsNoneIsRefused) {
   EXPECT_FALSE(read_meeting_info(R"({"v":1,"epoch":1,"x":")" + std::string(9000, 'x') + "\"}"));
 }
 
-TEST(MeetingInfo, AChairChangesAllButTheChairs) {
+TEST(MeetingInfo, ChangesEverythingButTheChairs) {
   const MeetingInfo own{"Blue", 8, 2, {"p01"}, false};
   EXPECT_FALSE(after_change(own, own));
   EXPECT_FALSE(after_change(own, std::nullopt)) << "rubbish, or cleared";

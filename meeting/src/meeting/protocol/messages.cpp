@@ -2,17 +2,15 @@
 #include "meeting/protocol/messages.h"
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "meeting/protocol/json.h"
 #include "meeting/protocol/topics.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime::meeting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr int kMetreDecimals = 5;
@@ -21,53 +19,15 @@ constexpr double kTallest = 3.0;    // m
 constexpr double kFarthest = 10.0;  // m
 constexpr std::size_t kLongestUrl = 2048;
 constexpr std::size_t kHashDigits = 64;
-constexpr int kDeepest = 8;
+constexpr std::size_t kMostAttending = 1000;  // the names come from outside, so memory needs a bound
 constexpr std::string_view kHttps = "https://";
 
-/// Thrown by what reads a member, caught by what reads the message.
-struct Refused {
-  std::string words;
-};
-
-[[noreturn]] void refuse(const std::string& words) {
-  throw Refused{words};
-}
-
-/// The code points of UTF-8 that is known to be valid.
-template <class Each>
-void for_code_points(std::string_view text, const Each& each) {
-  char32_t point = 0;
-  bool any = false;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte & 0xC0U) == 0x80U) {
-      point = point << 6U | (byte & 0x3FU);
-      continue;
-    }
-    if (any) {
-      each(point);
-    }
-    any = true;
-    point = byte < 0x80U ? byte : byte < 0xE0U ? byte & 0x1FU : byte < 0xF0U ? byte & 0x0FU : byte & 0x07U;
-  }
-  if (any) {
-    each(point);
-  }
-}
-
-bool is_utf8(std::string_view text) {
-  try {
-    static_cast<void>(Json(text).dump());
-    return true;
-  } catch (const Json::type_error&) {
-    return false;
-  }
+[[noreturn]] void reject(const std::string& reason) {
+  throw MessageFault{reason};  // caught by read()
 }
 
 bool is_hash(std::string_view text) {
-  return text.size() == kHashDigits && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
+  return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
 bool is_file_url(std::string_view url) {
@@ -88,69 +48,38 @@ bool is_promise(double seconds) {
   return seconds >= kShortestPromise && seconds <= kLongestPromise;
 }
 
-bool is_place(const Eigen::Vector3d& place) {
-  return place.allFinite() && place.cwiseAbs().maxCoeff() <= kFarthest;
+bool is_position(const Eigen::Vector3d& position) {
+  return position.allFinite() && position.cwiseAbs().maxCoeff() <= kFarthest;
 }
 
-/// A whole number from `least` to `most`, also one that is written like 3.0, as for JavaScript.
-std::optional<std::int64_t> whole(const Json& value, std::int64_t least, std::int64_t most) {
-  if (!value.is_number()) {
-    return std::nullopt;
+Json parse(std::string_view bytes, std::size_t longest) {
+  if (bytes.empty() || bytes.size() > longest) {
+    reject("it does not have 1 to " + std::to_string(longest) + " bytes");
   }
-  const auto number = value.get<double>();
-  if (!(number >= static_cast<double>(least) && number <= static_cast<double>(most)) ||
-      number != std::floor(number)) {
-    return std::nullopt;
+  Json message = parse_object(bytes);
+  if (message.is_null()) {
+    reject("it is not a JSON object");
   }
-  return static_cast<std::int64_t>(number);
-}
-
-const Json& member(const Json& message, const char* name) {
-  static const Json none;
-  const auto found = message.find(name);
-  return found == message.end() ? none : *found;
-}
-
-Json parse(std::string_view bytes, std::size_t most) {
-  if (bytes.empty() || bytes.size() > most) {
-    refuse("it has not 1 to " + std::to_string(most) + " bytes");
-  }
-  bool too_deep = false;
-  const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-    too_deep = too_deep || depth > kDeepest;
-    return !too_deep;
-  };
-  Json message = Json::parse(bytes, shallow, /*allow_exceptions=*/false);
-  if (too_deep || !message.is_object()) {
-    refuse("it is no JSON object");
-  }
-  if (whole(member(message, "v"), kVersion, kVersion) != kVersion) {
-    refuse("it is of another version");
+  if (!whole_member(message, "v", kVersion, kVersion)) {
+    reject("it has another version");
   }
   return message;
 }
 
 std::uint16_t session_of(const Json& message) {
-  const auto session = whole(member(message, "session"), 1, UINT16_MAX);
+  const auto session = whole_member(message, "session", 1, UINT16_MAX);
   if (!session) {
-    refuse("session is no number from 1 to 65535");
+    reject("session is not a number from 1 to 65535");
   }
   return static_cast<std::uint16_t>(*session);
 }
 
 ParticipantKind kind_of(const Json& message) {
-  const Json& kind = member(message, "kind");
-  if (kind == "tracker") {
-    return ParticipantKind::tracker;
+  const std::string kind = text_member(message, "kind");
+  if (kind != "tracker" && kind != "browser") {
+    reject("kind is neither tracker nor browser");
   }
-  if (kind == "browser") {
-    return ParticipantKind::browser;
-  }
-  refuse("kind is neither tracker nor browser");
-}
-
-std::string text_of(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : std::string();
+  return kind == "tracker" ? ParticipantKind::tracker : ParticipantKind::browser;
 }
 
 std::variant<std::monostate, AvatarByLook, AvatarFile> avatar_of(const Json& message) {
@@ -159,30 +88,27 @@ std::variant<std::monostate, AvatarByLook, AvatarFile> avatar_of(const Json& mes
     return {};
   }
   if (!avatar.is_object()) {
-    refuse("avatar is no object");
+    reject("avatar is not an object");
   }
   if (!avatar.contains("url")) {
-    const std::string look = text_of(member(avatar, "look"));
+    const std::string look = text_member(avatar, "look");
     if (!is_topic_segment(look)) {
-      refuse("the look of the avatar is no name");
+      reject("the look of the avatar is not a name");
     }
     return AvatarByLook{look};
   }
-  const AvatarFile file{text_of(member(avatar, "url")), text_of(member(avatar, "sha256")),
-                        whole(member(avatar, "bytes"), 1, kLargestAvatar).value_or(0)};
+  const AvatarFile file{text_member(avatar, "url"), text_member(avatar, "sha256"),
+                        whole_member(avatar, "bytes", 1, kLargestAvatar).value_or(0)};
   if (!is_file(file)) {
-    refuse("the file of the avatar has no https address, hash or size");
+    reject("the avatar file has no https address, hash or size");
   }
   return file;
 }
 
 void read_bones(const Json& message, ParticipantState& state) {
   const Json& bones = member(message, "bones");
-  if (bones.is_null()) {
-    return;
-  }
-  if (!bones.is_object()) {
-    refuse("bones is no object");
+  if (!bones.is_null() && !bones.is_object()) {
+    reject("bones is not an object");
   }
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {
     const auto found = bones.find(std::string(kHumanBoneNames[bone]));
@@ -191,14 +117,30 @@ void read_bones(const Json& message, ParticipantState& state) {
     }
     const bool three = found->is_array() && found->size() == 3 &&
                        std::all_of(found->begin(), found->end(), [](const Json& v) { return v.is_number(); });
-    const Eigen::Vector3d place =
-        three
-            ? Eigen::Vector3d((*found)[0].get<double>(), (*found)[1].get<double>(), (*found)[2].get<double>())
-            : Eigen::Vector3d::Constant(2.0 * kFarthest);
-    if (!is_place(place)) {
-      refuse("the place of a bone is not three numbers within 10 m");
+    Eigen::Vector3d position = Eigen::Vector3d::Constant(2.0 * kFarthest);
+    for (std::size_t axis = 0; axis < 3 && three; ++axis) {
+      position[static_cast<Eigen::Index>(axis)] = (*found)[axis].get<double>();
     }
-    state.bones[bone] = place;
+    if (!is_position(position)) {
+      reject("the position of a bone is not three numbers within 10 m");
+    }
+    state.bones[bone] = position;
+  }
+}
+
+/// A number of a message that `valid` accepts; anything else counts as missing.
+std::optional<double> optional_number(const Json& message, const char* name, bool (*valid)(double)) {
+  const Json& value = member(message, name);
+  return value.is_number() && valid(value.get<double>()) ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+/// The result of `parse_message`, or the fault that it throws.
+template <class Message, class Parse>
+Outcome<Message, MessageFault> read(const Parse& parse_message) {
+  try {
+    return parse_message();
+  } catch (const MessageFault& fault) {
+    return fault;
   }
 }
 
@@ -215,10 +157,10 @@ Json avatar_json(const ParticipantState& state) {
 Json bones_json(const ParticipantState& state) {
   Json bones = Json::object();
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {
-    if (const auto& place = state.bones[bone]) {
-      bones[std::string(kHumanBoneNames[bone])] = {rounded(place->x(), kMetreDecimals),
-                                                   rounded(place->y(), kMetreDecimals),
-                                                   rounded(place->z(), kMetreDecimals)};
+    if (const auto& position = state.bones[bone]) {
+      bones[std::string(kHumanBoneNames[bone])] = {rounded(position->x(), kMetreDecimals),
+                                                   rounded(position->y(), kMetreDecimals),
+                                                   rounded(position->z(), kMetreDecimals)};
     }
   }
   return bones;
@@ -226,37 +168,29 @@ Json bones_json(const ParticipantState& state) {
 
 void require(bool holds, const std::string& what) {
   if (!holds) {
-    throw Error(ErrorKind::usage, "what a room is told of a participant is not right: " + what);
+    throw Error(ErrorKind::usage, "this message of a participant cannot be written: " + what);
   }
 }
 
 void require_writable(const ParticipantState& state) {
   require(state.session != 0, "the session is 0");
-  require(is_participant_name(state.name), "the name");
-  require(!state.seat || (*state.seat >= 0 && *state.seat < kMostSeats), "the seat");
-  require(!state.stature || is_stature(*state.stature), "the stature");
+  require(is_participant_name(state.name), "the name is invalid");
+  require(!state.seat || (*state.seat >= 0 && *state.seat < kMostSeats), "the seat is invalid");
+  require(!state.stature || is_stature(*state.stature), "the stature is invalid");
   const auto* const look = std::get_if<AvatarByLook>(&state.avatar);
-  require(look == nullptr || is_topic_segment(look->look), "the look of the avatar");
+  require(look == nullptr || is_topic_segment(look->look), "the look of the avatar is invalid");
   const auto* const file = std::get_if<AvatarFile>(&state.avatar);
-  require(file == nullptr || is_file(*file), "the file of the avatar");
-  for (const auto& place : state.bones) {
-    require(!place || is_place(*place), "a bone's place");
+  require(file == nullptr || is_file(*file), "the avatar file is invalid");
+  for (const auto& position : state.bones) {
+    require(!position || is_position(*position), "the position of a bone is invalid");
   }
 }
 
 }  // namespace
 
 bool is_participant_name(std::string_view text) {
-  if (text.size() > 4 * kLongestName || !is_utf8(text)) {
-    return false;
-  }
-  std::size_t count = 0;
-  bool control = false;
-  for_code_points(text, [&](char32_t point) {
-    ++count;
-    control = control || point < 0x20 || (point >= 0x7F && point < 0xA0);
-  });
-  return count >= 1 && count <= kLongestName && !control;
+  const auto length = text.size() <= 4 * kLongestName ? printable_length(text) : std::nullopt;
+  return length && *length >= 1 && *length <= kLongestName;
 }
 
 bool is_stature(double metres) {
@@ -289,52 +223,62 @@ std::string write_presence(const ParticipantPresence& presence) {
   require(presence.session != 0, "the session is 0");
   Json message{{"v", kVersion}, {"here", presence.here}, {"session", presence.session}};
   if (presence.every) {
-    require(is_promise(*presence.every), "so often nobody says something");
+    require(is_promise(*presence.every), "the promise is out of range");
     message["every"] = *presence.every;
   }
   return message.dump();
 }
 
 Outcome<ParticipantState, MessageFault> read_state(std::string_view bytes) {
-  try {
+  return read<ParticipantState>([&] {
     const Json message = parse(bytes, kLongestState);
     ParticipantState state;
     state.session = session_of(message);
     state.kind = kind_of(message);
-    state.name = text_of(member(message, "name"));
+    state.name = text_member(message, "name");
     if (!is_participant_name(state.name)) {
-      refuse("name is not 1 to 40 characters without control characters");
+      reject("name is not 1 to 40 characters without control characters");
     }
-    if (const auto seat = whole(member(message, "seat"), 0, kMostSeats - 1)) {
+    if (const auto seat = whole_member(message, "seat", 0, kMostSeats - 1)) {
       state.seat = static_cast<int>(*seat);
     }
     state.avatar = avatar_of(message);
-    const Json& stature = member(message, "stature");
-    if (stature.is_number() && is_stature(stature.get<double>())) {
-      state.stature = stature.get<double>();
-    }
+    state.stature = optional_number(message, "stature", is_stature);
     read_bones(message, state);
     return state;
-  } catch (const Refused& refused) {
-    return MessageFault{refused.words};
-  }
+  });
 }
 
 Outcome<ParticipantPresence, MessageFault> read_presence(std::string_view bytes) {
-  try {
+  return read<ParticipantPresence>([&] {
     const Json message = parse(bytes, kLongestPresence);
     const Json& here = member(message, "here");
     if (!here.is_boolean()) {
-      refuse("here is neither true nor false");
+      reject("here is neither true nor false");
     }
-    ParticipantPresence presence{here.get<bool>(), session_of(message), std::nullopt};
-    const Json& every = member(message, "every");
-    if (every.is_number() && is_promise(every.get<double>())) {
-      presence.every = every.get<double>();
+    return ParticipantPresence{here.get<bool>(), session_of(message),
+                               optional_number(message, "every", is_promise)};
+  });
+}
+
+void Attendance::update(const std::string& participant, std::string_view message) {
+  if (message.empty()) {
+    sessions_.erase(participant);
+    return;
+  }
+  const auto presence = read_presence(message);
+  if (!presence) {
+    return;
+  }
+  const auto found = sessions_.find(participant);
+  if (found == sessions_.end()) {
+    if (presence->here && sessions_.size() < kMostAttending) {
+      sessions_.emplace(participant, presence->session);
     }
-    return presence;
-  } catch (const Refused& refused) {
-    return MessageFault{refused.words};
+  } else if (presence->here) {
+    found->second = presence->session;
+  } else if (found->second == presence->session) {
+    sessions_.erase(found);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,71 +16,84 @@
 
 namespace telemime::meeting {
 
-/// Bytes of the messages at most (docs/room-protocol.md).
+/// Maximum sizes of the messages, bytes (meeting/docs/protocol.md).
 inline constexpr std::size_t kLongestState = 4096;
 inline constexpr std::size_t kLongestPresence = 256;
-/// Of a participant's name: characters (Unicode code points).
+/// Maximum length of a participant's name, Unicode code points.
 inline constexpr std::size_t kLongestName = 40;
 /// Seats are counted from 0.
 inline constexpr int kMostSeats = 100;
-/// Bytes of an avatar's file.
+/// Maximum size of an avatar file, bytes.
 inline constexpr std::int64_t kLargestAvatar = std::int64_t{64} * 1024 * 1024;
 
 enum class ParticipantKind { tracker, browser };
 
-/// One of the project's own avatars.
+/// One of the avatars that the meeting's server has.
 struct AvatarByLook {
-  std::string look;  ///< as is_topic_segment() asks
+  std::string look;  ///< is_topic_segment()
 };
 
-/// An avatar's file elsewhere.
+/// An avatar file on another server.
 struct AvatarFile {
-  std::string url;         ///< https, without a user
-  std::string sha256;      ///< of the file, 64 small hexadecimal digits
+  std::string url;         ///< https, without user and password
+  std::string sha256;      ///< of the file, 64 lower-case hexadecimal digits
   std::int64_t bytes = 0;  ///< 1 to kLargestAvatar
 };
 
-/// Who a participant is and what they look like: the message `state`.
+/// Who a participant is and how they look: the message `state`.
 struct ParticipantState {
   std::uint16_t session = 1;  ///< not 0
   ParticipantKind kind = ParticipantKind::tracker;
-  std::string name;         ///< 1 to kLongestName characters, no control characters
-  std::optional<int> seat;  ///< that is asked for, 0 to kMostSeats - 1; nothing: any
+  std::string name;         ///< is_participant_name()
+  std::optional<int> seat;  ///< the requested seat, 0 to kMostSeats - 1; nothing: any
   std::variant<std::monostate, AvatarByLook, AvatarFile> avatar;
-  std::optional<double> stature;  ///< m, 0.3 to 3
-  /// Joints of the skeleton in its T-pose, m (HumanoidSkeleton::position), within 10 m; those that are told.
+  std::optional<double> stature;  ///< m, is_stature()
+  /// Joints of the skeleton in its T-pose, m (HumanoidSkeleton::position), each coordinate within 10 m.
   std::array<std::optional<Eigen::Vector3d>, kHumanBoneCount> bones;
 };
 
-/// Whether a participant is in the room: the message `presence`.
+/// Whether a participant is in the meeting: the message `presence`.
 struct ParticipantPresence {
   bool here = false;
   std::uint16_t session = 1;  ///< not 0
-  /// Something is said at least so often, s, kShortestPromise to kLongestPromise; nothing: no promise.
+  /// The participant promises to send something at least this often, s, kShortestPromise to kLongestPromise.
   std::optional<double> every = std::nullopt;
 };
 
 inline constexpr double kShortestPromise = 0.5;  // s
 inline constexpr double kLongestPromise = 60.0;  // s
 
-/// Why bytes are no such message, in words.
+/// Why bytes are not a valid message.
 struct MessageFault {
-  std::string words;
+  std::string text;
 };
 
-/// Whether the text can be a participant's name.
+/// Whether the text can be a participant's name: 1 to kLongestName characters, no control characters.
 bool is_participant_name(std::string_view text);
-/// Whether it can be told as a stature, m.
+/// Whether a stature is in [0.3, 3] m.
 bool is_stature(double metres);
 
-/// JSON without line breaks. Throw Error(usage) when the rules above are broken, or the message is too long.
+/// Writes a message as JSON without line breaks. Throws Error(usage) when a value is out of range or the
+/// message is too long.
 std::string write_state(const ParticipantState& state);
 std::string write_presence(const ParticipantPresence& presence);
 
-/// The message of these bytes. Members that are not known are ignored; a seat or stature that is none counts
-/// as not told; anything else that breaks a rule makes the whole message one that cannot be read. Never
-/// throw.
+/// Reads a message. Unknown members are ignored; an invalid seat, stature or promise counts as missing; any
+/// other violation makes the message invalid. Never throws.
 Outcome<ParticipantState, MessageFault> read_state(std::string_view bytes);
 Outcome<ParticipantPresence, MessageFault> read_presence(std::string_view bytes);
+
+/// The participants of a meeting, from their presence messages.
+class Attendance {
+ public:
+  /// Applies a presence message; an empty one (a cleared topic) removes the participant. The end of an older
+  /// session does not remove a newer one. An invalid message changes nothing.
+  void update(const std::string& participant, std::string_view message);
+  std::size_t count() const { return sessions_.size(); }
+  bool has(const std::string& participant) const { return sessions_.contains(participant); }
+
+ private:
+  std::map<std::string, std::uint16_t> sessions_;
+};
 
 }  // namespace telemime::meeting

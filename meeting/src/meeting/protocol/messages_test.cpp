@@ -40,16 +40,16 @@ std::string with(const std::string& member, const Json& value) {
 
 std::string refusal(const std::string& message) {
   const auto read = read_state(message);
-  return read ? "" : read.fault().words;
+  return read ? "" : read.fault().text;
 }
 
-TEST(Messages, AStateComesBackAsItWas) {
+TEST(Messages, StateIsReadAsWritten) {
   const ParticipantState sent = ana();
   const std::string text = write_state(sent);
   EXPECT_LT(text.size(), 1500U);
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const auto read = read_state(text);
-  ASSERT_TRUE(read) << read.fault().words;
+  ASSERT_TRUE(read) << read.fault().text;
   EXPECT_EQ(read->session, 1234);
   EXPECT_EQ(read->kind, ParticipantKind::tracker);
   EXPECT_EQ(read->name, "Ana");
@@ -62,7 +62,7 @@ TEST(Messages, AStateComesBackAsItWas) {
   }
 }
 
-TEST(Messages, AStateMaySayLittle) {
+TEST(Messages, StateMayBeMinimal) {
   ParticipantState sent;
   sent.kind = ParticipantKind::browser;
   sent.name = "B";
@@ -75,7 +75,7 @@ TEST(Messages, AStateMaySayLittle) {
   EXPECT_TRUE(std::holds_alternative<std::monostate>(read->avatar));
 }
 
-TEST(Messages, AnAvatarMayBeAFile) {
+TEST(Messages, AvatarMayBeAFile) {
   ParticipantState sent = ana();
   sent.avatar = AvatarFile{"https://example.org/a.vrm", kHash, kLargestAvatar};
   const auto read = read_state(write_state(sent));
@@ -102,7 +102,7 @@ TEST(Messages, AnAvatarMayBeAFile) {
   }
 }
 
-TEST(Messages, NamesAreOfOneToFortyCharacters) {
+TEST(Messages, NamesHaveOneToFortyCharacters) {
   std::string hats;
   for (int i = 0; i < 40; ++i) {
     hats += "\xf0\x9f\x8e\xa9";
@@ -123,7 +123,7 @@ TEST(Messages, NamesAreOfOneToFortyCharacters) {
   EXPECT_TRUE(is_participant_name("\xc2\xa0"));
 }
 
-TEST(Messages, WhatBreaksARuleIsRefusedInWords) {
+TEST(Messages, ViolationsAreRejectedWithAReason) {
   EXPECT_NE(refusal(with("v", 2)).find("version"), std::string::npos);
   EXPECT_NE(refusal(with("v", "1")).find("version"), std::string::npos);
   EXPECT_NE(refusal(with("session", 0)).find("session"), std::string::npos);
@@ -146,7 +146,7 @@ TEST(Messages, WhatBreaksARuleIsRefusedInWords) {
   EXPECT_EQ(refusal(text + std::string(kLongestState - text.size(), ' ')), "");
 }
 
-TEST(Messages, WhatIsNotKnownOrOfNoUseIsIgnored) {
+TEST(Messages, UnknownAndUselessMembersAreIgnored) {
   EXPECT_EQ(refusal(with("mood", "good")), "");
   EXPECT_EQ(refusal(with("bones", {{"tail", "wags"}})), "");
   EXPECT_EQ(refusal(with("session", 7.0)), "") << "3.0 is 3 to JavaScript";
@@ -158,7 +158,7 @@ TEST(Messages, WhatIsNotKnownOrOfNoUseIsIgnored) {
   }
 }
 
-TEST(Messages, WhatCannotBeSaidIsNotWritten) {
+TEST(Messages, InvalidValuesAreNotWritten) {
   const auto refused = [](const auto& change) {
     ParticipantState state = ana();
     change(state);
@@ -208,7 +208,7 @@ TEST(Messages, PresenceIsHereOrNot) {
   EXPECT_FALSE(read_presence(R"({"v":1,"here":true,"session":7})" + std::string(256, ' ')));
 }
 
-TEST(Messages, DamageIsReadOrRefused) {
+TEST(Messages, DamagedMessagesAreReadOrRejected) {
   const std::string valid = write_state(ana());
   Random random(5);
   int refused = 0;
@@ -219,11 +219,54 @@ TEST(Messages, DamageIsReadOrRefused) {
     if (read) {
       EXPECT_TRUE(read_state(write_state(*read)));
     } else {
-      EXPECT_NE(read.fault().words, "");
+      EXPECT_NE(read.fault().text, "");
     }
     read_presence(text);
   }
   EXPECT_GT(refused, 100);
+}
+
+TEST(Attendance, CountsThosePresent) {
+  Attendance here;
+  EXPECT_EQ(here.count(), 0U);
+  here.update("a", write_presence({true, 1}));
+  here.update("b", write_presence({true, 1}));
+  here.update("a", write_presence({true, 1}));
+  EXPECT_EQ(here.count(), 2U);
+  EXPECT_TRUE(here.has("a"));
+  here.update("a", write_presence({false, 1}));
+  EXPECT_EQ(here.count(), 1U);
+  EXPECT_FALSE(here.has("a"));
+  here.update("b", "");
+  EXPECT_EQ(here.count(), 0U);
+}
+
+TEST(Attendance, EndOfAnOlderSessionRemovesNobody) {
+  Attendance here;
+  here.update("a", write_presence({true, 1}));
+  here.update("a", write_presence({true, 2}));
+  here.update("a", write_presence({false, 1}));
+  EXPECT_TRUE(here.has("a"));
+  here.update("a", write_presence({false, 2}));
+  EXPECT_FALSE(here.has("a"));
+  here.update("b", write_presence({false, 1}));
+  EXPECT_EQ(here.count(), 0U);
+}
+
+TEST(Attendance, InvalidMessageChangesNothing) {
+  Attendance here;
+  here.update("a", write_presence({true, 1}));
+  here.update("a", "gone!");
+  here.update("b", "{}");
+  EXPECT_EQ(here.count(), 1U);
+}
+
+TEST(Attendance, IsBounded) {
+  Attendance here;
+  for (int i = 0; i < 3000; ++i) {
+    here.update(std::to_string(i), write_presence({true, 1}));
+  }
+  EXPECT_EQ(here.count(), 1000U);
 }
 
 }  // namespace

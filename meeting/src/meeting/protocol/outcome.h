@@ -6,8 +6,8 @@
 
 namespace telemime::meeting {
 
-/// What a reader makes of bytes from outside: a value, or the reason why there is none. What strangers send
-/// is wrong often enough to be no exception.
+/// The result of reading bytes from an untrusted source: a value, or the reason why there is none. Malformed
+/// input is expected, so it is not an exception.
 template <class Value, class Fault>
 class Outcome {
  public:
@@ -15,10 +15,10 @@ class Outcome {
   Outcome(Fault fault) : content_(std::in_place_index<1>, std::move(fault)) {}
 
   explicit operator bool() const { return content_.index() == 0; }
-  /// The value; only when there is one.
+  /// The value; requires that there is one.
   const Value& operator*() const { return std::get<0>(content_); }
   const Value* operator->() const { return &std::get<0>(content_); }
-  /// The reason; only when there is no value.
+  /// The reason; requires that there is no value.
   const Fault& fault() const { return std::get<1>(content_); }
 
  private:

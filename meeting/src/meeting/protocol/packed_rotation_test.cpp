@@ -45,7 +45,7 @@ std::vector<Eigen::Quaterniond> edge_rotations() {
   return edges;
 }
 
-TEST(PackedRotation, IsLessThanAHundredthOfADegreeAway) {
+TEST(PackedRotation, ErrorIsBelowAHundredthOfADegree) {
   double worst = 0.0;
   Random random(1);
   for (int i = 0; i < 200'000; ++i) {
@@ -58,7 +58,7 @@ TEST(PackedRotation, IsLessThanAHundredthOfADegreeAway) {
   EXPECT_GT(worst, kWorst / 5.0) << "the rotations are no hard ones";
 }
 
-TEST(PackedRotation, IsTheSameForAQuaternionAndItsNegative) {
+TEST(PackedRotation, IsEqualForAQuaternionAndItsNegative) {
   Random random(2);
   const auto expect_same = [](const Eigen::Quaterniond& q) {
     EXPECT_EQ(pack_rotation(q), pack_rotation(Eigen::Quaterniond(-q.coeffs())));
@@ -76,7 +76,7 @@ TEST(PackedRotation, LengthDoesNotMatter) {
   EXPECT_EQ(pack_rotation(q), pack_rotation(Eigen::Quaterniond(3.0 * q.coeffs())));
 }
 
-TEST(PackedRotation, HasTheBitsThatAreWritten) {
+TEST(PackedRotation, HasTheDocumentedBits) {
   // Identity: w is the largest, 0 is floor(16383.5 + 0.5).
   const std::uint64_t zero = 16384;
   EXPECT_EQ(pack_rotation(Eigen::Quaterniond::Identity()),
@@ -94,7 +94,7 @@ TEST(PackedRotation, HasTheBitsThatAreWritten) {
   }
 }
 
-TEST(PackedRotation, EveryPatternIsARotationOrRefused) {
+TEST(PackedRotation, EveryPatternIsARotationOrRejected) {
   Random random(3);
   int refused = 0;
   for (int i = 0; i < 100'000; ++i) {

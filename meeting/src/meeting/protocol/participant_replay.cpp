@@ -4,23 +4,20 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "meeting/protocol/json.h"
+#include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
 #include "meeting/protocol/pose_frame.h"
 
 namespace telemime::meeting {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// What readers take (docs/room-page.md).
-constexpr std::size_t kLongestChat = 2048;
-constexpr int kDeepest = 8;
-// A little less than a frame of 30 a second: frames that come a little early are not worth a gap.
+constexpr std::size_t kLongestChat = 2048;  // bytes, as readers accept (meeting/docs/protocol.md)
+// us. Slightly less than the frame time at 30 per second, so that a frame that comes a little early is kept.
 constexpr double kClosest = 1e6 / 31.0;
-// Where a frame has them (docs/room-protocol.md).
+// Offsets in a pose frame (meeting/docs/protocol.md).
 constexpr std::size_t kSessionPlace = 2;
 constexpr std::size_t kSequencePlace = 4;
 constexpr std::size_t kCapturedPlace = 8;
@@ -31,42 +28,11 @@ void patch(std::string& bytes, std::size_t place, std::uint64_t value, std::size
   }
 }
 
-/// The JSON object of this text; null when there is none. What was read can be written.
-Json read_object(std::string_view text) {
-  Json json = Json::parse(
-      text, [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; },
-      /*allow_exceptions=*/false);
-  return json.is_object() ? json : Json();
-}
-
-std::optional<std::uint32_t> epoch_of(const Json& json) {
-  const auto found = json.find("epoch");
-  if (found == json.end() || !found->is_number_unsigned() || found->get<std::uint64_t>() > UINT32_MAX) {
-    return std::nullopt;
-  }
-  return found->get<std::uint32_t>();
-}
-
 constexpr std::uint16_t after(std::uint16_t session) {
   return session == UINT16_MAX ? std::uint16_t{1} : static_cast<std::uint16_t>(session + 1);
 }
 
 }  // namespace
-
-std::optional<std::uint32_t> epoch_of_meeting(std::string_view payload) {
-  const Json json = read_object(payload);
-  return json.is_null() ? std::nullopt : epoch_of(json);
-}
-
-std::optional<std::string> page_with_epoch(std::string_view payload, std::uint32_t epoch) {
-  Json json = read_object(payload);
-  if (json.is_null() || !epoch_of(json)) {
-    return std::nullopt;
-  }
-  json["epoch"] = epoch;
-  std::string text = json.dump();
-  return text.size() <= kLongestPayload ? std::optional(std::move(text)) : std::nullopt;
-}
 
 ParticipantReplay::ParticipantReplay(double speed, std::uint16_t session, std::uint64_t clock)
     : speed_(speed), session_(session), clock_(clock), chat_shift_(session) {}
@@ -89,8 +55,8 @@ std::optional<ReplayStep> ParticipantReplay::step(const RecordedMessage& message
   return std::nullopt;
 }
 
-// Whether this session is the one that is followed. A new one takes its place; one that was followed before
-// does not come back, as readers have it.
+// Whether messages of this session are replayed. A new session replaces the previous one, and an earlier one
+// does not return, as for readers.
 bool ParticipantReplay::follow(std::uint16_t recorded) {
   if (recorded_ == recorded) {
     return true;
@@ -127,9 +93,9 @@ std::optional<ReplayStep> ParticipantReplay::pose(const RecordedMessage& message
   if (!frame || !follow(frame->session)) {
     return std::nullopt;
   }
-  const bool news = !sequence_ || (frame->sequence > *sequence_ && frame->captured > captured_);
-  // No clock that counts microseconds from a computer's start comes as far; sums stay in range.
-  if (!news || frame->captured >= kTimeEnd) {
+  const bool newer = !sequence_ || (frame->sequence > *sequence_ && frame->captured > captured_);
+  // Real clocks do not reach kTimeEnd; below it the sums stay in range.
+  if (!newer || frame->captured >= kTimeEnd) {
     return std::nullopt;
   }
   const double now = static_cast<double>(message.at) / speed_;
@@ -154,7 +120,7 @@ std::optional<ReplayStep> ParticipantReplay::state(const RecordedMessage& messag
   if (!state || !follow(state->session)) {
     return std::nullopt;
   }
-  Json json = read_object(message.payload);
+  Json json = parse_object(message.payload);
   json["session"] = session_;
   std::string text = json.dump();
   if (text.size() > kLongestState) {
@@ -181,15 +147,10 @@ std::optional<ReplayStep> ParticipantReplay::presence(const RecordedMessage& mes
   return ReplayStep{TopicKind::presence, 0, session_, true, ""};
 }
 
-// Readers show each id once: it gets another first number, so that it is a new one in each replay, and what
-// was said twice under one id stays so.
+// Readers show each id once. A new first number makes the id new in each replay; equal ids stay equal.
 std::optional<ReplayStep> ParticipantReplay::chat(const RecordedMessage& message) const {
-  Json json = message.payload.size() <= kLongestChat ? read_object(message.payload) : Json();
-  const auto found = json.find("id");
-  if (json.is_null() || found == json.end() || !found->is_string()) {
-    return std::nullopt;
-  }
-  const auto& id = found->get_ref<const std::string&>();
+  Json json = message.payload.size() <= kLongestChat ? parse_object(message.payload) : Json();
+  const std::string id = text_member(json, "id");
   unsigned number = 0;
   const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number);
   if (error != std::errc() || number < 1 || number > UINT16_MAX) {
@@ -203,7 +164,7 @@ std::optional<ReplayStep> ParticipantReplay::chat(const RecordedMessage& message
 std::optional<ReplayStep> ParticipantReplay::board(const RecordedMessage& message) const {
   ReplayStep step{TopicKind::board, message.topic.page, session_, true, message.payload};
   if (!message.payload.empty()) {
-    const auto epoch = epoch_of_meeting(message.payload);
+    const auto epoch = read_epoch(message.payload);
     if (!epoch || (epoch_ && *epoch != *epoch_)) {
       return std::nullopt;
     }

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
-#include "meeting/protocol/pose_frame.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/random.h"
 
 namespace telemime::meeting {
@@ -31,22 +32,18 @@ RecordedMessage pose(std::uint64_t at, std::uint16_t session, std::uint32_t sequ
   frame.hips = {1, height, -3};
   frame.confidence[2] = 7;
   frame.rotation[2] = Eigen::Quaterniond(1.0, 0.2, -0.1, 0.4).normalized();
-  const auto bytes = encode(frame);
-  return message(at, TopicKind::pose, {bytes.begin(), bytes.end()});
+  return message(at, TopicKind::pose, bytes_of(frame));
 }
 
 PoseFrame frame_of(const ReplayStep& step) {
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(step.payload.data());
-  const auto frame = decode_pose_frame({bytes, step.payload.size()});
-  EXPECT_TRUE(frame);
-  return *frame;
+  return meeting::frame_of(step.payload);
 }
 
 RecordedMessage here(std::uint64_t at, std::uint16_t session, bool here = true) {
   return message(at, TopicKind::presence, write_presence({here, session}));
 }
 
-TEST(SessionReplay, FramesKeepAllButWhoAndWhen) {
+TEST(ParticipantReplay, FramesKeepEverythingButWhoAndWhen) {
   ParticipantReplay part(1.0, 500, kClock);
   Random random(1);
   std::uint64_t captured = 77;
@@ -67,10 +64,10 @@ TEST(SessionReplay, FramesKeepAllButWhoAndWhen) {
   }
 }
 
-TEST(SessionReplay, OldFramesAndNonsenseAreLeftOut) {
+TEST(ParticipantReplay, OldAndInvalidMessagesAreDropped) {
   ParticipantReplay part(1.0, 1, kClock);
   EXPECT_TRUE(part.step(pose(0, 5, 10, 1000)));
-  EXPECT_FALSE(part.step(pose(1, 5, 10, 1000))) << "twice";
+  EXPECT_FALSE(part.step(pose(1, 5, 10, 1000))) << "a repeated frame";
   EXPECT_FALSE(part.step(pose(2, 5, 9, 2000)));
   EXPECT_FALSE(part.step(pose(3, 5, 11, 1000)));
   EXPECT_FALSE(part.step(pose(3, 5, 11, kTimeEnd)));
@@ -84,7 +81,7 @@ TEST(SessionReplay, OldFramesAndNonsenseAreLeftOut) {
   EXPECT_TRUE(part.step(pose(5, 5, 11, 1001)));
 }
 
-TEST(SessionReplay, ANewSessionIsANewOne) {
+TEST(ParticipantReplay, NewSessionGetsANewNumber) {
   ParticipantReplay part(1.0, UINT16_MAX, kClock);
   EXPECT_EQ(part.step(here(0, 5))->session, UINT16_MAX);
   EXPECT_EQ(part.step(pose(10, 5, 40, 1000))->session, UINT16_MAX);
@@ -95,24 +92,24 @@ TEST(SessionReplay, ANewSessionIsANewOne) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame_of(*frame).sequence, 0U);
   EXPECT_EQ(frame_of(*frame).captured, kClock + 30);
-  EXPECT_FALSE(part.step(pose(40, 5, 41, 2000))) << "an old session does not come back";
+  EXPECT_FALSE(part.step(pose(40, 5, 41, 2000))) << "an old session does not return";
   EXPECT_FALSE(part.step(here(40, 5)));
-  EXPECT_FALSE(part.step(here(50, 5, false))) << "a late will of the old one";
+  EXPECT_FALSE(part.step(here(50, 5, false))) << "a late last will of the old one";
   const auto gone = part.step(here(60, 6, false));
   ASSERT_TRUE(gone);
   EXPECT_FALSE(gone->here);
   EXPECT_EQ(gone->session, 1);
 }
 
-TEST(SessionReplay, WhatWasKeptFromAnEarlierDayIsNoGoodbye) {
+TEST(ParticipantReplay, RetainedAbsenceIsNoGoodbye) {
   ParticipantReplay part(1.0, 9, kClock);
-  EXPECT_FALSE(part.step(here(0, 5, false))) << "kept by the broker from an earlier day";
+  EXPECT_FALSE(part.step(here(0, 5, false))) << "retained by the broker";
   const auto cleared = part.step(message(1, TopicKind::presence, ""));
   ASSERT_TRUE(cleared);
   EXPECT_FALSE(cleared->here);
 }
 
-TEST(SessionReplay, StatesKeepAllButTheSession) {
+TEST(ParticipantReplay, StatesKeepEverythingButTheSession) {
   ParticipantReplay part(1.0, 9, kClock);
   const std::string said =
       R"({"v":1,"session":5,"kind":"browser","name":"Ána","seat":3,"avatar":{"look":"robot"},)"
@@ -127,12 +124,12 @@ TEST(SessionReplay, StatesKeepAllButTheSession) {
   EXPECT_EQ(cleared->payload, "");
 }
 
-TEST(SessionReplay, ChatHasANewIdEachTime) {
+TEST(ParticipantReplay, ChatGetsANewIdInEachReplay) {
   const RecordedMessage said = message(0, TopicKind::chat, R"({"v":1,"id":"65535-12","text":"hello"})");
   const auto id_of = [&](std::uint16_t session) {
     ParticipantReplay part(1.0, session, kClock);
     const auto step = part.step(said);
-    EXPECT_EQ(part.step(said)->payload, step->payload) << "what was said twice is told apart by nobody";
+    EXPECT_EQ(part.step(said)->payload, step->payload) << "equal messages stay equal";
     const auto json = nlohmann::json::parse(step->payload);
     EXPECT_EQ(json.at("text"), "hello");
     return json.at("id").get<std::string>();
@@ -142,26 +139,26 @@ TEST(SessionReplay, ChatHasANewIdEachTime) {
   EXPECT_EQ(id_of(300), "300-12");
 }
 
-TEST(SessionReplay, PagesOfAnotherEpochAreLeftOut) {
+TEST(ParticipantReplay, PagesOfAnotherEpochAreDropped) {
   ParticipantReplay part(1.0, 9, kClock);
   const auto page = [](int epoch) {
     return message(0, TopicKind::board, R"({"v":1,"epoch":)" + std::to_string(epoch) + R"(,"strokes":[]})",
                    4);
   };
-  EXPECT_TRUE(part.step(page(2))) << "no room has told its epoch";
-  part.set_epoch(*epoch_of_meeting(R"({"v":1,"epoch":3})"));
+  EXPECT_TRUE(part.step(page(2))) << "the epoch is not known yet";
+  part.set_epoch(*read_epoch(R"({"v":1,"epoch":3})"));
   EXPECT_FALSE(part.step(page(2)));
   const auto step = part.step(page(3));
   ASSERT_TRUE(step);
   EXPECT_EQ(step->page, 4);
   EXPECT_EQ(*page_with_epoch(step->payload, 70), R"({"v":1,"epoch":70,"strokes":[]})");
-  EXPECT_TRUE(part.step(message(0, TopicKind::board, "", 4))) << "it may be cleared";
+  EXPECT_TRUE(part.step(message(0, TopicKind::board, "", 4))) << "a page may be cleared";
   EXPECT_FALSE(page_with_epoch("[]", 1));
-  EXPECT_FALSE(epoch_of_meeting(R"({"epoch":-1})"));
-  EXPECT_FALSE(epoch_of_meeting(std::string(100, '[')));
+  EXPECT_FALSE(read_epoch(R"({"epoch":-1})"));
+  EXPECT_FALSE(read_epoch(std::string(100, '[')));
 }
 
-TEST(SessionReplay, FasterIsThinnedAndSlowerIsNot) {
+TEST(ParticipantReplay, FasterReplayDropsFramesSlowerDoesNot) {
   for (const double speed : {0.5, 1.0, 4.0}) {
     ParticipantReplay part(speed, 9, kClock);
     std::vector<PoseFrame> frames;

@@ -47,7 +47,7 @@ void require_writable(const PoseFrame& frame) {
     if (frame.has(bone) &&
         (frame.confidence[bone] > kMostConfidence || !q.allFinite() || !(q.norm() > 0.0))) {
       throw Error(ErrorKind::usage, "this pose frame cannot be written: the confidence or rotation of " +
-                                        std::string(kHumanBoneNames[bone]) + " is none");
+                                        std::string(kHumanBoneNames[bone]) + " is invalid");
     }
   }
 }
@@ -55,7 +55,7 @@ void require_writable(const PoseFrame& frame) {
 class Writer {
  public:
   explicit Writer(std::size_t size) { bytes_.reserve(size); }
-  /// The lowest `count` bytes, the lowest first.
+  /// Appends the `count` lowest bytes, little-endian.
   void put(std::uint64_t value, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
@@ -70,7 +70,7 @@ class Writer {
 class Reader {
  public:
   explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  /// The next `count` bytes, the lowest first; they must be there.
+  /// Takes the next `count` bytes, little-endian; requires that they exist.
   std::uint64_t take(std::size_t count) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -135,6 +135,7 @@ std::optional<PoseFault> read_rotations(Reader& reader, PoseFrame& frame) {
 
 std::vector<std::uint8_t> encode(const PoseFrame& frame) {
   require_writable(frame);
+  // The head: flags, counters, time, bones, position of the hips.
   Writer writer(size_of(frame.mask));
   writer.put(kVersion, 1);
   writer.put((frame.tracked ? kTracked : 0U) | (frame.still ? kStill : 0U), 1);
@@ -145,6 +146,7 @@ std::vector<std::uint8_t> encode(const PoseFrame& frame) {
   for (const std::int16_t coordinate : frame.hips) {
     writer.put(static_cast<std::uint16_t>(coordinate), 2);
   }
+  // Two confidences per byte, the first in the low half.
   std::vector<std::uint8_t> confidences;
   bool second = false;
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {

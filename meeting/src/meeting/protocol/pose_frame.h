@@ -14,24 +14,23 @@
 
 namespace telemime::meeting {
 
-/// Bytes of a pose frame before its confidences, and of the longest one.
+/// Sizes of a pose frame in bytes: the part before the confidences, a rotation, and the longest frame.
 inline constexpr std::size_t kPoseFrameHead = 26;
 inline constexpr std::size_t kMostFrameBones = 18;
 inline constexpr std::size_t kPackedRotationBytes = 6;
 inline constexpr std::size_t kLongestPoseFrame =
     kPoseFrameHead + kMostFrameBones / 2 + kMostFrameBones * kPackedRotationBytes;
 
-/// What everybody in a room is told of one participant's pose at one moment: the message `pose` of
-/// docs/room-protocol.md.
+/// The pose of one participant at one moment: the message `pose` (meeting/docs/protocol.md).
 struct PoseFrame {
   PoseFrame() { rotation.fill(Eigen::Quaterniond::Identity()); }
 
   bool tracked = false;        ///< false: the person is lost, and `mask` is 0
-  bool still = false;          ///< a sign of life while nobody moves
-  std::uint16_t session = 1;   ///< of the publisher's run; not 0
-  std::uint32_t sequence = 0;  ///< one more each frame of a session
-  std::uint64_t captured = 0;  ///< us of the publisher's monotonic clock
-  std::uint32_t mask = 0;      ///< bit i: bone i of kHumanBoneNames is there; at most kMostFrameBones of them
+  bool still = false;          ///< a sign of life of a person who does not move
+  std::uint16_t session = 1;   ///< number of the publisher's run; not 0
+  std::uint32_t sequence = 0;  ///< counts the frames of a session from 0
+  std::uint64_t captured = 0;  ///< capture time, us of the publisher's monotonic clock
+  std::uint32_t mask = 0;      ///< bit i: bone i of kHumanBoneNames is present; at most kMostFrameBones
   std::array<std::int16_t, 3> hips{};                      ///< mm, as HumanoidMotion::hips
   std::array<std::uint8_t, kHumanBoneCount> confidence{};  ///< 0 unknown, 1 (hardly) to 15 (sure)
   std::array<Eigen::Quaterniond, kHumanBoneCount>
@@ -40,18 +39,18 @@ struct PoseFrame {
   bool has(std::size_t bone) const { return (mask >> bone & 1U) != 0; }
 };
 
-/// Why bytes are no pose frame; of several reasons the first in this order. (What is shorter than a head is
-/// wrong_size, whatever its bytes behind the first one say.)
+/// Why bytes are not a pose frame: the first of these reasons that applies. Bytes of version 1 that are
+/// shorter than kPoseFrameHead have the wrong size, whatever else they contain.
 enum class PoseFault {
   unknown_version,  ///< the first byte is not 1
   no_session,       ///< the session is 0
-  unknown_bones,    ///< a bit of the mask that stands for no bone
+  unknown_bones,    ///< the mask has a bit without a bone
   too_many_bones,   ///< more than kMostFrameBones
-  lost_with_bones,  ///< not tracked, and yet there are bones
-  wrong_size,       ///< not the size that the mask asks for
+  lost_with_bones,  ///< not tracked, but there are bones
+  wrong_size,       ///< not the size that follows from the mask
   unused_half,      ///< the last half byte of an odd number of confidences is not 0
   unused_bit,       ///< the highest bit of a rotation is not 0
-  not_a_rotation,   ///< as unpack_rotation() says
+  not_a_rotation,   ///< rejected by unpack_rotation()
 };
 inline constexpr std::array<std::string_view, 9> kPoseFaultNames = {
     "unknown_version", "no_session",  "unknown_bones", "too_many_bones", "lost_with_bones",
@@ -60,11 +59,11 @@ inline std::string_view name_of(PoseFault fault) {
   return kPoseFaultNames[static_cast<std::size_t>(fault)];
 }
 
-/// The frame's bytes. Throws Error(usage) for a frame that breaks the rules above (session 0, bones while
-/// lost, a mask or confidence out of range, a rotation that is not finite or has no length).
+/// Encodes a frame. Throws Error(usage) when the frame violates a rule above: session 0, bones while lost, a
+/// mask or confidence out of range, a rotation that is not finite or has length 0.
 std::vector<std::uint8_t> encode(const PoseFrame& frame);
 
-/// The frame of these bytes. Never throws.
+/// Decodes a frame. Never throws.
 Outcome<PoseFrame, PoseFault> decode_pose_frame(std::span<const std::uint8_t> bytes);
 
 }  // namespace telemime::meeting

@@ -58,7 +58,7 @@ void expect_same(const PoseFrame& a, const PoseFrame& b) {
   }
 }
 
-TEST(PoseFrame, ComesBackAsItWas) {
+TEST(PoseFrame, IsReadAsWritten) {
   Random random(1);
   for (int i = 0; i < 3000; ++i) {
     const PoseFrame frame = any_frame(random);
@@ -70,7 +70,7 @@ TEST(PoseFrame, ComesBackAsItWas) {
   }
 }
 
-TEST(PoseFrame, HasTheSizesThatAreWritten) {
+TEST(PoseFrame, HasTheDocumentedSizes) {
   PoseFrame frame;
   EXPECT_EQ(encode(frame).size(), 26U);
   frame.tracked = true;
@@ -81,7 +81,7 @@ TEST(PoseFrame, HasTheSizesThatAreWritten) {
   EXPECT_EQ(kLongestPoseFrame, 143U);
 }
 
-TEST(PoseFrame, EveryOtherSizeIsRefused) {
+TEST(PoseFrame, EveryOtherSizeIsRejected) {
   Random random(2);
   for (int i = 0; i < 50; ++i) {
     Bytes bytes = encode(any_frame(random));
@@ -121,7 +121,7 @@ TEST(PoseFrame, EverySingleBitMayFlip) {
   EXPECT_GE(faults.size(), 6U);
 }
 
-TEST(PoseFrame, NoiseIsReadOrRefused) {
+TEST(PoseFrame, NoiseIsReadOrRejected) {
   Random random(4);
   int read = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -146,7 +146,7 @@ TEST(PoseFrame, NoiseIsReadOrRefused) {
   EXPECT_GT(read, 1000);
 }
 
-TEST(PoseFrame, WhatCannotBeSaidIsNotWritten) {
+TEST(PoseFrame, InvalidFramesAreNotWritten) {
   const auto refused = [](const auto& change) {
     PoseFrame frame;
     frame.tracked = true;

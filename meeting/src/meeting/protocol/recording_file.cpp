@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
+#include <boost/crc.hpp>
 #include <utility>
 
+#include "meeting/protocol/json.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -13,17 +14,17 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// As PNG has it: a transfer that changes line ends, or stops at the end mark of DOS, shows.
+// Reveals a transfer that changes line ends or stops at control-Z, as the signature of PNG does.
 constexpr std::string_view kMagic = "TROOM\r\n\x1a";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kRecordHead = 7;   // kind, size, checksum
 constexpr std::size_t kMessageHead = 4;  // what, page, participant; behind the time
 constexpr std::size_t kTime = 8;
-constexpr std::size_t kLongestWords = 1024;
+constexpr std::size_t kLongestReason = 1024;
 constexpr std::size_t kLongestBegan = 64;
 constexpr std::uint16_t kNobody = 0xffff;
 
-// The letters are seen in a dump of the file.
+// Letters, so that a dump of the file is readable.
 constexpr std::uint8_t kStart = 'S';
 constexpr std::uint8_t kName = 'N';
 constexpr std::uint8_t kMessage = 'M';
@@ -34,29 +35,6 @@ constexpr std::uint8_t kEnd = 'E';
 
 constexpr std::array<TopicKind, 6> kKinds = {TopicKind::pose, TopicKind::state, TopicKind::presence,
                                              TopicKind::chat, TopicKind::board, TopicKind::meeting};
-
-constexpr std::array<std::uint32_t, 256> make_crc_table() {
-  constexpr std::uint32_t kPolynomial = 0xedb88320U;
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t value = byte;
-    for (int bit = 0; bit < 8; ++bit) {
-      value = (value & 1U) != 0 ? (value >> 1U) ^ kPolynomial : value >> 1U;
-    }
-    table[byte] = value;
-  }
-  return table;
-}
-
-constexpr std::array<std::uint32_t, 256> kCrcTable = make_crc_table();
-
-// CRC-32 as zlib has it, in pieces: begin with ~0, and invert what comes out last.
-std::uint32_t crc_of(std::uint32_t crc, Bytes bytes) {
-  for (const std::uint8_t byte : bytes) {
-    crc = (crc >> 8U) ^ kCrcTable[(crc ^ byte) & 0xffU];
-  }
-  return crc;
-}
 
 Bytes bytes_of(std::string_view text) {
   return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
@@ -81,7 +59,10 @@ std::uint64_t number_at(Bytes bytes, std::size_t at, std::size_t count) {
 }
 
 std::uint32_t checksum(Bytes kind_and_size, Bytes body) {
-  return ~crc_of(crc_of(~0U, kind_and_size), body);
+  boost::crc_32_type crc;
+  crc.process_bytes(kind_and_size.data(), kind_and_size.size());
+  crc.process_bytes(body.data(), body.size());
+  return crc.checksum();
 }
 
 std::string record_of(std::uint8_t kind, const std::string& body) {
@@ -97,9 +78,10 @@ std::string timed(std::uint64_t at) {
   return body;
 }
 
-bool is_began(std::string_view text) {
-  return text.size() <= kLongestBegan &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+bool is_start(const RecordingStart& start) {
+  return is_topic_segment(start.meeting.tenant) && is_topic_segment(start.meeting.meeting) &&
+         start.began.size() <= kLongestBegan &&
+         std::all_of(start.began.begin(), start.began.end(), [](char c) { return c >= ' ' && c <= '~'; });
 }
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -107,40 +89,27 @@ bool is_began(std::string_view text) {
 }
 
 std::optional<Record> read_start(Bytes body) {
-  const auto json = nlohmann::json::parse(
-      text_of(body), [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) { return depth < 4; },
-      /*allow_exceptions=*/false);
-  const auto text = [&json](const char* name) {
-    return json.is_object() && json.contains(name) && json[name].is_string() ? json[name].get<std::string>()
-                                                                             : std::string();
-  };
-  RecordingStart start{{text("tenant"), text("room")}, text("began")};
-  if (!is_topic_segment(start.meeting.tenant) || !is_topic_segment(start.meeting.meeting) ||
-      !is_began(start.began)) {
-    return std::nullopt;
-  }
-  return start;
+  const Json json = parse_object(text_of(body));
+  RecordingStart start{{text_member(json, "tenant"), text_member(json, "room")}, text_member(json, "began")};
+  return is_start(start) ? std::optional<Record>(start) : std::nullopt;
 }
-
-template <class... Case>
-struct Cases : Case... {
-  using Case::operator()...;
-};
-template <class... Case>
-Cases(Case...) -> Cases<Case...>;
 
 }  // namespace
 
 std::uint64_t time_of(const Record& record) {
-  return std::visit(Cases{[](const RecordingStart&) { return std::uint64_t{0}; },
-                          [](const auto& other) { return other.at; }},
-                    record);
+  return std::visit(
+      [](const auto& one) -> std::uint64_t {
+        if constexpr (requires { one.at; }) {
+          return one.at;
+        }
+        return 0;
+      },
+      record);
 }
 
 std::string RecordingEncoder::begin(const RecordingStart& start) {
-  if (!is_topic_segment(start.meeting.tenant) || !is_topic_segment(start.meeting.meeting) ||
-      !is_began(start.began)) {
-    refuse("its room or its date is none");
+  if (!is_start(start)) {
+    refuse("its meeting or its date is invalid");
   }
   std::string out(kMagic);
   put(out, kVersion, 4);
@@ -149,13 +118,13 @@ std::string RecordingEncoder::begin(const RecordingStart& start) {
   return out + record_of(kStart, about.dump());
 }
 
-// Nothing when the participant is one too many.
+// Returns nothing when there are too many participants.
 std::optional<std::string> RecordingEncoder::message(const RecordedMessage& message) {
   const bool of_meeting = message.topic.kind == TopicKind::meeting;
   const int page = message.topic.kind == TopicKind::board ? message.topic.page : 0;
   if (message.payload.size() > kLongestPayload || page < 0 || page >= kMostBoardPages ||
       (!of_meeting && !is_topic_segment(message.topic.participant))) {
-    refuse("a message that is too long, or of nobody");
+    refuse("a message is too long, or has no participant");
   }
   std::string out;
   std::uint16_t number = kNobody;
@@ -167,6 +136,7 @@ std::optional<std::string> RecordingEncoder::message(const RecordedMessage& mess
       }
       const auto next = static_cast<std::uint16_t>(numbers_.size());
       found = numbers_.emplace(message.topic.participant, next).first;
+      // The first message of a participant follows their name.
       std::string name;
       put(name, next, 2);
       out = record_of(kName, name + message.topic.participant);
@@ -187,14 +157,14 @@ std::optional<std::string> RecordingEncoder::encode(const Record& record) {
     refuse("a recording has one start and one end");
   }
   if (at < newest_ || at >= kTimeEnd) {
-    refuse("its time is before the last one's, or out of range");
+    refuse("its time is before the previous one, or out of range");
   }
   std::string body = timed(at);
   std::optional<std::string> out;
-  if (const auto* const said = std::get_if<RecordedMessage>(&record)) {
-    out = message(*said);
+  if (const auto* const sent = std::get_if<RecordedMessage>(&record)) {
+    out = message(*sent);
   } else if (const auto* const lost = std::get_if<ConnectionLost>(&record)) {
-    out = record_of(kLost, body + lost->words.substr(0, kLongestWords));
+    out = record_of(kLost, body + lost->reason.substr(0, kLongestReason));
   } else if (const auto* const dropped = std::get_if<MessagesDropped>(&record)) {
     put(body, dropped->count, 4);
     out = record_of(kDropped, body);
@@ -216,7 +186,7 @@ std::optional<Record> RecordingDecoder::fail() {
   return std::nullopt;
 }
 
-// The head, as far as it is there. False: something is missing or wrong.
+// Reads the head of the file. Returns false when bytes are missing or wrong.
 bool RecordingDecoder::take_head() {
   const Bytes seen = Bytes(buffer_).subspan(used_);
   const std::size_t compared = std::min(seen.size(), kMagic.size());
@@ -254,9 +224,9 @@ std::optional<Record> RecordingDecoder::next() {
     if (number_at(seen, 3, 4) != checksum(seen.first(3), body)) {
       return fail();
     }
-    bool well = true;
-    auto record = read_body(seen[0], body, well);
-    if (!well) {
+    bool valid = true;
+    auto record = read_body(seen[0], body, valid);
+    if (!valid) {
       return fail();
     }
     used_ += kRecordHead + size;
@@ -268,52 +238,52 @@ std::optional<Record> RecordingDecoder::next() {
   return std::nullopt;
 }
 
-// Nothing where there is none for the reader: a name, or a kind of record that a later program may write.
-std::optional<Record> RecordingDecoder::read_body(std::uint8_t kind, Bytes body, bool& well) {
+// Returns nothing for records that are not for the reader: names, and kinds that a later version may write.
+std::optional<Record> RecordingDecoder::read_body(std::uint8_t kind, Bytes body, bool& valid) {
   if (!started_) {
     auto start = kind == kStart ? read_start(body) : std::nullopt;
-    well = started_ = start.has_value();
+    valid = started_ = start.has_value();
     return start;
   }
   if (kind == kName) {
-    well = add_participant(body);
+    valid = add_participant(body);
     return std::nullopt;
   }
   constexpr std::string_view kTimed = "MLBDE";
   if (kTimed.find(static_cast<char>(kind)) == std::string_view::npos) {
-    well = kind != kStart;
+    valid = kind != kStart;
     return std::nullopt;
   }
   const std::uint64_t at = body.size() < kTime ? kTimeEnd : number_at(body, 0, kTime);
-  well = at >= newest_ && at < kTimeEnd;
-  if (!well) {
+  valid = at >= newest_ && at < kTimeEnd;
+  if (!valid) {
     return std::nullopt;
   }
   newest_ = at;
   const Bytes rest = body.subspan(kTime);
   switch (kind) {
     case kMessage:
-      return read_message(at, rest, well);
+      return read_message(at, rest, valid);
     case kLost:
-      well = rest.size() <= kLongestWords;
+      valid = rest.size() <= kLongestReason;
       return ConnectionLost{at, text_of(rest)};
     case kBack:
-      well = rest.empty();
+      valid = rest.empty();
       return ConnectionRestored{at};
     case kDropped:
-      well = rest.size() == 4;
-      return MessagesDropped{at, well ? static_cast<std::uint32_t>(number_at(rest, 0, 4)) : 0};
+      valid = rest.size() == 4;
+      return MessagesDropped{at, valid ? static_cast<std::uint32_t>(number_at(rest, 0, 4)) : 0};
     default:
-      well = rest.empty();
-      ended_ = well;
+      valid = rest.empty();
+      ended_ = valid;
       return RecordingEnd{at};
   }
 }
 
-std::optional<Record> RecordingDecoder::read_message(std::uint64_t at, Bytes rest, bool& well) {
-  well =
+std::optional<Record> RecordingDecoder::read_message(std::uint64_t at, Bytes rest, bool& valid) {
+  valid =
       rest.size() >= kMessageHead && rest.size() - kMessageHead <= kLongestPayload && rest[0] < kKinds.size();
-  if (!well) {
+  if (!valid) {
     return std::nullopt;
   }
   RecordedMessage message;
@@ -322,9 +292,9 @@ std::optional<Record> RecordingDecoder::read_message(std::uint64_t at, Bytes res
   message.topic.page = rest[1];
   const auto number = static_cast<std::size_t>(number_at(rest, 2, 2));
   const bool of_meeting = message.topic.kind == TopicKind::meeting;
-  well = (of_meeting ? number == kNobody : number < participants_.size()) &&
-         message.topic.page < (message.topic.kind == TopicKind::board ? kMostBoardPages : 1);
-  if (!well) {
+  valid = (of_meeting ? number == kNobody : number < participants_.size()) &&
+          message.topic.page < (message.topic.kind == TopicKind::board ? kMostBoardPages : 1);
+  if (!valid) {
     return std::nullopt;
   }
   message.topic.participant = of_meeting ? "" : participants_[number];

@@ -16,59 +16,55 @@
 
 namespace telemime::meeting {
 
-/// Bytes of a message's payload in a recording at most: no message of a room is longer.
-inline constexpr std::size_t kLongestPayload = 16384;
-/// Participants of a recording at most: their names come from outside, and memory has a bound.
+/// Maximum number of participants of a recording: their names come from outside, so memory needs a bound.
 inline constexpr std::size_t kMostRecordedParticipants = 1000;
-/// Times in a recording are less, us (285 years): differences stay exact as floating point numbers.
+/// Times in a recording are less than this, us (285 years): their differences are exact as floating point.
 inline constexpr std::uint64_t kTimeEnd = std::uint64_t{1} << 53U;
-/// The head of a recording's file: eight fixed bytes and the version.
+/// Size of the head of a recording's file: eight fixed bytes and the version.
 inline constexpr std::size_t kRecordingHead = 12;
 
-/// The first record: which room, and when.
+/// The first record: which meeting, and when.
 struct RecordingStart {
   MeetingAddress meeting;
-  std::string began;  ///< by the calendar, "2026-11-22T15:30:00Z"; printable ASCII, at most 64 bytes
+  std::string began;  ///< UTC, "2026-11-22T15:30:00Z"; printable ASCII, at most 64 bytes
 };
-/// Somebody said something. `at` of this and of the others: us since the recording began, by a clock that
-/// never goes back.
+/// A message of the meeting. `at` of this and of the others: us since the start of the recording, monotonic.
 struct RecordedMessage {
   std::uint64_t at = 0;
   Topic topic;
   std::string payload;
 };
-/// From here on nothing could be heard; until ConnectionRestored.
+/// From here on nothing was received, until ConnectionRestored.
 struct ConnectionLost {
   std::uint64_t at = 0;
-  std::string words;  ///< why, at most 1024 bytes
+  std::string reason;  ///< at most 1024 bytes
 };
 struct ConnectionRestored {
   std::uint64_t at = 0;
 };
-/// So many messages were heard before this moment and are missing, as the disk was too slow.
+/// The number of messages before this moment that are missing because the disk was too slow.
 struct MessagesDropped {
   std::uint64_t at = 0;
   std::uint32_t count = 0;
 };
-/// The recording ended in order. Nothing comes behind it.
+/// The recording was closed properly. Nothing follows.
 struct RecordingEnd {
   std::uint64_t at = 0;
 };
 using Record = std::variant<RecordingStart, RecordedMessage, ConnectionLost, ConnectionRestored,
                             MessagesDropped, RecordingEnd>;
 
-/// When it was, us; 0 for the start.
+/// The time of a record, us; 0 for the start.
 std::uint64_t time_of(const Record& record);
 
-/// Writes a recording (docs/room-recording.md), a record at a time.
+/// Encodes a recording (meeting/docs/recording.md), one record at a time.
 class RecordingEncoder {
  public:
-  /// The file's head and its first record. Throws Error(usage) when the room is none or `began` breaks its
-  /// rule.
+  /// The head of the file and its first record. Throws Error(usage) when the address or `began` is invalid.
   static std::string begin(const RecordingStart& start);
   /// The bytes of the next record; nothing for a message of one participant too many. Throws Error(usage) for
-  /// a second start, what comes behind the end, a time that is out of range or before the one of the record
-  /// before, and what is too long.
+  /// a second start, anything after the end, a time out of range or before the previous one, and a message
+  /// that is too long.
   std::optional<std::string> encode(const Record& record);
 
  private:
@@ -79,21 +75,21 @@ class RecordingEncoder {
   bool ended_ = false;
 };
 
-/// Why the bytes cannot be read from here on.
+/// Why a recording cannot be read any further.
 enum class RecordingFault {
-  no_recording,   ///< the file does not begin as a recording does
-  other_version,  ///< of the format: a newer program wrote it
-  damaged,        ///< a record whose bytes are not what was written
+  no_recording,   ///< the file does not begin like a recording
+  other_version,  ///< a newer program wrote it
+  damaged,        ///< a record has wrong bytes
 };
 
-/// Reads a recording from pieces of any size, in memory that does not grow with it. Never throws.
+/// Decodes a recording from pieces of any size. Its memory does not grow with the recording. Never throws.
 class RecordingDecoder {
  public:
   void feed(std::span<const std::uint8_t> bytes);
-  /// The next record. Nothing: more bytes are needed, or there is a fault(), which stays.
+  /// The next record. Returns nothing when more bytes are needed or there is a fault(), which is permanent.
   std::optional<Record> next();
   std::optional<RecordingFault> fault() const { return fault_; }
-  /// Bytes from the beginning of the file that were read: whole records only.
+  /// Number of bytes from the beginning of the file that were read, whole records only.
   std::uint64_t good() const { return good_; }
   /// Whether the last record was a RecordingEnd.
   bool ended() const { return ended_; }
@@ -101,12 +97,12 @@ class RecordingDecoder {
  private:
   bool take_head();
   std::optional<Record> fail();
-  std::optional<Record> read_body(std::uint8_t kind, std::span<const std::uint8_t> body, bool& well);
-  std::optional<Record> read_message(std::uint64_t at, std::span<const std::uint8_t> rest, bool& well);
+  std::optional<Record> read_body(std::uint8_t kind, std::span<const std::uint8_t> body, bool& valid);
+  std::optional<Record> read_message(std::uint64_t at, std::span<const std::uint8_t> rest, bool& valid);
   bool add_participant(std::span<const std::uint8_t> body);
 
   std::vector<std::uint8_t> buffer_;
-  std::size_t used_ = 0;  ///< of the buffer
+  std::size_t used_ = 0;  ///< bytes of the buffer
   std::uint64_t good_ = 0;
   std::uint64_t newest_ = 0;
   std::vector<std::string> participants_;

@@ -76,7 +76,7 @@ void expect_same(const Record& a, const Record& b) {
     EXPECT_EQ(message->topic.page, other.topic.page);
     EXPECT_EQ(message->payload, other.payload);
   } else if (const auto* const lost = std::get_if<ConnectionLost>(&a)) {
-    EXPECT_EQ(lost->words, std::get<ConnectionLost>(b).words);
+    EXPECT_EQ(lost->reason, std::get<ConnectionLost>(b).reason);
   } else if (const auto* const dropped = std::get_if<MessagesDropped>(&a)) {
     EXPECT_EQ(dropped->count, std::get<MessagesDropped>(b).count);
   }
@@ -130,7 +130,7 @@ Read read(const std::string& file, std::size_t piece, Random& random) {
   return out;
 }
 
-TEST(SessionFile, ComesBackAsItWas) {
+TEST(RecordingFile, IsReadAsWritten) {
   Random random(1);
   for (int i = 0; i < 60; ++i) {
     const auto records = any_records(random, random.below(60));
@@ -144,7 +144,7 @@ TEST(SessionFile, ComesBackAsItWas) {
   }
 }
 
-TEST(SessionFile, BeginsWithItsRoom) {
+TEST(RecordingFile, BeginsWithItsMeeting) {
   RecordingDecoder decoder;
   decoder.feed(bytes_of(RecordingEncoder::begin(kBegin)));
   const auto first = decoder.next();
@@ -157,7 +157,7 @@ TEST(SessionFile, BeginsWithItsRoom) {
   EXPECT_FALSE(decoder.fault());
 }
 
-TEST(SessionFile, HasTheBytesThatAreWritten) {
+TEST(RecordingFile, HasTheDocumentedBytes) {
   RecordingEncoder encoder;
   const RecordedMessage message{1, {TopicKind::board, "p1", 3}, "x"};
   const std::string first = *encoder.encode(message);
@@ -170,7 +170,7 @@ TEST(SessionFile, HasTheBytesThatAreWritten) {
   EXPECT_EQ(again.substr(3, 4), std::string("\x5f\xa4\xfc\x53", 4));
 }
 
-TEST(SessionFile, IsReadUpToWhereItWasCut) {
+TEST(RecordingFile, TruncatedFileIsReadToItsLastRecord) {
   Random random(2);
   const auto records = any_records(random, 25);
   const Written whole = written(records);
@@ -184,7 +184,7 @@ TEST(SessionFile, IsReadUpToWhereItWasCut) {
   }
 }
 
-TEST(SessionFile, ADamagedByteEndsIt) {
+TEST(RecordingFile, DamagedByteEndsIt) {
   Random random(3);
   const auto records = any_records(random, 12);
   const Written whole = written(records);
@@ -202,7 +202,7 @@ TEST(SessionFile, ADamagedByteEndsIt) {
   }
 }
 
-TEST(SessionFile, ATailOfZerosIsDamage) {
+TEST(RecordingFile, TailOfZerosIsDamage) {
   Random random(4);
   const Written whole = written({ConnectionRestored{5}, RecordingEnd{6}});
   for (const std::size_t keep : {whole.ends[0], whole.ends[0] + 3, whole.ends[1]}) {
@@ -212,7 +212,7 @@ TEST(SessionFile, ATailOfZerosIsDamage) {
   }
 }
 
-TEST(SessionFile, OtherFilesAreNone) {
+TEST(RecordingFile, OtherFilesAreRejected) {
   Random random(5);
   EXPECT_EQ(read("{\"header\":1}", 5, random).fault, RecordingFault::no_recording);
   EXPECT_EQ(read("TROOM\n\x1a", 5, random).fault, RecordingFault::no_recording) << "changed line ends";
@@ -222,7 +222,7 @@ TEST(SessionFile, OtherFilesAreNone) {
   EXPECT_FALSE(read("", 1, random).fault);
 }
 
-TEST(SessionFile, WhatALaterProgramAddsIsPassedOver) {
+TEST(RecordingFile, UnknownKindsAreSkipped) {
   Random random(6);
   const std::string begin = RecordingEncoder::begin(kBegin);
   // Kind "Z" with the body "hi"; the checksum by Python's zlib.
@@ -233,7 +233,7 @@ TEST(SessionFile, WhatALaterProgramAddsIsPassedOver) {
   EXPECT_TRUE(back.ended);
 }
 
-TEST(SessionFile, NoiseIsReadOrRefused) {
+TEST(RecordingFile, NoiseIsReadOrRejected) {
   Random random(7);
   const std::string begin = RecordingEncoder::begin(kBegin);
   for (int i = 0; i < 3000; ++i) {
@@ -251,7 +251,7 @@ bool refuses(RecordingEncoder& encoder, const Record& record) {
   return false;
 }
 
-TEST(SessionFile, WhatBreaksTheRulesIsNotWritten) {
+TEST(RecordingFile, InvalidRecordsAreNotWritten) {
   RecordingEncoder encoder;
   const RecordedMessage well{10, {TopicKind::chat, "p1", 0}, "{}"};
   EXPECT_FALSE(refuses(encoder, well));
@@ -267,7 +267,7 @@ TEST(SessionFile, WhatBreaksTheRulesIsNotWritten) {
   EXPECT_THROW(RecordingEncoder::begin({{"home", "studio"}, "now\n"}), Error);
 }
 
-TEST(SessionFile, ParticipantsHaveABound) {
+TEST(RecordingFile, NumberOfParticipantsIsBounded) {
   RecordingEncoder encoder;
   std::set<std::size_t> taken;
   for (std::size_t i = 0; i < kMostRecordedParticipants + 5; ++i) {

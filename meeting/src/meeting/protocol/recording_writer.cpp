@@ -18,9 +18,9 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kToDisk{10};
-constexpr std::size_t kRecordBytes = 128;  // of a record in memory, beside its payload; about
+constexpr std::size_t kRecordBytes = 128;  // approximate size of a record in memory, without its payload
 
-/// A new file that is appended to.
+/// A new file to append to.
 class NewFile {
  public:
   explicit NewFile(std::filesystem::path file)
@@ -28,8 +28,8 @@ class NewFile {
         descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR)) {
     if (descriptor_ < 0) {
       const int error = errno;
-      throw Error(ErrorKind::output, file_.string() + " cannot be made: " + words(error),
-                  error == EEXIST ? "A recording is not written over another file: name a new one." : "");
+      throw Error(ErrorKind::output, file_.string() + " cannot be created: " + system_text(error),
+                  error == EEXIST ? "A recording does not overwrite a file: choose another name." : "");
     }
   }
   ~NewFile() {
@@ -45,7 +45,7 @@ class NewFile {
       const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
       if (count < 0 && errno != EINTR) {
         const int error = errno;
-        take_back();
+        undo();
         fail(error);
       }
       done += count > 0 ? static_cast<std::size_t>(count) : 0;
@@ -58,22 +58,22 @@ class NewFile {
   }
 
  private:
-  static std::string words(int error) { return std::generic_category().message(error); }
+  static std::string system_text(int error) { return std::generic_category().message(error); }
   [[noreturn]] void fail(int error) const {
-    throw Error(ErrorKind::output, file_.string() + " cannot be written: " + words(error),
-                "What was recorded before can be used.");
+    throw Error(ErrorKind::output, file_.string() + " cannot be written: " + system_text(error),
+                "The recording so far is usable.");
   }
   void sync() {
-    // Some disks (over a network, or with a quota) say only now that they are full. EINVAL: it cannot be
-    // synced.
+    // Some disks (over a network, or with a quota) report only now that they are full. EINVAL: the file
+    // cannot be synchronised.
     if (!synced_ && ::fdatasync(descriptor_) != 0 && errno != EINVAL) {
       fail(errno);
     }
     synced_ = true;
     on_disk_ = SteadyClock::now();
   }
-  // Were it not possible, readers would leave out what is no whole record.
-  void take_back() const {
+  // If this fails, readers ignore the incomplete record.
+  void undo() const {
     if (::ftruncate(descriptor_, size_) != 0) {
       return;
     }
@@ -81,7 +81,7 @@ class NewFile {
 
   std::filesystem::path file_;
   int descriptor_;
-  off_t size_ = 0;  ///< of what was appended whole
+  off_t size_ = 0;  ///< of the complete appends
   bool synced_ = true;
   SteadyClock::time_point on_disk_ = SteadyClock::now();
 };
@@ -116,7 +116,7 @@ RecordingWriter::~RecordingWriter() {
 void RecordingWriter::finish() {
   {
     const std::lock_guard lock(mutex_);
-    over_ = true;
+    closed_ = true;
   }
   changed_.notify_one();
   if (thread_.joinable()) {
@@ -160,7 +160,7 @@ std::string RecordingWriter::encoded(std::deque<Record>& records) {
   for (const Record& record : records) {
     if (const auto more = encoder_.encode(record)) {
       bytes += *more;
-    } else {  // of one participant too many
+    } else {  // too many participants
       const std::lock_guard lock(mutex_);
       ++dropped_;
       ++missing_;
@@ -174,9 +174,9 @@ void RecordingWriter::run() {
   SteadyClock::time_point wrote = SteadyClock::now();
   std::unique_lock lock(mutex_);
   for (;;) {
-    // Nothing for a while: what there is shall be on the disk.
-    changed_.wait_for(lock, kToDisk, [this] { return over_ || !queue_.empty(); });
-    if (over_ && queue_.empty()) {
+    // After a pause the data so far is synchronised with the disk.
+    changed_.wait_for(lock, kToDisk, [this] { return closed_ || !queue_.empty(); });
+    if (closed_ && queue_.empty()) {
       return;
     }
     std::deque<Record> records = std::exchange(queue_, {});
@@ -186,7 +186,7 @@ void RecordingWriter::run() {
     std::optional<std::string> failure;
     try {
       written = encoded(records);
-      // Nothing says: to the disk.
+      // An empty string synchronises.
       if (!written.empty() || records.empty() || SteadyClock::now() - wrote > kToDisk) {
         write_(written);
         wrote = SteadyClock::now();

@@ -11,7 +11,9 @@
 #include <future>
 #include <thread>
 
+#include "meeting/protocol/messages.h"
 #include "meeting/protocol/recording_reader.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
@@ -33,14 +35,8 @@ std::vector<Record> records_of(const std::string& file) {
   return records;
 }
 
-std::string words_of(const std::string& file) {
-  try {
-    inspect_recording(file);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::input);
-    return e.what();
-  }
-  return "";
+std::string refusal(const std::string& file) {
+  return error_of([&] { inspect_recording(file); }, ErrorKind::input);
 }
 
 TEST(RecordingWriter, WhatIsAddedIsInTheFile) {
@@ -64,10 +60,10 @@ TEST(RecordingWriter, WhatIsAddedIsInTheFile) {
   EXPECT_EQ(inspect_recording(file).complaint, "");
   struct stat about {};
   ASSERT_EQ(::stat(file.c_str(), &about), 0);
-  EXPECT_EQ(about.st_mode & 0777U, 0600U) << "what people do and say is nobody else's";
+  EXPECT_EQ(about.st_mode & 0777U, 0600U) << "only its owner may read it";
 }
 
-TEST(RecordingWriter, WhatIsLeftOutIsNoReasonToBringAllToTheDisk) {
+TEST(RecordingWriter, DroppedMessageDoesNotSyncTheDisk) {
   std::vector<std::size_t> sizes;
   const auto write = [&](std::string_view bytes) { sizes.push_back(bytes.size()); };
   {
@@ -92,17 +88,15 @@ TEST(RecordingWriter, WhatIsLeftOutIsNoReasonToBringAllToTheDisk) {
   EXPECT_EQ(std::count(sizes.begin(), sizes.end(), 0U), 0);
 }
 
-TEST(RecordingWriter, AnotherFileIsNotWrittenOver) {
+TEST(RecordingWriter, DoesNotOverwriteAFile) {
   const ScratchFolder folder;
   std::ofstream(folder.file("a.troom")) << "precious";
   EXPECT_THROW(new_recording_file(folder.file("a.troom")), Error);
   EXPECT_THROW(new_recording_file(folder.file("none/a.troom")), Error);
-  std::string content;
-  std::ifstream(folder.file("a.troom")) >> content;
-  EXPECT_EQ(content, "precious");
+  EXPECT_EQ(content_of(folder.file("a.troom")), "precious");
 }
 
-TEST(RecordingWriter, ASlowDiskLosesPosesFirstAndBlocksNobody) {
+TEST(RecordingWriter, SlowDiskDropsPosesFirstAndBlocksNobody) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   std::promise<void> stuck;
@@ -127,11 +121,11 @@ TEST(RecordingWriter, ASlowDiskLosesPosesFirstAndBlocksNobody) {
   EXPECT_GT(writer.dropped(), kPoses / 3);
   const std::uint64_t poses = writer.dropped();
   writer.add(message(2, TopicKind::chat, 50));
-  EXPECT_EQ(writer.dropped(), poses) << "words have more room than poses";
+  EXPECT_EQ(writer.dropped(), poses) << "other messages have more space than poses";
   for (int i = 0; i < 1000; ++i) {
     writer.add(message(3, TopicKind::board, kLongestPayload));
   }
-  EXPECT_GT(writer.dropped(), poses) << "memory has a bound";
+  EXPECT_GT(writer.dropped(), poses) << "memory is bounded";
   go_on.set_value();
   writer.end(9);
   std::uint64_t missing = 0;
@@ -147,7 +141,7 @@ TEST(RecordingWriter, ASlowDiskLosesPosesFirstAndBlocksNobody) {
   EXPECT_EQ(missing + there, 1 + kPoses + 1 + 1000);
 }
 
-TEST(RecordingWriter, WhatTheDiskRefusesAtTheEndIsTold) {
+TEST(RecordingWriter, FailureAtTheEndIsReported) {
   RecordingWriter writer(
       [](std::string_view bytes) {
         if (bytes.empty()) {
@@ -159,7 +153,7 @@ TEST(RecordingWriter, WhatTheDiskRefusesAtTheEndIsTold) {
   EXPECT_THROW(writer.end(1), Error);
 }
 
-TEST(RecordingWriter, AFullDiskIsToldAndKeepsWhatIsThere) {
+TEST(RecordingWriter, FullDiskIsReportedAndKeepsTheStart) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   rlimit before{};
@@ -185,42 +179,91 @@ TEST(RecordingWriter, AFullDiskIsToldAndKeepsWhatIsThere) {
   EXPECT_EQ(std::filesystem::file_size(file), writer.bytes()) << "whole records only";
   EXPECT_FALSE(records_of(file).empty());
   EXPECT_EQ(inspect_recording(file).complaint,
-            "the recording was not ended in order; its end may be missing");
+            "the recording was not closed properly; its end may be missing");
 }
 
-TEST(RecordingReader, SaysWhatIsWrong) {
+TEST(RecordingReader, ReportsWhatIsWrongWithAFile) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   const auto put = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
   };
-  EXPECT_NE(words_of(file).find("No such file"), std::string::npos);
-  EXPECT_NE(words_of(folder.path().string()).find("it is a folder"), std::string::npos);
+  EXPECT_TRUE(contains(refusal(file), "No such file"));
+  EXPECT_TRUE(contains(refusal(folder.path().string()), "it is a folder"));
   put("");
-  EXPECT_NE(words_of(file).find("it is empty"), std::string::npos);
+  EXPECT_TRUE(contains(refusal(file), "it is empty"));
   put("{\"header\": {}}\n");
-  EXPECT_NE(words_of(file).find("it is no recording of a room"), std::string::npos);
+  EXPECT_TRUE(contains(refusal(file), "it is not a recording of a meeting"));
   const std::string begin = RecordingEncoder::begin(kStart);
   put(begin.substr(0, 30));
-  EXPECT_NE(words_of(file).find("breaks off"), std::string::npos);
+  EXPECT_TRUE(contains(refusal(file), "ends before anything"));
   std::string newer = begin;
   newer[8] = 9;
   put(newer);
-  EXPECT_NE(words_of(file).find("another version"), std::string::npos);
+  EXPECT_TRUE(contains(refusal(file), "does not know its version"));
   RecordingEncoder encoder;
   const std::string more = *encoder.encode(message(1, TopicKind::pose, 10));
   put(begin + more);
   EXPECT_EQ(inspect_recording(file).complaint,
-            "the recording was not ended in order; its end may be missing");
+            "the recording was not closed properly; its end may be missing");
   put(begin + more + more.substr(0, 5));
   EXPECT_EQ(inspect_recording(file).complaint,
-            "its end is cut off; 5 bytes that are no whole record are left out");
+            "it is truncated; the last 5 bytes are not a whole record and are ignored");
   put(begin + more + std::string(100, '\0'));
-  EXPECT_EQ(inspect_recording(file).complaint, "it is damaged at byte " +
-                                                   std::to_string(begin.size() + more.size()) +
-                                                   "; what comes from there on is left out");
+  EXPECT_EQ(inspect_recording(file).complaint,
+            "it is damaged at byte " + std::to_string(begin.size() + more.size()) + "; the rest is ignored");
   put(begin + more + *encoder.encode(RecordingEnd{2}));
   EXPECT_EQ(inspect_recording(file).complaint, "");
+}
+
+RecordedMessage sent(std::uint64_t at, const std::string& who, TopicKind kind, const std::string& payload) {
+  return {at, {kind, who, 0}, payload};
+}
+
+std::string state(const std::string& name) {
+  ParticipantState state;
+  state.name = name;
+  return write_state(state);
+}
+
+TEST(RecordingSummary, KnowsWhoTookPart) {
+  RecordingSummary summary;
+  summary.add(RecordingStart{{"home", "studio"}, "today"});
+  summary.add(sent(1, "", TopicKind::meeting, "{}"));
+  summary.add(sent(1, "gone", TopicKind::presence, write_presence({false, 3})));
+  summary.add(sent(1, "gone", TopicKind::state, ""));
+  summary.add(sent(1, "lost", TopicKind::presence, write_presence({false, 4})));
+  summary.add(sent(1, "lost", TopicKind::state, state("Who was killed")));
+  summary.add(sent(2, "p1", TopicKind::presence, write_presence({true, 3})));
+  summary.add(sent(3, "p1", TopicKind::state, state("Ana")));
+  summary.add(sent(4, "p1", TopicKind::state, state("Ana B")));
+  summary.add(sent(5, "p2", TopicKind::pose, "?"));
+  summary.add(sent(6, "p3", TopicKind::chat, "?"));
+  summary.add(ConnectionLost{7, "why"});
+  summary.add(ConnectionRestored{8});
+  summary.add(MessagesDropped{9, 4});
+  summary.add(RecordingEnd{12});
+  EXPECT_EQ(summary.start.meeting.meeting, "studio");
+  ASSERT_EQ(summary.people.size(), 5U);
+  EXPECT_FALSE(summary.people.at("gone").takes_part) << "left earlier";
+  EXPECT_FALSE(summary.people.at("lost").takes_part) << "a retained state is not a sign of life";
+  EXPECT_TRUE(summary.people.at("p1").takes_part);
+  EXPECT_EQ(summary.people.at("p1").names, (std::set<std::string>{"Ana", "Ana B"}));
+  EXPECT_EQ(summary.people.at("p1").others, 3U);
+  EXPECT_EQ(summary.people.at("p2").frames, 1U);
+  EXPECT_TRUE(summary.people.at("p2").takes_part);
+  EXPECT_TRUE(summary.people.at("p3").takes_part);
+  EXPECT_EQ(summary.gaps, 1U);
+  EXPECT_EQ(summary.dropped, 4U);
+  EXPECT_EQ(summary.end, 12U);
+}
+
+TEST(RecordingSummary, PeopleAreWantedByNameOrParticipant) {
+  const RecordedParticipant ana{{"Ana", "Ana B"}, 0, 0, true};
+  EXPECT_TRUE(is_wanted("p1", ana, {}));
+  EXPECT_TRUE(is_wanted("p1", ana, {"p1"}));
+  EXPECT_TRUE(is_wanted("p1", ana, {"Bo", "Ana B"}));
+  EXPECT_FALSE(is_wanted("p1", ana, {"Bo"}));
 }
 
 }  // namespace

@@ -22,9 +22,8 @@ constexpr std::array<std::pair<std::string_view, TopicKind>, 4> kOfParticipant =
 
 const std::string& checked(const std::string& segment) {
   if (!is_topic_segment(segment)) {
-    throw Error(ErrorKind::usage,
-                "\"" + segment + "\" cannot be the name of a tenant, a room or a participant",
-                "Such a name is 1 to 32 small letters, digits, _ and -.");
+    throw Error(ErrorKind::usage, "\"" + segment + "\" cannot name a tenant, a meeting or a participant",
+                "A name consists of 1 to 32 lower-case letters, digits, _ and -.");
   }
   return segment;
 }
@@ -33,7 +32,7 @@ std::string prefix_of(const MeetingAddress& meeting) {
   return "r/" + checked(meeting.tenant) + "/" + checked(meeting.meeting) + "/";
 }
 
-// Pages have one spelling each: no signs, no leading zeros.
+// Each page has exactly one spelling: no sign, no leading zeros.
 std::optional<int> read_page(std::string_view text) {
   int page = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), page);

@@ -1,45 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace telemime::meeting {
 
-/// A room at a broker.
+/// A meeting at a broker. Its topics begin with "r/<tenant>/<meeting>/".
 struct MeetingAddress {
   std::string tenant;
   std::string meeting;
 };
 
+/// What the messages of a topic say; `meeting` describes the meeting itself (topic "room").
 enum class TopicKind { pose, state, presence, chat, board, meeting };
 
-/// One of a room's topics.
+/// One topic of a meeting.
 struct Topic {
   TopicKind kind = TopicKind::meeting;
-  std::string participant;  ///< whose; empty for `room`
-  int page = 0;             ///< of a `board`, 0 to 63
+  std::string participant;  ///< whose topic it is; empty for `meeting`
+  int page = 0;             ///< of a `board`, 0 to kMostBoardPages - 1
 };
 
 inline constexpr int kMostBoardPages = 64;
+/// Maximum size of the payload of any message, bytes; longer ones are ignored.
+inline constexpr std::size_t kLongestPayload = 16384;
 
-/// Whether the text may be a tenant, a room or a participant: 1 to 32 of a-z 0-9 _ -.
+/// Whether the text can name a tenant, a meeting or a participant: 1 to 32 of a-z 0-9 _ -.
 bool is_topic_segment(std::string_view text);
 
-/// The topic's text: "r/<tenant>/<room>/p/<participant>/pose" and the like. Throws Error(usage) when a
-/// segment or the page is none.
+/// The text of a topic, such as "r/<tenant>/<meeting>/p/<participant>/pose". Throws Error(usage) when a
+/// segment or the page is invalid.
 std::string topic_text(const MeetingAddress& meeting, const Topic& topic);
 
-/// The topic of this text; nothing when it is none of this room's.
+/// Parses the text of a topic. Returns nothing when it is not a topic of this meeting.
 std::optional<Topic> read_topic(const MeetingAddress& meeting, std::string_view text);
 
-/// What to subscribe to for the presence of everybody in the room. Throws Error(usage) as above.
+/// The subscription filter for the presence of all participants. Throws Error(usage) as above.
 std::string presence_filter(const MeetingAddress& meeting);
-/// The same for all that is said in the room.
+
+/// The subscription filter for all messages of the meeting.
 std::string meeting_filter(const MeetingAddress& meeting);
 
-/// The participant of an account's user name, "<room>.<participant>"; nothing when it is none of this room.
+/// The participant of a user name "<meeting>.<participant>". Returns nothing for other users.
 std::optional<std::string> participant_of_user(const MeetingAddress& meeting, std::string_view user);
 
 }  // namespace telemime::meeting

@@ -35,7 +35,7 @@ TEST(Topic, IsReadBack) {
   EXPECT_EQ(read_topic(kMeeting, "r/home/studio/room")->kind, TopicKind::meeting);
 }
 
-TEST(Topic, OthersAreNone) {
+TEST(Topic, OtherTextIsRejected) {
   for (const char* const text : {"",
                                  "r",
                                  "r/home",
@@ -68,7 +68,7 @@ TEST(Topic, OthersAreNone) {
   }
 }
 
-TEST(Topic, SegmentsAreSmall) {
+TEST(Topic, SegmentsAreChecked) {
   for (const char* const good : {"a", "0", "_", "-", "room_1", "abcdefghijklmnopqrstuvwxyz012345"}) {
     EXPECT_TRUE(is_topic_segment(good)) << good;
   }
@@ -85,7 +85,7 @@ TEST(Topic, SegmentsAreSmall) {
   EXPECT_THROW(topic_text(kMeeting, {TopicKind::board, "a", -1}), Error);
 }
 
-TEST(Topic, UsersAreOfARoom) {
+TEST(Topic, UsersBelongToAMeeting) {
   EXPECT_EQ(participant_of_user(kMeeting, "studio.p01"), "p01");
   for (const char* const user : {"", "studio", "studio.", ".p01", "other.p01", "studio.p.01", "studio.P"}) {
     EXPECT_FALSE(participant_of_user(kMeeting, user)) << user;
