@@ -27,7 +27,7 @@
 #include "track_options.h"
 
 #ifdef TELEMIME_MEETING
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #endif
 
 namespace telemime {

@@ -8,8 +8,8 @@
 
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/transport/mqtt_key.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
+#include "meeting/transport/senders.h"
 #include "subscriber.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/streaming/testing_receivers.h"

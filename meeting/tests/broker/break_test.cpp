@@ -7,7 +7,7 @@
 #include "broker.h"
 #include "feeder.h"
 #include "meeting/protocol/messages.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "relay.h"
 #include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"

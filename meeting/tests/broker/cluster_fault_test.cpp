@@ -10,7 +10,7 @@
 
 #include "cluster.h"
 #include "feeder.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "relay.h"
 #include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rooms on a broker cluster: trackers at one node, those who hear them at another.
 #include "cluster.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 
 #include <gtest/gtest.h>
 

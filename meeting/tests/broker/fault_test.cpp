@@ -11,7 +11,7 @@
 #include "broker.h"
 #include "feeder.h"
 #include "meeting/protocol/messages.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "subscriber.h"
 #include "telemime/streaming/testing_receivers.h"
 #include "tracker_process.h"

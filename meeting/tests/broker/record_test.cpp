@@ -9,7 +9,7 @@
 #include "broker.h"
 #include "feeder.h"
 #include "meeting/protocol/recording_reader.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "recordings.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"

@@ -10,7 +10,7 @@
 
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "recordings.h"
 #include "relay.h"
 #include "telemime/core/errors.h"

@@ -5,7 +5,7 @@
 #include "authority.h"
 #include "broker.h"
 #include "feeder.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "telemime/streaming/testing_receivers.h"
 
 namespace telemime::meeting::test_support {

@@ -15,7 +15,7 @@
 #include <thread>
 
 #include "feeder.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 
 namespace {
 

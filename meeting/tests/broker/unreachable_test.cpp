@@ -8,7 +8,7 @@
 
 #include "cut_network.h"
 #include "feeder.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "telemime/streaming/testing_receivers.h"
 
 namespace telemime::meeting::test_support {

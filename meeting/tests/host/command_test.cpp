@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "e2e/run_program.h"
-#include "meeting/transport/link_login.h"
+#include "meeting/transport/login.h"
 #include "open_meeting.h"
 
 namespace telemime::meeting::test_support {

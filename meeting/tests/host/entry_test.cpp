@@ -6,8 +6,8 @@
 
 #include "broker/feeder.h"
 #include "broker/subscriber.h"
-#include "meeting/transport/link_login.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/login.h"
+#include "meeting/transport/senders.h"
 #include "open_meeting.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"

@@ -3,7 +3,7 @@
 
 #include <mosquitto.h>
 
-#include "meeting/transport/mqtt_library.h"
+#include "meeting/transport/mqtt_connection.h"
 
 namespace telemime::meeting::test_support {
 

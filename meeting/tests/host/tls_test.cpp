@@ -15,8 +15,8 @@
 
 #include "broker/authority.h"
 #include "broker/feeder.h"
-#include "meeting/transport/link_login.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/login.h"
+#include "meeting/transport/senders.h"
 #include "open_meeting.h"
 #include "telemime/core/errors.h"
 

@@ -13,7 +13,7 @@
 
 #include "cli/interrupt.h"
 #include "meeting/commands/commands.h"
-#include "meeting/transport/sender_kinds.h"
+#include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {

@@ -14,9 +14,9 @@ constexpr std::string_view kChair = "c";
 constexpr std::string_view kWatcher = "watch";
 constexpr std::size_t kMostDigits = 9;
 
-/// "12.s": what is signed.
-std::string body_of(const RejoinToken& way) {
-  return std::to_string(way.number) + "." + std::string(way.chair ? kChair : kSpeaker);
+/// The signed part: "12.s".
+std::string body_of(const RejoinToken& token) {
+  return std::to_string(token.number) + "." + std::string(token.chair ? kChair : kSpeaker);
 }
 
 std::string user_of(const MeetingAddress& meeting, std::string_view who) {
@@ -33,8 +33,8 @@ std::string participant_password(std::string_view key, const std::string& partic
   return signature(key, "password " + participant);
 }
 
-std::string write_rejoin_token(std::string_view key, const RejoinToken& way) {
-  return body_of(way) + "." + signature(key, "way back " + body_of(way));
+std::string write_rejoin_token(std::string_view key, const RejoinToken& token) {
+  return body_of(token) + "." + signature(key, "way back " + body_of(token));
 }
 
 std::optional<RejoinToken> read_rejoin_token(std::string_view key, std::string_view text) {
@@ -42,11 +42,11 @@ std::optional<RejoinToken> read_rejoin_token(std::string_view key, std::string_v
   if (digits.empty() || digits.size() > kMostDigits || text.size() < digits.size() + 3) {
     return std::nullopt;
   }
-  RejoinToken way;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), way.number);
-  way.chair = text.substr(digits.size() + 1, 1) == kChair;
-  const bool read = error == std::errc() && end == digits.data() + digits.size() && way.number > 0;
-  return read && same_secret(text, write_rejoin_token(key, way)) ? std::optional(way) : std::nullopt;
+  RejoinToken token;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), token.number);
+  token.chair = text.substr(digits.size() + 1, 1) == kChair;
+  const bool read = error == std::errc() && end == digits.data() + digits.size() && token.number > 0;
+  return read && same_secret(text, write_rejoin_token(key, token)) ? std::optional(token) : std::nullopt;
 }
 
 std::string topic_base(const MeetingAddress& meeting) {
@@ -54,9 +54,9 @@ std::string topic_base(const MeetingAddress& meeting) {
   return base.substr(0, base.rfind('/'));
 }
 
-// Pages of the blackboard are named one by one: with a wildcard somebody could have the broker keep any
-// number of messages. The room stands first: for every message that is delivered the list is gone through
-// from its start.
+// The pages of the blackboard are listed one by one: a wildcard would allow any number of retained messages.
+// The meeting comes first, because the broker searches the list from its start for every message that it
+// delivers.
 BrokerAccount participant_account(const MeetingAddress& meeting, std::string_view key,
                                   const std::string& participant, bool chair) {
   BrokerAccount account{user_of(meeting, participant),

@@ -13,7 +13,7 @@ namespace {
 
 const MeetingAddress kMeeting{"home", "blue"};
 
-TEST(RandomText, Base64IsThatOfRfc4648) {
+TEST(Crypto, Base64IsThatOfRfc4648) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
@@ -23,11 +23,11 @@ TEST(RandomText, Base64IsThatOfRfc4648) {
 }
 
 // RFC 4231, test case 2.
-TEST(RandomText, ASignatureIsHmacSha256) {
+TEST(Crypto, SignatureIsHmacSha256) {
   EXPECT_EQ(signature("Jefe", "what do ya want for nothing?"), "W9zBRr9gdU5qBCQmCJV1x1oAPwidJzmDnexYuWTsOEM");
 }
 
-TEST(RandomText, SecretsDifferAndFitIntoAddresses) {
+TEST(Crypto, SecretsDifferAndFitIntoUrls) {
   std::set<std::string> all;
   for (int i = 0; i < 100; ++i) {
     const std::string secret = random_secret();
@@ -40,7 +40,7 @@ TEST(RandomText, SecretsDifferAndFitIntoAddresses) {
   EXPECT_EQ(all.size(), 100U);
 }
 
-TEST(RandomText, SameSecretComparesAll) {
+TEST(Crypto, SameSecretComparesEverything) {
   EXPECT_TRUE(same_secret("", ""));
   EXPECT_TRUE(same_secret("abc", "abc"));
   EXPECT_FALSE(same_secret("abc", "abd"));
@@ -55,7 +55,7 @@ TEST(Accounts, IdsAreSegmentsInOrder) {
   EXPECT_TRUE(is_topic_segment(participant_id(1'000'000'000)));
 }
 
-TEST(Accounts, AWayBackIsReadAsItWasWritten) {
+TEST(Accounts, RejoinTokenIsReadAsWritten) {
   for (const unsigned number : {1U, 9U, 10U, 12345U, 999'999'999U}) {
     for (const bool chair : {false, true}) {
       const std::string text = write_rejoin_token("key", {number, chair});
@@ -68,7 +68,7 @@ TEST(Accounts, AWayBackIsReadAsItWasWritten) {
   }
 }
 
-TEST(Accounts, AWayBackThatWasChangedIsNone) {
+TEST(Accounts, ChangedRejoinTokenIsRejected) {
   const std::string good = write_rejoin_token("key", {12, false});
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::string bad = good;
@@ -83,7 +83,7 @@ TEST(Accounts, AWayBackThatWasChangedIsNone) {
   EXPECT_FALSE(read_rejoin_token("key", "012" + good.substr(2))) << "one text for one way";
 }
 
-TEST(Accounts, PasswordsBelongToOneParticipantOfOneRoom) {
+TEST(Accounts, PasswordsBelongToOneParticipant) {
   std::set<std::string> all;
   for (const char* const key : {"a", "b"}) {
     for (unsigned number = 1; number < 100; ++number) {
@@ -95,7 +95,7 @@ TEST(Accounts, PasswordsBelongToOneParticipantOfOneRoom) {
   EXPECT_EQ(participant_password("a", "p01"), participant_password("a", "p01"));
 }
 
-TEST(Accounts, AParticipantWritesOnlyBelowTheirOwnTopics) {
+TEST(Accounts, ParticipantsWriteTheirOwnTopicsOnly) {
   const BrokerAccount account = participant_account(kMeeting, "key", "p07", false);
   EXPECT_EQ(account.user, "blue.p07");
   EXPECT_EQ(account.read, std::vector<std::string>{"r/home/blue/#"});

@@ -12,20 +12,21 @@
 namespace telemime::meeting {
 namespace {
 
-constexpr int kRounds = 101;  // as mosquitto_passwd
+constexpr int kRounds = 101;  // like mosquitto_passwd
 constexpr std::size_t kSalt = 12;
 constexpr std::size_t kHash = 64;
 
 std::string path_text(const std::filesystem::path& path) {
   std::string text = path.string();
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' '; })) {
-    throw Error(ErrorKind::usage, "the path \"" + text + "\" cannot be told to the broker",
-                "Use one without line breaks.");
+    throw Error(ErrorKind::usage, "the path \"" + text + "\" cannot be used in the broker's configuration",
+                "Choose one without line breaks.");
   }
   return text;
 }
 
-// Without the domain its WebSockets would listen at all addresses, whatever stands there (Mosquitto 2.0.11).
+// Without socket_domain, WebSockets listen at all addresses, whatever the configuration says
+// (Mosquitto 2.0.11).
 std::string listener(const BrokerSettings& settings, std::uint16_t port, const std::string& protocol) {
   std::string text = "\nlistener " + std::to_string(port) + " " + settings.address +
                      "\nsocket_domain ipv4\n" + "protocol " + protocol + "\nmax_connections " +

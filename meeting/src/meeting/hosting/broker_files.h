@@ -10,32 +10,32 @@
 
 namespace telemime::meeting {
 
-/// What Mosquitto is told when it starts.
+/// The configuration of Mosquitto.
 struct BrokerSettings {
-  std::filesystem::path folder;       ///< of its files: absolute, for its user alone
-  std::string address = "127.0.0.1";  ///< IPv4, in numbers
+  std::filesystem::path folder;       ///< of its files: absolute, accessible to its user only
+  std::string address = "127.0.0.1";  ///< numeric IPv4
   std::uint16_t port = 1883;          ///< of MQTT
   std::uint16_t web_port = 9001;      ///< of MQTT over WebSocket
   std::filesystem::path certificate;  ///< empty: no TLS
   std::filesystem::path key;
-  int most_connections = 200;  ///< to each of the two
-  std::string user;            ///< whom it runs as when it is started by root
+  int most_connections = 200;  ///< to each of the two ports
+  std::string user;            ///< to run as when root starts it
 };
 
-/// Its files in that folder. The socket is for this program alone.
+/// Its files in that folder. The socket is for this program only.
 std::filesystem::path broker_configuration_file(const std::filesystem::path& folder);
 std::filesystem::path broker_password_file(const std::filesystem::path& folder);
 std::filesystem::path broker_access_file(const std::filesystem::path& folder);
 std::filesystem::path broker_socket(const std::filesystem::path& folder);
 
-/// mosquitto.conf(5). Throws Error(usage) for a path that cannot stand in it (a line break).
+/// The text of mosquitto.conf(5). Throws Error(usage) for a path with a line break.
 std::string broker_configuration(const BrokerSettings& settings);
 
-/// A line of Mosquitto's password file, without its end: PBKDF2 with SHA-512 and a new salt. The passwords
-/// are random, so that few rounds do.
+/// A line of Mosquitto's password file: PBKDF2 with SHA-512 and a new salt. Few rounds suffice because the
+/// passwords are random.
 std::string password_line(const std::string& user, const std::string& password);
 
-/// Mosquitto's access rules for these accounts; nobody else may do anything.
+/// Mosquitto's access rules for these accounts. All others are forbidden everything.
 std::string access_rules(std::span<const BrokerAccount> accounts);
 
 }  // namespace telemime::meeting

@@ -12,7 +12,7 @@ bool has_line(const std::string& text, const std::string& line) {
   return ("\n" + text).find("\n" + line + "\n") != std::string::npos;
 }
 
-TEST(BrokerFiles, TheConfigurationLetsNobodyInWithoutAnAccount) {
+TEST(BrokerFiles, ConfigurationRequiresAnAccount) {
   BrokerSettings settings;
   settings.folder = "/run/x";
   settings.port = 1884;
@@ -29,7 +29,7 @@ TEST(BrokerFiles, TheConfigurationLetsNobodyInWithoutAnAccount) {
   EXPECT_EQ(text.find("\nuser "), std::string::npos);
 }
 
-TEST(BrokerFiles, TlsIsOnBothListenersOfTheNetwork) {
+TEST(BrokerFiles, TlsIsOnBothNetworkListeners) {
   BrokerSettings settings;
   settings.folder = "/run/x";
   settings.certificate = "/etc/room.pem";
@@ -43,13 +43,13 @@ TEST(BrokerFiles, TlsIsOnBothListenersOfTheNetwork) {
   EXPECT_GT(first, text.find("listener 1883"));
 }
 
-TEST(BrokerFiles, APathCannotAddALine) {
+TEST(BrokerFiles, PathCannotAddALine) {
   BrokerSettings settings;
   settings.folder = "/run/x\nallow_anonymous true";
   EXPECT_THROW(broker_configuration(settings), Error);
 }
 
-TEST(BrokerFiles, PasswordsAreHashedWithASaltOfTheirOwn) {
+TEST(BrokerFiles, PasswordsAreHashedWithTheirOwnSalt) {
   const std::string line = password_line("blue.p01", "secret");
   EXPECT_TRUE(line.starts_with("blue.p01:$7$101$")) << line;
   EXPECT_EQ(line.find("secret"), std::string::npos);

@@ -25,23 +25,23 @@ constexpr int kFirstPause = 200;  // ms
 constexpr int kLongestPause = 5000;
 constexpr int kLongestEnd = 3000;
 constexpr int kTick = 20;
-constexpr std::size_t kMostSaid = 2000;  // bytes
+constexpr std::size_t kMostOutput = 2000;  // bytes
 
-std::string words_of(int status) {
+std::string ending_of(int status) {
   if (WIFSIGNALED(status)) {
     return "signal " + std::to_string(WTERMSIG(status));
   }
   return "code " + std::to_string(WEXITSTATUS(status));
 }
 
-/// The last line of what a program said that is no warning, without the time that Mosquitto writes before it
-/// (s and ": ").
-std::string last_line(std::string_view said) {
-  while (!said.empty()) {
-    said = said.substr(0, said.find_last_not_of(" \r\n") + 1);
-    const std::size_t start = said.rfind('\n') + 1;  // 0 where there is none
-    std::string_view line = said.substr(start);
-    said = said.substr(0, start);
+/// The last line of a program's output that is not a warning, without the time that Mosquitto writes before
+/// it (s and ": ").
+std::string last_line(std::string_view output) {
+  while (!output.empty()) {
+    output = output.substr(0, output.find_last_not_of(" \r\n") + 1);
+    const std::size_t start = output.rfind('\n') + 1;  // 0 if there is none
+    std::string_view line = output.substr(start);
+    output = output.substr(0, start);
     const std::size_t digits = line.find_first_not_of("0123456789");
     if (digits != 0 && digits != std::string_view::npos && line.substr(digits).starts_with(": ")) {
       line.remove_prefix(digits + 2);
@@ -55,12 +55,13 @@ std::string last_line(std::string_view said) {
 
 }  // namespace
 
-BrokerProcess::BrokerProcess(std::filesystem::path program, std::filesystem::path configuration, Tell tell)
-    : program_(std::move(program)), configuration_(std::move(configuration)), tell_(std::move(tell)) {
+BrokerProcess::BrokerProcess(std::filesystem::path program, std::filesystem::path configuration,
+                             Report report)
+    : program_(std::move(program)), configuration_(std::move(configuration)), report_(std::move(report)) {
   wake_ = ::eventfd(0, EFD_CLOEXEC);
   if (wake_ < 0) {
     throw Error(ErrorKind::output,
-                "the broker cannot be looked after: " + std::generic_category().message(errno));
+                "the broker cannot be supervised: " + std::generic_category().message(errno));
   }
   thread_ = std::thread([this] { work(); });
 }
@@ -72,34 +73,34 @@ BrokerProcess::~BrokerProcess() {
   ::close(wake_);
 }
 
-// The child belongs to this thread: the system kills it when the thread ends.
+// The system kills the child when this thread ends.
 void BrokerProcess::work() {
   int pause = kFirstPause;
-  std::string told;
+  std::string reported;
   for (;;) {
     const auto begun = std::chrono::steady_clock::now();
-    std::string why;
+    std::string reason;
     try {
       start();
-      listen();
-      why = end_of_run();
+      watch();
+      reason = end_of_run();
     } catch (const Error& e) {
-      why = e.what();
+      reason = e.what();
     }
-    bool again = false;
+    bool restart = false;
     {
       const std::lock_guard lock(mutex_);
-      if (const std::string words = last_line(said_); !words.empty()) {
-        why += ": " + words;
+      if (const std::string line = last_line(text_); !line.empty()) {
+        reason += ": " + line;
       }
-      ending_ = why;
+      ending_ = reason;
       running_ = false;
-      again = again_;
+      restart = restart_;
     }
     if (wait(0)) {
       return;
     }
-    if (!again) {
+    if (!restart) {
       if (wait(-1)) {
         return;
       }
@@ -107,11 +108,11 @@ void BrokerProcess::work() {
     }
     if (std::chrono::steady_clock::now() - begun > std::chrono::milliseconds(kLongestPause)) {
       pause = kFirstPause;
-      told.clear();
+      reported.clear();
     }
-    if (why != told) {  // one that cannot start would say the same for ever
-      tell_("the broker has ended (" + why + "); it is started anew");
-      told = why;
+    if (reason != reported) {  // one that cannot start would repeat it forever
+      report_("the broker ended (" + reason + "); restarting it");
+      reported = reason;
     }
     if (wait(pause)) {
       return;
@@ -123,7 +124,7 @@ void BrokerProcess::work() {
 void BrokerProcess::start() {
   {
     const std::lock_guard lock(mutex_);
-    said_.clear();
+    text_.clear();
   }
   const ChildProcess child = start_child({program_.string(), "-c", configuration_.string()});
   const std::lock_guard lock(mutex_);
@@ -134,10 +135,10 @@ void BrokerProcess::start() {
   running_ = true;
 }
 
-// Until the program has ended or we are to. Closing its output is no end.
-void BrokerProcess::listen() {
+// Returns when the program has ended or this object is destroyed. A closed output is not the end.
+void BrokerProcess::watch() {
   std::array<char, 1024> text{};
-  int output = output_;  // -1: closed; poll() passes over it
+  int output = output_;  // -1: closed; poll() ignores it
   while (output >= 0 || end_ >= 0) {
     std::array<pollfd, 3> entries{{{output, POLLIN, 0}, {wake_, POLLIN, 0}, {end_, POLLIN, 0}}};
     if (::poll(entries.data(), entries.size(), -1) < 0 && errno != EINTR) {
@@ -152,20 +153,20 @@ void BrokerProcess::listen() {
       if (size == 0 || (size < 0 && errno != EINTR)) {
         output = -1;
       }
-      hear(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
+      append_output(text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
     } else if (entries[2].revents != 0) {
-      return;  // and all that it said was read
+      return;  // and all of its output is read
     }
   }
 }
 
-void BrokerProcess::hear(const char* text, std::size_t size) {
+void BrokerProcess::append_output(const char* text, std::size_t size) {
   const std::lock_guard lock(mutex_);
-  said_.append(text, size);
-  said_.erase(0, said_.size() > kMostSaid ? said_.size() - kMostSaid : 0);
+  text_.append(text, size);
+  text_.erase(0, text_.size() > kMostOutput ? text_.size() - kMostOutput : 0);
 }
 
-// Until it is waited for the number is its own: signal() must not find it afterwards.
+// The process id stays valid until waitpid(); signal() must not use it afterwards.
 std::string BrokerProcess::end_of_run() {
   siginfo_t about{};
   while (::waitid(P_PID, static_cast<id_t>(process_), &about, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
@@ -180,10 +181,10 @@ std::string BrokerProcess::end_of_run() {
       ::close(std::exchange(*descriptor, -1));
     }
   }
-  return words_of(status);
+  return ending_of(status);
 }
 
-// It has not been waited for: the number is still its own.
+// Before waitpid(), so that the process id is still valid.
 void BrokerProcess::stop_child() const {
   ::kill(process_, SIGTERM);
   siginfo_t about{};
@@ -198,7 +199,7 @@ void BrokerProcess::stop_child() const {
   ::kill(process_, SIGKILL);
 }
 
-/// True: we are to end.
+/// Returns true when the thread should end.
 bool BrokerProcess::wait(int milliseconds) const {
   pollfd entry{wake_, POLLIN, 0};
   return ::poll(&entry, 1, milliseconds) > 0;
@@ -206,7 +207,7 @@ bool BrokerProcess::wait(int milliseconds) const {
 
 void BrokerProcess::keep_running() {
   const std::lock_guard lock(mutex_);
-  again_ = true;
+  restart_ = true;
 }
 
 std::uint64_t BrokerProcess::run() const {
@@ -224,9 +225,9 @@ pid_t BrokerProcess::process() const {
   return process_;
 }
 
-std::string BrokerProcess::last_words() const {
+std::string BrokerProcess::last_output() const {
   const std::lock_guard lock(mutex_);
-  return said_;
+  return text_;
 }
 
 std::string BrokerProcess::ending() const {
@@ -240,8 +241,8 @@ std::filesystem::path find_mosquitto(const std::string& given, const char* path)
   };
   if (!given.empty()) {
     if (!runs(given)) {
-      throw Error(ErrorKind::usage, given + " is no program that can be started",
-                  "--mosquitto names the program of the broker Mosquitto.");
+      throw Error(ErrorKind::usage, given + " is not an executable program",
+                  "--mosquitto FILE is the path of the Mosquitto broker.");
     }
     return std::filesystem::absolute(given);
   }
@@ -256,8 +257,8 @@ std::filesystem::path find_mosquitto(const std::string& given, const char* path)
       return file;
     }
   }
-  throw Error(ErrorKind::usage, "a room needs the broker Mosquitto, which is not installed here",
-              "On Debian: apt install mosquitto. --mosquitto FILE says where it is.");
+  throw Error(ErrorKind::usage, "a meeting needs the Mosquitto broker, which is not installed",
+              "On Debian: apt install mosquitto. --mosquitto FILE is its path.");
 }
 
 }  // namespace telemime::meeting

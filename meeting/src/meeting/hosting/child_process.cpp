@@ -19,12 +19,12 @@ namespace {
 
 constexpr int kNotStarted = 127;
 
-/// Between fork and exec: only what may be called there while other threads exist.
-[[noreturn]] void become(char* const* words, int output, int nothing, pid_t parent) {
+/// Between fork and exec: calls only async-signal-safe functions, because other threads exist.
+[[noreturn]] void become(char* const* arguments, int output, int empty_input, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) {
-    ::_exit(kNotStarted);  // it died before that
+    ::_exit(kNotStarted);  // the parent ended before
   }
   sigset_t none{};
   ::sigemptyset(&none);
@@ -32,15 +32,15 @@ constexpr int kNotStarted = 127;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
     ::signal(number, SIG_DFL);
   }
-  ::dup2(nothing, STDIN_FILENO);
+  ::dup2(empty_input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
   ::close_range(STDERR_FILENO + 1, ~0U, 0);
-  ::execv(words[0], words);
-  // Of the names of errors this one alone may be asked for here (signal-safety(7)).
+  ::execv(arguments[0], arguments);
+  // The only async-signal-safe function for the name of an error (signal-safety(7)).
   const char* const why = ::strerrordesc_np(errno);
   for (const char* const part : std::initializer_list<const char*>{
-           words[0], " cannot be started: ", why == nullptr ? "" : why, "\n"}) {
+           arguments[0], " cannot be started: ", why == nullptr ? "" : why, "\n"}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part, std::strlen(part));
   }
   ::_exit(kNotStarted);
@@ -52,32 +52,32 @@ constexpr int kNotStarted = 127;
 
 }  // namespace
 
-ChildProcess start_child(const std::vector<std::string>& words) {
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (const std::string& word : words) {
-    arguments.push_back(const_cast<char*>(word.c_str()));
+ChildProcess start_child(const std::vector<std::string>& arguments) {
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
+  for (const std::string& word : arguments) {
+    pointers.push_back(const_cast<char*>(word.c_str()));
   }
-  arguments.push_back(nullptr);
+  pointers.push_back(nullptr);
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
-    fail(words[0]);
+    fail(arguments[0]);
   }
-  const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const int empty_input = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   const pid_t parent = ::getpid();
-  const pid_t child = nothing < 0 ? -1 : ::fork();
+  const pid_t child = empty_input < 0 ? -1 : ::fork();
   if (child == 0) {
-    become(arguments.data(), pipe[1], nothing, parent);
+    become(pointers.data(), pipe[1], empty_input, parent);
   }
   const int error = errno;
   ::close(pipe[1]);
-  if (nothing >= 0) {
-    ::close(nothing);
+  if (empty_input >= 0) {
+    ::close(empty_input);
   }
   if (child < 0) {
     ::close(pipe[0]);
     errno = error;
-    fail(words[0]);
+    fail(arguments[0]);
   }
   return {child, pipe[0]};
 }

@@ -34,7 +34,7 @@ Digest digest(std::string_view bytes) {
 std::string random_bytes(std::size_t count) {
   std::string bytes(count, '\0');
   if (::RAND_bytes(reinterpret_cast<unsigned char*>(bytes.data()), static_cast<int>(count)) != 1) {
-    throw Error(ErrorKind::output, "this computer has no random numbers to make secrets of");
+    throw Error(ErrorKind::output, "this computer has no random numbers for secrets");
   }
   return bytes;
 }
@@ -66,7 +66,7 @@ std::string signature(std::string_view key, std::string_view text) {
   return base64url({reinterpret_cast<const char*>(result.data()), result.size()});
 }
 
-// Of their digests: those have one length, whatever the two have.
+// Compares digests, which have the same length.
 bool same_secret(std::string_view a, std::string_view b) {
   const Digest left = digest(a);
   const Digest right = digest(b);

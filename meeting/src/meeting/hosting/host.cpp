@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/hosting/host.h"
 
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -9,21 +8,20 @@
 #include "meeting/hosting/provisioning.h"
 #include "meeting/hosting/secrets.h"
 #include "meeting/hosting/service.h"
+#include "meeting/protocol/json.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/web_tls.h"
 
 namespace telemime::meeting {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t kMostParticipants = 500;
 constexpr std::size_t kLongestTitle = 200;  // bytes
 constexpr unsigned kNotFound = 404;
 constexpr unsigned kWrongType = 415;
-constexpr unsigned kNotNow = 503;
+constexpr unsigned kUnavailable = 503;
 
-WebContent words(unsigned status, const std::string& text) {
+WebContent plain_text(unsigned status, const std::string& text) {
   WebContent content;
   content.bytes = std::make_shared<const std::string>(text + "\n");
   content.type = "text/plain; charset=utf-8";
@@ -31,52 +29,53 @@ WebContent words(unsigned status, const std::string& text) {
   return content;
 }
 
-/// "name:7080" without its port. The broker listens at IPv4 addresses alone, so that [::1] is its name.
+/// "name:7080" without its port. The broker listens at IPv4 addresses only, so "[::1]" becomes localhost.
 std::string name_of(std::string_view host) {
   return host.starts_with('[') ? "localhost" : std::string(host.substr(0, host.find(':')));
 }
 
-std::string words_for(LoginResult answer) {
-  switch (answer) {
+std::string text_of(LoginResult result) {
+  switch (result) {
     case LoginResult::wrong_link:
-      return "This link does not open the room.";
+      return "This link is not valid.";
     case LoginResult::full:
-      return "All accounts of the room are taken.";
+      return "The meeting is full.";
     case LoginResult::locked:
-      return "The room is locked.";
-    case LoginResult::too_many_tries:
-      return "Too many tries. Wait a minute.";
+      return "The meeting is locked.";
+    case LoginResult::too_many_attempts:
+      return "Too many attempts. Wait a minute.";
     default:
-      return "This cannot be understood.";
+      return "The request is not valid.";
   }
 }
 
-HostOptions checked(HostOptions plan) {
-  check_name(plan.name);
-  if (plan.seats < 1 || plan.seats > 100 || plan.most < 1 || plan.most > kMostParticipants) {
-    throw Error(ErrorKind::usage, "a room has 1 to 100 seats, and at most " +
+HostOptions checked(HostOptions options) {
+  check_name(options.name);
+  check_name(options.tenant);
+  if (options.seats < 1 || options.seats > 100 || options.most < 1 || options.most > kMostParticipants) {
+    throw Error(ErrorKind::usage, "a meeting has 1 to 100 seats and at most " +
                                       std::to_string(kMostParticipants) + " participants");
   }
-  if (plan.title.size() > kLongestTitle) {
+  if (options.title.size() > kLongestTitle) {
     throw Error(ErrorKind::usage, "the title is longer than " + std::to_string(kLongestTitle) + " bytes");
   }
-  if (plan.certificate.empty() != plan.key.empty()) {
+  if (options.certificate.empty() != options.key.empty()) {
     throw Error(ErrorKind::usage, "TLS needs a certificate and its key",
                 "Give both: --certificate FILE --key FILE.");
   }
-  if (plan.address == "localhost") {
-    plan.address = "127.0.0.1";
+  if (options.address == "localhost") {
+    options.address = "127.0.0.1";
   }
-  plan.broker.address = plan.address;
-  plan.broker.certificate = plan.certificate;
-  plan.broker.key = plan.key;
-  // A participant has a page, a tracker, and now and then an old connection beside a new one.
-  plan.broker.most_connections = static_cast<int>(4 * plan.most) + 200;
-  return plan;
+  options.broker.address = options.address;
+  options.broker.certificate = options.certificate;
+  options.broker.key = options.key;
+  // A participant has a page, a tracker, and sometimes an old connection besides a new one.
+  options.broker.most_connections = static_cast<int>(4 * options.most) + 200;
+  return options;
 }
 
-MeetingSecrets secrets_of(SecretsFile& file, bool new_ones) {
-  if (!new_ones) {
+MeetingSecrets secrets_of(SecretsFile& file, bool new_links) {
+  if (!new_links) {
     return file.load();
   }
   MeetingSecrets secrets = new_secrets();
@@ -84,37 +83,40 @@ MeetingSecrets secrets_of(SecretsFile& file, bool new_ones) {
   return secrets;
 }
 
-std::string link_host(const HostOptions& plan) {
-  if (!plan.host.empty()) {
-    return plan.host;
+std::string link_host(const HostOptions& options) {
+  if (!options.host.empty()) {
+    return options.host;
   }
-  if (plan.address == "0.0.0.0") {
+  if (options.address == "0.0.0.0") {
     return own_address();
   }
-  return plan.address == "127.0.0.1" ? "localhost" : plan.address;
+  return options.address == "127.0.0.1" ? "localhost" : options.address;
 }
 
 }  // namespace
 
 struct MeetingHost::State {
-  State(HostOptions asked, Tell say)
-      : plan(checked(std::move(asked))),
-        tell(std::move(say)),
-        meeting{plan.tenant, plan.name},
-        file(plan.secrets),
-        secrets(secrets_of(file, plan.new_links)),
+  State(HostOptions given, Report reporter)
+      : options(checked(std::move(given))),
+        report(std::move(reporter)),
+        meeting{options.tenant, options.name},
+        file(options.secrets),
+        secrets(secrets_of(file, options.new_links)),
         service_key(service_account(meeting)),
-        desk(meeting, secrets, rules(), service_key, file, desk_hooks()) {
-    if (!plan.certificate.empty()) {
-      web_tls(plan.certificate, plan.key);  // wrong files are told before anything is started
+        provisioning(
+            meeting,
+            LoginPolicy(secrets, {.most = options.most, .keeps_seat = options.keeps_seat, .rate_limit = {}}),
+            service_key, file, provisioning_hooks()) {
+    if (!options.certificate.empty()) {
+      web_tls(options.certificate, options.key);  // reports wrong files before anything starts
     }
-    broker.emplace(plan.broker, meeting, desk.accounts(),
-                   [this](const std::string& text) { tell(Level::warning, text); });
+    broker.emplace(options.broker, meeting, provisioning.accounts(),
+                   [this](const std::string& text) { report(Level::warning, text); });
     MeetingInfo info;
-    info.title = plan.title;
-    info.seats = plan.seats;
+    info.title = options.title;
+    info.seats = options.seats;
     service.emplace(broker->socket(), meeting, service_key, info, service_hooks());
-    desk.open(*broker);
+    provisioning.open(*broker);
     server.emplace(web_options(), web_handlers());
   }
   ~State() {
@@ -125,52 +127,46 @@ struct MeetingHost::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  LoginRules rules() const {
-    LoginRules rules;
-    rules.most = plan.most;
-    rules.keeps_seat = plan.keeps_seat;
-    return rules;
-  }
-
-  Provisioning::Hooks desk_hooks() {
+  Provisioning::Hooks provisioning_hooks() {
     return {[this](std::vector<std::string> chairs, const std::vector<std::string>& freed) {
               service->set_chairs(std::move(chairs));
               service->forget(freed);
             },
-            [this](const std::string& text) { tell(Level::warning, text); }};
+            [this](const std::string& text) { report(Level::warning, text); }};
   }
 
   MeetingService::Hooks service_hooks() {
-    return {[this](const std::string& id, bool here) { desk.seen(id, here); },
-            [this](const MeetingInfo& info) { desk.lock(info.locked); }, [this] { desk.set_all_absent(); }};
+    return {[this](const std::string& id, bool here) { provisioning.set_presence(id, here); },
+            [this](const MeetingInfo& info) { provisioning.lock(info.locked); },
+            [this] { provisioning.set_all_absent(); }};
   }
 
   WebServerOptions web_options() const {
-    WebServerOptions options;
-    options.address = plan.address;
-    options.port = plan.port;
-    if (const std::string host = link_host(plan); host != "localhost") {
-      options.hosts = {host};
+    WebServerOptions web;
+    web.address = options.address;
+    web.port = options.port;
+    if (const std::string host = link_host(options); host != "localhost") {
+      web.hosts = {host};
     }
-    options.most_clients = 0;
-    // A browser opens up to six at once, and a class comes in at once, often from one address.
-    options.more_connections = 8 * plan.most + 200;
-    options.certificate = plan.certificate;
-    options.key = plan.key;
-    return options;
+    web.most_clients = 0;
+    // A browser opens up to six connections, and a class joins at the same time, often from one address.
+    web.more_connections = 8 * options.most + 200;
+    web.certificate = options.certificate;
+    web.key = options.key;
+    return web;
   }
 
   WebHandlers web_handlers() {
     WebHandlers handlers;
-    handlers.get = [this](const std::string& path) { return plan.file(path); };
+    handlers.get = [this](const std::string& path) { return options.file(path); };
     handlers.post = [this](WebPost post, std::function<void(WebContent)> answer) {
-      enter(std::move(post), std::move(answer));
+      log_in(std::move(post), std::move(answer));
     };
     handlers.policy = [this](std::string_view host) { return policy(host); };
     return handlers;
   }
 
-  bool secure() const { return !plan.certificate.empty(); }
+  bool secure() const { return !options.certificate.empty(); }
   std::string web_broker(std::string_view host) const {
     return (secure() ? "wss://" : "ws://") + name_of(host) + ":" + std::to_string(broker->web_port());
   }
@@ -184,45 +180,46 @@ struct MeetingHost::State {
            web_broker(host) + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
   }
 
-  void enter(WebPost post, std::function<void(WebContent)> answer) {
+  void log_in(WebPost post, std::function<void(WebContent)> answer) {
     if (post.path != "/room/enter") {
-      answer(words(kNotFound, "There is nothing here."));
+      answer(plain_text(kNotFound, "There is nothing here."));
       return;
     }
-    // Forms of other web sites cannot send this type.
+    // Forms on other web sites cannot send this type.
     if (!post.type.starts_with("application/json")) {
-      answer(words(kWrongType, "The question is JSON: application/json."));
+      answer(plain_text(kWrongType, "The request must be JSON: application/json."));
       return;
     }
-    desk.ask(post.body, post.address,
-             [this, host = post.host, answer](const std::optional<Provisioning::Ticket>& ticket) {
-               answer(ticket ? entered(*ticket, host)
-                             : words(kNotNow, "The room's broker is busy. Try again in a moment."));
-             });
+    provisioning.request(
+        post.body, post.address,
+        [this, host = post.host, answer](const std::optional<Provisioning::Grant>& grant) {
+          answer(grant ? answer_of(*grant, host)
+                       : plain_text(kUnavailable, "The broker is busy. Try again in a moment."));
+        });
   }
 
-  WebContent entered(const Provisioning::Ticket& ticket, const std::string& host) const {
-    if (ticket.answer != LoginResult::log_in) {
-      return words(static_cast<unsigned>(ticket.answer), words_for(ticket.answer));
+  WebContent answer_of(const Provisioning::Grant& grant, const std::string& host) const {
+    if (grant.result != LoginResult::accepted) {
+      return plain_text(static_cast<unsigned>(grant.result), text_of(grant.result));
     }
     Json roles = {"watch"};
-    if (!ticket.participant.empty()) {
+    if (!grant.participant.empty()) {
       roles = {"speak", "board"};
-      if (ticket.chair) {
+      if (grant.chair) {
         roles.push_back("chair");
       }
     }
-    Json json = {{"user", ticket.account.user},
-                 {"password", ticket.account.password},
+    Json json = {{"user", grant.account.user},
+                 {"password", grant.account.password},
                  {"participant", nullptr},
                  {"mqtt", web_broker(host)},
                  {"tcp", tcp_broker(host)},
                  {"topic", topic_base(meeting)},
                  {"roles", roles},
-                 {"looks", plan.looks}};
-    if (!ticket.participant.empty()) {
-      json["participant"] = ticket.participant;
-      json["return"] = ticket.rejoin;
+                 {"looks", options.looks}};
+    if (!grant.participant.empty()) {
+      json["participant"] = grant.participant;
+      json["return"] = grant.rejoin;
     }
     WebContent content;
     content.bytes = std::make_shared<const std::string>(json.dump());
@@ -230,18 +227,18 @@ struct MeetingHost::State {
     return content;
   }
 
-  const HostOptions plan;
-  const Tell tell;
+  const HostOptions options;
+  const Report report;
   const MeetingAddress meeting;
   SecretsFile file;
   const MeetingSecrets secrets;
   const BrokerAccount service_key;
-  Provisioning desk;
+  Provisioning provisioning;
   std::optional<HostedBroker> broker;
   std::optional<MeetingService> service;
-  // Its thread uses the two above, also when the page cannot be served after all.
-  const std::unique_ptr<Provisioning, void (*)(Provisioning*)> closed_desk{
-      &desk, [](Provisioning* d) { d->close(); }};
+  // Ends the thread of `provisioning` before the two above, which it uses, even if the constructor fails.
+  const std::unique_ptr<Provisioning, void (*)(Provisioning*)> closed_provisioning{
+      &provisioning, [](Provisioning* p) { p->close(); }};
   std::optional<WebServer> server;
 };
 
@@ -252,13 +249,13 @@ void check_name(const std::string& name) {
   }
 }
 
-MeetingHost::MeetingHost(HostOptions plan, Tell tell)
-    : state_(std::make_unique<State>(std::move(plan), std::move(tell))) {}
+MeetingHost::MeetingHost(HostOptions options, Report report)
+    : state_(std::make_unique<State>(std::move(options), std::move(report))) {}
 
 MeetingHost::~MeetingHost() = default;
 
 std::string MeetingHost::page() const {
-  const std::string host = link_host(state_->plan);
+  const std::string host = link_host(state_->options);
   return (state_->secure() ? "https://" : "http://") + host +
          (host.find(':') == std::string::npos ? ":" + std::to_string(port()) : "") + "/room";
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/hosting/hosted_broker.h"
 
+#include <mosquitto.h>
 #include <pwd.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -13,10 +14,10 @@
 #include <thread>
 #include <utility>
 
-#include "meeting/hosting/broker_probe.h"
 #include "meeting/hosting/crypto.h"
 #include "meeting/hosting/ports.h"
-#include "meeting/hosting/private_file.h"
+#include "meeting/transport/files.h"
+#include "meeting/transport/mqtt_connection.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -29,40 +30,40 @@ constexpr std::uint16_t kMqtts = 8883;
 constexpr std::uint16_t kWeb = 9001;
 constexpr std::chrono::seconds kStarts{10};
 constexpr std::chrono::seconds kReloads{10};
-constexpr std::chrono::milliseconds kAskAgain{10};
-constexpr std::chrono::milliseconds kSignalAgain{500};
+constexpr std::chrono::milliseconds kProbeInterval{10};
+constexpr std::chrono::milliseconds kSignalInterval{500};
 constexpr int kMostStarts = 5;
 
-// It would become somebody else when root starts it, and could not read its files.
+// Started by root, it would change to another user and could not read its files.
 std::string user_when_root() {
   const passwd* const entry = ::geteuid() == 0 ? ::getpwuid(0) : nullptr;
   return entry == nullptr ? "" : entry->pw_name;
 }
 
-/// The port that was asked for, the usual one, or a free one.
-std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_t> asked, std::uint16_t usual,
-                          const std::string& what, const std::string& option,
-                          const HostedBroker::Tell& tell) {
-  const std::uint16_t wanted = asked.value_or(usual);
+/// The requested port, or the usual one, or a free one.
+std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_t> requested,
+                          std::uint16_t usual, const std::string& what, const std::string& option,
+                          const HostedBroker::Report& report) {
+  const std::uint16_t wanted = requested.value_or(usual);
   if (const auto port = free_port(address, wanted)) {
     return *port;
   }
-  if (asked) {
+  if (requested) {
     throw Error(ErrorKind::output, "port " + std::to_string(wanted) + " is taken by another program",
                 "End that program, or choose another port for " + what + ": " + option + ".");
   }
   const auto other = free_port(address, 0);
   if (!other) {
     throw Error(ErrorKind::output, "nothing can be served at " + address,
-                "127.0.0.1 is for this computer alone, 0.0.0.0 for whoever can reach it.");
+                "127.0.0.1 is this computer only, 0.0.0.0 all networks.");
   }
-  tell("port " + std::to_string(wanted) + " is taken by another program: " + what + " uses " +
-       std::to_string(*other));
+  report("port " + std::to_string(wanted) + " is taken by another program: " + what + " uses " +
+         std::to_string(*other));
   return *other;
 }
 
-/// A copy that only its user may read: Mosquitto reads these files anew with the accounts, and what came to
-/// stand there later would be no longer what the page has.
+/// A copy that only its user can read. Mosquitto reads these files again with each set of accounts, but must
+/// keep the certificate that the page has.
 std::filesystem::path keep_copy(const std::filesystem::path& file, const std::filesystem::path& copy) {
   std::ifstream in(file, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -73,70 +74,96 @@ std::filesystem::path keep_copy(const std::filesystem::path& file, const std::fi
   return copy;
 }
 
+enum class BrokerAnswer {
+  accepted,  ///< it knows the account
+  rejected,  ///< it is running and does not know the account
+  none,      ///< it is not running (yet)
+};
+
+/// Connects once to the broker at this Unix socket, for at most a second.
+BrokerAnswer probe_broker(const std::filesystem::path& socket, const BrokerAccount& account) {
+  constexpr int kKeepAlive = 10;  // s
+  constexpr std::chrono::seconds kPatience{1};
+  const MqttLibrary library;
+  std::optional<int> code;
+  const MqttClient client(mosquitto_new(nullptr, /*clean_session=*/true, &code));
+  mosquitto_int_option(client.get(), MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311);
+  mosquitto_username_pw_set(client.get(), account.user.c_str(), account.password.c_str());
+  mosquitto_connect_callback_set(client.get(), [](mosquitto* /*client*/, void* result, int answer) {
+    *static_cast<std::optional<int>*>(result) = answer;
+  });
+  const auto end = Clock::now() + kPatience;
+  int state = mosquitto_connect(client.get(), socket.c_str(), 0, kKeepAlive);
+  while (state == MOSQ_ERR_SUCCESS && !code && Clock::now() < end) {
+    state = mosquitto_loop(client.get(), static_cast<int>(kProbeInterval.count()), 1);
+  }
+  mosquitto_disconnect(client.get());
+  return !code ? BrokerAnswer::none : *code == 0 ? BrokerAnswer::accepted : BrokerAnswer::rejected;
+}
+
 }  // namespace
 
-HostedBroker::HostedBroker(BrokerPlace place, const MeetingAddress& meeting,
-                           std::vector<BrokerAccount> accounts, Tell tell)
-    : meeting_(meeting.meeting), tell_(std::move(tell)), accounts_(std::move(accounts)) {
-  const std::filesystem::path program = find_mosquitto(place.program, std::getenv("PATH"));
+HostedBroker::HostedBroker(BrokerOptions options, const MeetingAddress& meeting,
+                           std::vector<BrokerAccount> accounts, Report report)
+    : meeting_(meeting.meeting), report_(std::move(report)), accounts_(std::move(accounts)) {
+  const std::filesystem::path program = find_mosquitto(options.program, std::getenv("PATH"));
   if (socket().string().size() >= sizeof(sockaddr_un::sun_path)) {
-    throw Error(ErrorKind::output,
-                "the folder of temporary files has too long a name: " + folder_.path().string(),
-                "Set TMPDIR to a folder with a shorter one.");
+    throw Error(ErrorKind::output, "the path of the temporary folder is too long: " + folder_.path().string(),
+                "Set TMPDIR to a folder with a shorter path.");
   }
   settings_.folder = folder_.path();
-  settings_.address = place.address;
-  if (!place.certificate.empty()) {
-    settings_.certificate = keep_copy(place.certificate, folder_.path() / "certificate.pem");
-    settings_.key = keep_copy(place.key, folder_.path() / "key.pem");
+  settings_.address = options.address;
+  if (!options.certificate.empty()) {
+    settings_.certificate = keep_copy(options.certificate, folder_.path() / "certificate.pem");
+    settings_.key = keep_copy(options.key, folder_.path() / "key.pem");
   }
-  settings_.most_connections = place.most_connections;
+  settings_.most_connections = options.most_connections;
   settings_.user = user_when_root();
   write_accounts();
-  // Between the look and the start somebody else may take a port that nobody asked for.
+  // Between the check and the start, another program may take a port: then choose again.
   for (int left = kMostStarts; left > 0; --left) {
-    settings_.port = choose_port(place.address, place.port, place.certificate.empty() ? kMqtt : kMqtts,
-                                 "MQTT", "--mqtt-port", tell_);
+    settings_.port = choose_port(options.address, options.port, options.certificate.empty() ? kMqtt : kMqtts,
+                                 "MQTT", "--mqtt-port", report_);
     settings_.web_port =
-        choose_port(place.address, place.web_port, kWeb, "MQTT over WebSocket", "--ws-port", tell_);
+        choose_port(options.address, options.web_port, kWeb, "MQTT over WebSocket", "--ws-port", report_);
     if (start(program)) {
       process_->keep_running();
       return;
     }
-    const bool taken = process_->last_words().find("in use") != std::string::npos;
+    const bool taken = process_->last_output().find("in use") != std::string::npos;
     if (!taken || left == 1) {
-      throw Error(ErrorKind::output, "the broker does not start: " + why_not());
+      throw Error(ErrorKind::output, "the broker does not start: " + failure());
     }
   }
 }
 
 bool HostedBroker::start(const std::filesystem::path& program) {
   write_private_file(broker_configuration_file(settings_.folder), broker_configuration(settings_));
-  process_ = std::make_unique<BrokerProcess>(program, broker_configuration_file(settings_.folder), tell_);
+  process_ = std::make_unique<BrokerProcess>(program, broker_configuration_file(settings_.folder), report_);
   return comes_up();
 }
 
 bool HostedBroker::comes_up() const {
   const auto until = Clock::now() + kStarts;
   while (!process_->has_ended() && Clock::now() < until) {
-    if (knows_newest()) {
+    if (knows_accounts()) {
       return true;
     }
-    std::this_thread::sleep_for(kAskAgain);
+    std::this_thread::sleep_for(kProbeInterval);
   }
   return false;
 }
 
-std::string HostedBroker::why_not() const {
-  const std::string words = process_->last_words();
+std::string HostedBroker::failure() const {
+  const std::string text = process_->last_output();
   const std::string ending = process_->has_ended() ? process_->ending() : "no answer";
-  return words.empty() ? ending : words;
+  return text.empty() ? ending : text;
 }
 
 void HostedBroker::write_accounts() {
   ++generation_;
-  newest_ = {meeting_ + ".news-" + std::to_string(generation_), random_secret(), {}, {}};
-  std::string passwords = password_line(newest_.user, newest_.password) + "\n";
+  probe_ = {meeting_ + ".probe-" + std::to_string(generation_), random_secret(), {}, {}};
+  std::string passwords = password_line(probe_.user, probe_.password) + "\n";
   for (const BrokerAccount& account : accounts_) {
     passwords += password_line(account.user, account.password) + "\n";
   }
@@ -144,30 +171,30 @@ void HostedBroker::write_accounts() {
   write_private_file(broker_password_file(folder_.path()), passwords);
 }
 
-bool HostedBroker::knows_newest() const {
-  return ask_broker(socket(), newest_.user, newest_.password) == BrokerAnswer::accepted;
+bool HostedBroker::knows_accounts() const {
+  return probe_broker(socket(), probe_) == BrokerAnswer::accepted;
 }
 
-// Mosquitto says nothing when it has read its files anew. An account that was not in the files before is the
-// sign: it is let in only afterwards. SIGHUP would kill a broker that does not expect it yet; one that
-// refuses us has got so far.
+// Mosquitto does not report when it has read its files again. An account that was in no earlier set shows it:
+// the broker accepts it only afterwards. SIGHUP would kill a broker that is still starting; one that rejects
+// an account is running.
 bool HostedBroker::set_accounts(std::vector<BrokerAccount> accounts) {
   accounts_ = std::move(accounts);
   write_accounts();
   const auto until = Clock::now() + kReloads;
-  std::optional<std::pair<std::uint64_t, Clock::time_point>> told;
+  std::optional<std::pair<std::uint64_t, Clock::time_point>> signalled;
   while (Clock::now() < until && !given_up_) {
     const std::uint64_t run = process_->run();
-    const BrokerAnswer answer = ask_broker(socket(), newest_.user, newest_.password);
+    const BrokerAnswer answer = probe_broker(socket(), probe_);
     if (answer == BrokerAnswer::accepted) {
       return true;
     }
     const auto now = Clock::now();
-    const bool due = !told || told->first != run || now - told->second > kSignalAgain;
-    if (answer == BrokerAnswer::refused && due && process_->signal(run, SIGHUP)) {
-      told = {run, now};
+    const bool due = !signalled || signalled->first != run || now - signalled->second > kSignalInterval;
+    if (answer == BrokerAnswer::rejected && due && process_->signal(run, SIGHUP)) {
+      signalled = {run, now};
     }
-    std::this_thread::sleep_for(kAskAgain);
+    std::this_thread::sleep_for(kProbeInterval);
   }
   return false;
 }

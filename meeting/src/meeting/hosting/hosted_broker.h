@@ -17,52 +17,52 @@
 
 namespace telemime::meeting {
 
-/// Where the room's broker shall listen.
-struct BrokerPlace {
-  std::string program;                    ///< Mosquitto's; empty: the installed one
-  std::string address = "127.0.0.1";      ///< IPv4, in numbers
-  std::optional<std::uint16_t> port;      ///< of MQTT; nothing: the usual one, or another that is free
-  std::optional<std::uint16_t> web_port;  ///< of MQTT over WebSocket; the same
+/// Where the broker of a meeting listens.
+struct BrokerOptions {
+  std::string program;                    ///< path of Mosquitto; empty: the installed one
+  std::string address = "127.0.0.1";      ///< numeric IPv4
+  std::optional<std::uint16_t> port;      ///< of MQTT; nothing: the usual one, or a free one
+  std::optional<std::uint16_t> web_port;  ///< of MQTT over WebSocket, likewise
   std::filesystem::path certificate;      ///< empty: no TLS
   std::filesystem::path key;
   int most_connections = 200;
 };
 
-/// A Mosquitto of this program's own, with the accounts that it is given and nobody else.
+/// A Mosquitto that this program runs, with the given accounts only.
 class HostedBroker {
  public:
-  using Tell = std::function<void(const std::string& words)>;
+  using Report = std::function<void(const std::string& text)>;
 
-  /// Returns when it works. Throws Error(usage) when there is no Mosquitto or it refuses what it was told,
-  /// Error(output) when a port that was asked for is taken or it does not start.
-  HostedBroker(BrokerPlace place, const MeetingAddress& meeting, std::vector<BrokerAccount> accounts,
-               Tell tell);
+  /// Returns when the broker accepts clients. Throws Error(usage) when there is no Mosquitto or a file cannot
+  /// be read, and Error(output) when a requested port is taken or the broker does not start.
+  HostedBroker(BrokerOptions options, const MeetingAddress& meeting, std::vector<BrokerAccount> accounts,
+               Report report);
 
   std::uint16_t port() const { return settings_.port; }
   std::uint16_t web_port() const { return settings_.web_port; }
   std::filesystem::path socket() const { return broker_socket(folder_.path()); }
   pid_t process() const { return process_->process(); }
 
-  /// Has the broker know these accounts and no others; connections of the others end. Returns when it does:
-  /// true; false when it has not after 10 s (it may be starting anew, and then it will). Throws Error(output)
-  /// when the files cannot be written. For one thread at a time.
+  /// Replaces the accounts; connections of removed ones end. Returns true when the broker has applied them,
+  /// and false after 10 s (if it is restarting, it will apply them later). Throws Error(output) when the
+  /// files cannot be written. For one thread at a time.
   bool set_accounts(std::vector<BrokerAccount> accounts);
-  /// From any thread: set_accounts() waits no longer, now and later.
+  /// From any thread: set_accounts() does not wait any more.
   void give_up() { given_up_ = true; }
 
  private:
   void write_accounts();
   bool start(const std::filesystem::path& program);
   bool comes_up() const;
-  std::string why_not() const;
-  bool knows_newest() const;
+  std::string failure() const;
+  bool knows_accounts() const;
 
   const ScratchFolder folder_;
   const std::string meeting_;
   BrokerSettings settings_;
-  Tell tell_;
+  Report report_;
   std::vector<BrokerAccount> accounts_;
-  BrokerAccount newest_;  ///< nobody's: the broker knows it when it knows all
+  BrokerAccount probe_;  ///< in no earlier set of accounts: the broker knows all when it knows this one
   unsigned generation_ = 0;
   std::atomic<bool> given_up_ = false;
   std::unique_ptr<BrokerProcess> process_;

@@ -2,135 +2,163 @@
 #include "meeting/hosting/login_policy.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <utility>
 
 #include "meeting/hosting/crypto.h"
+#include "meeting/protocol/json.h"
 
 namespace telemime::meeting {
 namespace {
 
-using Json = nlohmann::json;
-
-constexpr int kDeepestQuestion = 4;
+constexpr int kDeepestRequest = 3;
 constexpr std::size_t kLongestText = 500;
 
-/// False: there is one, and it is none that can be meant.
-bool take_text(const Json& json, const char* name, std::optional<std::string>& text) {
-  if (!json.contains(name) || json[name].is_null()) {
+/// The address, or the network of an IPv6 address.
+std::string network_of(const std::string& text) {
+  boost::system::error_code error;
+  const auto address = boost::asio::ip::make_address(text, error);
+  if (error || !address.is_v6()) {
+    return text;
+  }
+  auto bytes = address.to_v6().to_bytes();
+  std::fill(bytes.begin() + bytes.size() / 2, bytes.end(), static_cast<unsigned char>(0));
+  return boost::asio::ip::make_address_v6(bytes).to_string();
+}
+
+/// Reads an optional string. Returns false when the member exists and is invalid.
+bool read_text(const Json& json, const char* name, std::optional<std::string>& text) {
+  if (member(json, name).is_null()) {
     return true;
   }
-  if (!json[name].is_string()) {
-    return false;
-  }
-  text = json[name].get<std::string>();
+  text = text_member(json, name);
   return !text->empty() && text->size() <= kLongestText;
 }
 
 }  // namespace
 
-std::optional<LoginRequest> read_login_request(std::string_view body) {
-  bool deep = false;
-  const Json json = Json::parse(
-      body,
-      [&deep](int depth, Json::parse_event_t, Json&) {
-        deep = deep || depth >= kDeepestQuestion;
-        return !deep;
-      },
-      /*allow_exceptions=*/false);
-  if (deep || !json.is_object() || !json.contains("v") || json["v"] != 1) {
-    return std::nullopt;
+RateLimit::Left& RateLimit::of(const std::string& address, double now) {
+  const std::string network = network_of(address);
+  auto found = left_.find(network);
+  if (found == left_.end()) {
+    if (left_.size() >= options_.most_addresses) {  // forget the oldest
+      const auto oldest = std::min_element(
+          left_.begin(), left_.end(), [](const auto& a, const auto& b) { return a.second.at < b.second.at; });
+      left_.erase(oldest);
+    }
+    found = left_.emplace(network, Left{options_.attempts, options_.failures, now}).first;
   }
-  LoginRequest question;
-  if (!take_text(json, "invite", question.invite) || !take_text(json, "return", question.rejoin)) {
+  Left& left = found->second;
+  const double passed = std::max(0.0, now - left.at);
+  left.attempts = std::min(options_.attempts, left.attempts + passed * options_.attempts_per_second);
+  left.failures = std::min(options_.failures, left.failures + passed * options_.failures_per_second);
+  left.at = std::max(left.at, now);
+  return left;
+}
+
+bool RateLimit::take(double& left) {
+  const bool any = left >= 1.0;
+  left -= any ? 1.0 : 0.0;
+  return any;
+}
+
+std::optional<LoginRequest> read_login_request(std::string_view body) {
+  const Json json = parse_object(body, kDeepestRequest);
+  LoginRequest request;
+  if (!whole_member(json, "v", 1, 1) || !read_text(json, "invite", request.invite) ||
+      !read_text(json, "return", request.rejoin)) {
     return std::nullopt;
   }
   if (json.contains("watch")) {
     if (!json["watch"].is_boolean()) {
       return std::nullopt;
     }
-    question.watch = json["watch"].get<bool>();
+    request.watch = json["watch"].get<bool>();
   }
-  return question;
+  return request;
 }
 
-LoginDecision LoginPolicy::enter(const std::optional<LoginRequest>& question, const std::string& address,
-                                 double now) {
-  LoginDecision admission;
-  const auto miss = [&](LoginResult answer) {
-    admission.answer = tries_.miss(address, now) ? answer : LoginResult::too_many_tries;
-    return admission;
+LoginDecision LoginPolicy::log_in(const std::optional<LoginRequest>& request, const std::string& address,
+                                  double now) {
+  LoginDecision decision;
+  const auto decide = [&decision](LoginResult result) {
+    decision.result = result;
+    return decision;
   };
-  if (!question) {
-    return miss(LoginResult::malformed);
+  const auto fail = [&](LoginResult result) {
+    return decide(rate_limit_.allow_failure(address, now) ? result : LoginResult::too_many_attempts);
+  };
+  if (!request) {
+    return fail(LoginResult::malformed);
   }
-  const std::string invite = question->invite.value_or("");
-  // All three, whichever it is.
+
+  // The link: all three secrets are compared, whichever matches, so that the time reveals nothing.
+  const std::string invite = request->invite.value_or("");
   const bool speaks = same_secret(invite, secrets_.speak);
   const bool watches = same_secret(invite, secrets_.watch);
   const bool chairs = same_secret(invite, secrets_.chair);
-  std::optional<RejoinToken> way;
-  if (question->rejoin) {
-    way = read_rejoin_token(secrets_.key, *question->rejoin);
-    if (way && way->number >= secrets_.next) {
-      way.reset();
+
+  // The rejoin token.
+  std::optional<RejoinToken> token;
+  if (request->rejoin) {
+    token = read_rejoin_token(secrets_.key, *request->rejoin);
+    if (token && token->number >= secrets_.next) {
+      token.reset();
     }
   }
-  if (question->invite ? !(speaks || watches || chairs) : !way) {
-    return miss(LoginResult::wrong_link);
+  if (request->invite ? !(speaks || watches || chairs) : !token) {
+    return fail(LoginResult::wrong_link);
   }
-  if (!tries_.allow(address, now)) {
-    admission.answer = LoginResult::too_many_tries;
-    return admission;
+  if (!rate_limit_.allow(address, now)) {
+    return decide(LoginResult::too_many_attempts);
   }
-  const bool chair = chairs || (way && way->chair);
-  if (locked_ && !chair && !way) {
-    admission.answer = LoginResult::locked;
-    return admission;
+  const bool chair = chairs || (token && token->chair);
+  if (locked_ && !chair && !token) {
+    return decide(LoginResult::locked);
   }
-  if (question->watch || watches) {
-    admission.answer = LoginResult::log_in;
-    return admission;
+  if (request->watch || watches) {
+    return decide(LoginResult::accepted);
   }
-  return admit(way ? way->number : secrets_.next, chair, now);
+  return admit(token ? token->number : secrets_.next, chair, now);
 }
 
 LoginDecision LoginPolicy::admit(unsigned number, bool chair, double now) {
-  LoginDecision admission;
+  LoginDecision decision;
   const std::string id = participant_id(number);
-  auto member = members_.find(id);
-  if (member == members_.end()) {
-    if (!free_account(now, admission.freed)) {
-      admission.answer = LoginResult::full;
-      return admission;
+  auto found = members_.find(id);
+  if (found == members_.end()) {
+    if (!free_account(now, decision.freed)) {
+      decision.result = LoginResult::full;
+      return decision;
     }
-    member = members_.emplace(id, Member{chair, false, false, now}).first;
-    admission.changed = true;
+    found = members_.emplace(id, Member{chair, false, false, now}).first;
+    decision.changed = true;
     secrets_.next = std::max(secrets_.next, number + 1);
   }
-  admission.changed = admission.changed || member->second.chair != (member->second.chair || chair);
-  member->second.chair = member->second.chair || chair;
-  member->second.last = now;
-  admission.answer = LoginResult::log_in;
-  admission.participant = id;
-  admission.chair = member->second.chair;
-  admission.rejoin = write_rejoin_token(secrets_.key, {number, admission.chair});
-  return admission;
+  Member& member = found->second;
+  decision.changed = decision.changed || (chair && !member.chair);
+  member.chair = member.chair || chair;
+  member.last = now;
+  decision.result = LoginResult::accepted;
+  decision.participant = id;
+  decision.chair = member.chair;
+  decision.rejoin = write_rejoin_token(secrets_.key, {number, member.chair});
+  return decision;
 }
 
 bool LoginPolicy::free_account(double now, std::vector<std::string>& freed) {
   if (members_.size() < rules_.most) {
     return true;
   }
-  const auto may_go = [&](const Member& m) {
-    return !m.here &&
-           now - m.last >= (m.came ? rules_.keeps_seat : std::min(rules_.comes_within, rules_.keeps_seat));
+  const auto removable = [&](const Member& m) {
+    const double limit = m.joined ? rules_.keeps_seat : std::min(rules_.joins_within, rules_.keeps_seat);
+    return !m.here && now - m.last >= limit;
   };
   auto gone = members_.end();
   for (auto it = members_.begin(); it != members_.end(); ++it) {
     const Member& m = it->second;
-    if (may_go(m) && (gone == members_.end() ||
-                      std::pair(m.came, m.last) < std::pair(gone->second.came, gone->second.last))) {
+    if (removable(m) && (gone == members_.end() ||
+                         std::pair(m.joined, m.last) < std::pair(gone->second.joined, gone->second.last))) {
       gone = it;
     }
   }
@@ -142,12 +170,13 @@ bool LoginPolicy::free_account(double now, std::vector<std::string>& freed) {
   return true;
 }
 
-void LoginPolicy::seen(const std::string& participant, bool here, double now) {
-  const auto member = members_.find(participant);
-  if (member != members_.end()) {
-    member->second.here = here;
-    member->second.came = member->second.came || here;
-    member->second.last = now;
+void LoginPolicy::set_presence(const std::string& participant, bool here, double now) {
+  const auto found = members_.find(participant);
+  if (found != members_.end()) {
+    Member& member = found->second;
+    member.here = here;
+    member.joined = member.joined || here;
+    member.last = now;
   }
 }
 

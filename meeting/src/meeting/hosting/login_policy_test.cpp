@@ -15,11 +15,11 @@ const MeetingSecrets kSecrets{"speak-speak-speak", "watch-watch-watch", "chair-c
 
 std::optional<LoginRequest> with(const std::string& invite, const std::string& rejoin = "",
                                  bool watch = false) {
-  LoginRequest question;
-  question.invite = invite.empty() ? std::nullopt : std::optional(invite);
-  question.rejoin = rejoin.empty() ? std::nullopt : std::optional(rejoin);
-  question.watch = watch;
-  return question;
+  LoginRequest request;
+  request.invite = invite.empty() ? std::nullopt : std::optional(invite);
+  request.rejoin = rejoin.empty() ? std::nullopt : std::optional(rejoin);
+  request.watch = watch;
+  return request;
 }
 
 LoginRules rules(std::size_t most) {
@@ -28,19 +28,19 @@ LoginRules rules(std::size_t most) {
   return rules;
 }
 
-TEST(Question, IsReadFromJson) {
-  const auto question =
+TEST(LoginRequest, IsReadFromJson) {
+  const auto request =
       read_login_request(R"({"v":1,"invite":"abc","return":"1.s.x","watch":true,"more":[1]})");
-  ASSERT_TRUE(question);
-  EXPECT_EQ(question->invite, "abc");
-  EXPECT_EQ(question->rejoin, "1.s.x");
-  EXPECT_TRUE(question->watch);
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->invite, "abc");
+  EXPECT_EQ(request->rejoin, "1.s.x");
+  EXPECT_TRUE(request->watch);
   const auto bare = read_login_request(R"({"v":1,"invite":null})");
   ASSERT_TRUE(bare);
   EXPECT_FALSE(bare->invite || bare->rejoin || bare->watch);
 }
 
-TEST(Question, WhatIsNoneIsRefused) {
+TEST(LoginRequest, InvalidRequestsAreRejected) {
   for (const char* const bad :
        {"", "{", "[]", "1", "null", "{}", R"({"v":2,"invite":"a"})", R"({"v":"1"})", R"({"v":1,"invite":1})",
         R"({"v":1,"invite":""})", R"({"v":1,"return":["a"]})", R"({"v":1,"watch":1})",
@@ -51,7 +51,7 @@ TEST(Question, WhatIsNoneIsRefused) {
   EXPECT_FALSE(read_login_request(std::string(4000, '[')));
 }
 
-TEST(Question, RandomBytesDoNoHarm) {
+TEST(LoginRequest, RandomBytesAreHarmless) {
   Random random(1);
   const std::string good = R"({"v":1,"invite":"abc","return":"1.s.x","watch":true})";
   for (int i = 0; i < 20'000; ++i) {
@@ -65,168 +65,180 @@ TEST(Question, RandomBytesDoNoHarm) {
 }
 
 TEST(LoginPolicy, LinksGiveTheirRights) {
-  LoginPolicy door(kSecrets, {});
-  const LoginDecision speaker = door.enter(with(kSecrets.speak), "a", 0);
-  EXPECT_EQ(speaker.answer, LoginResult::log_in);
+  LoginPolicy policy(kSecrets, {});
+  const LoginDecision speaker = policy.log_in(with(kSecrets.speak), "a", 0);
+  EXPECT_EQ(speaker.result, LoginResult::accepted);
   EXPECT_EQ(speaker.participant, "p01");
   EXPECT_FALSE(speaker.chair);
   EXPECT_TRUE(speaker.changed);
-  const LoginDecision chair = door.enter(with(kSecrets.chair), "a", 0);
+  const LoginDecision chair = policy.log_in(with(kSecrets.chair), "a", 0);
   EXPECT_EQ(chair.participant, "p02");
   EXPECT_TRUE(chair.chair);
-  for (const auto& question :
+  for (const auto& request :
        {with(kSecrets.watch), with(kSecrets.speak, "", true), with(kSecrets.chair, "", true)}) {
-    const LoginDecision watcher = door.enter(question, "a", 0);
-    EXPECT_EQ(watcher.answer, LoginResult::log_in);
+    const LoginDecision watcher = policy.log_in(request, "a", 0);
+    EXPECT_EQ(watcher.result, LoginResult::accepted);
     EXPECT_EQ(watcher.participant, "");
     EXPECT_FALSE(watcher.changed);
   }
-  EXPECT_EQ(door.members().size(), 2U);
+  EXPECT_EQ(policy.members().size(), 2U);
 }
 
-TEST(LoginPolicy, OthersStayOutside) {
-  LoginPolicy door(kSecrets, {});
-  const std::string mine = door.enter(with(kSecrets.speak), "a", 0).rejoin;
-  for (const auto& question :
+TEST(LoginPolicy, OtherLinksAreRejected) {
+  LoginPolicy policy(kSecrets, {});
+  const std::string mine = policy.log_in(with(kSecrets.speak), "a", 0).rejoin;
+  for (const auto& request :
        {with("guess"), with(""), with("", "", true), with("", "1.s.guess"), with(kSecrets.key),
         with("guess", mine), with("", mine + "x"), with(kSecrets.speak + "x")}) {
-    EXPECT_EQ(door.enter(question, "b", 0).answer, LoginResult::wrong_link);
+    EXPECT_EQ(policy.log_in(request, "b", 0).result, LoginResult::wrong_link);
   }
-  EXPECT_EQ(door.enter(std::nullopt, "b", 0).answer, LoginResult::malformed);
-  EXPECT_EQ(door.members().size(), 1U);
+  EXPECT_EQ(policy.log_in(std::nullopt, "b", 0).result, LoginResult::malformed);
+  EXPECT_EQ(policy.members().size(), 1U);
   LoginPolicy other({"s", "w", "c", "another key", 50}, {});
-  EXPECT_EQ(other.enter(with("", mine), "b", 0).answer, LoginResult::wrong_link) << "after --new-links";
+  EXPECT_EQ(other.log_in(with("", mine), "b", 0).result, LoginResult::wrong_link) << "after --new-links";
 }
 
-TEST(LoginPolicy, WhoComesBackIsWhoTheyWere) {
-  LoginPolicy door(kSecrets, {});
-  const LoginDecision first = door.enter(with(kSecrets.speak), "a", 0);
-  door.enter(with(kSecrets.speak), "a", 0);
-  for (const auto& question : {with("", first.rejoin), with(kSecrets.speak, first.rejoin)}) {
-    const LoginDecision again = door.enter(question, "a", 1);
+TEST(LoginPolicy, RejoiningGivesTheSameParticipant) {
+  LoginPolicy policy(kSecrets, {});
+  const LoginDecision first = policy.log_in(with(kSecrets.speak), "a", 0);
+  policy.log_in(with(kSecrets.speak), "a", 0);
+  for (const auto& request : {with("", first.rejoin), with(kSecrets.speak, first.rejoin)}) {
+    const LoginDecision again = policy.log_in(request, "a", 1);
     EXPECT_EQ(again.participant, first.participant);
     EXPECT_EQ(again.rejoin, first.rejoin);
     EXPECT_FALSE(again.changed);
   }
-  const LoginDecision risen = door.enter(with(kSecrets.chair, first.rejoin), "a", 2);
+  const LoginDecision risen = policy.log_in(with(kSecrets.chair, first.rejoin), "a", 2);
   EXPECT_EQ(risen.participant, first.participant);
   EXPECT_TRUE(risen.chair && risen.changed);
-  EXPECT_TRUE(door.enter(with("", risen.rejoin), "a", 3).chair);
-  EXPECT_EQ(door.members().size(), 2U);
+  EXPECT_TRUE(policy.log_in(with("", risen.rejoin), "a", 3).chair);
+  EXPECT_EQ(policy.members().size(), 2U);
 }
 
-TEST(LoginPolicy, NobodyGetsTheIdOfAnother) {
-  LoginPolicy door(kSecrets, rules(3));
+TEST(LoginPolicy, IdsAreNeverReused) {
+  LoginPolicy policy(kSecrets, rules(3));
   std::set<std::string> ids;
   double now = 0;
   for (int i = 0; i < 50; ++i, now += 400) {
-    const LoginDecision admission = door.enter(with(kSecrets.speak), "a", now);
-    ASSERT_EQ(admission.answer, LoginResult::log_in);
+    const LoginDecision admission = policy.log_in(with(kSecrets.speak), "a", now);
+    ASSERT_EQ(admission.result, LoginResult::accepted);
     EXPECT_TRUE(ids.insert(admission.participant).second) << admission.participant;
-    EXPECT_LE(door.members().size(), 3U);
+    EXPECT_LE(policy.members().size(), 3U);
     for (const std::string& gone : admission.freed) {
-      EXPECT_FALSE(door.members().contains(gone));
+      EXPECT_FALSE(policy.members().contains(gone));
     }
   }
-  MeetingSecrets later = door.secrets();
-  EXPECT_EQ(later.next, 51U) << "nor after the room was closed";
+  MeetingSecrets later = policy.secrets();
+  EXPECT_EQ(later.next, 51U) << "not even after the meeting was closed";
 }
 
-TEST(LoginPolicy, AFullRoomFreesWhoHasBeenAwayLongest) {
-  LoginPolicy door(kSecrets, rules(2));
-  const LoginDecision a = door.enter(with(kSecrets.speak), "a", 0);
-  const LoginDecision b = door.enter(with(kSecrets.speak), "a", 10);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 20).answer, LoginResult::full) << "both have just come";
-  EXPECT_EQ(door.enter(with(kSecrets.watch), "a", 20).answer, LoginResult::log_in) << "who only looks on may";
-  door.seen(a.participant, true, 30);
-  door.seen(b.participant, true, 30);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 5000).answer, LoginResult::full) << "both are here";
-  door.seen(b.participant, false, 5000);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 5299).answer, LoginResult::full);
-  const LoginDecision c = door.enter(with(kSecrets.speak), "a", 5300);
-  EXPECT_EQ(c.answer, LoginResult::log_in);
+TEST(LoginPolicy, FullMeetingFreesTheLongestAbsent) {
+  LoginPolicy policy(kSecrets, rules(2));
+  const LoginDecision a = policy.log_in(with(kSecrets.speak), "a", 0);
+  const LoginDecision b = policy.log_in(with(kSecrets.speak), "a", 10);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 20).result, LoginResult::full)
+      << "both have just joined";
+  EXPECT_EQ(policy.log_in(with(kSecrets.watch), "a", 20).result, LoginResult::accepted)
+      << "watching is possible";
+  policy.set_presence(a.participant, true, 30);
+  policy.set_presence(b.participant, true, 30);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 5000).result, LoginResult::full) << "both are present";
+  policy.set_presence(b.participant, false, 5000);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 5299).result, LoginResult::full);
+  const LoginDecision c = policy.log_in(with(kSecrets.speak), "a", 5300);
+  EXPECT_EQ(c.result, LoginResult::accepted);
   EXPECT_EQ(c.freed, std::vector<std::string>{b.participant});
-  EXPECT_EQ(door.enter(with("", b.rejoin), "a", 5301).answer, LoginResult::full);
-  door.seen(c.participant, true, 5301);
-  door.seen(c.participant, false, 5302);
-  const LoginDecision back = door.enter(with("", b.rejoin), "a", 6000);
-  EXPECT_EQ(back.participant, b.participant) << "who was freed comes back as who they were";
+  EXPECT_EQ(policy.log_in(with("", b.rejoin), "a", 5301).result, LoginResult::full);
+  policy.set_presence(c.participant, true, 5301);
+  policy.set_presence(c.participant, false, 5302);
+  const LoginDecision back = policy.log_in(with("", b.rejoin), "a", 6000);
+  EXPECT_EQ(back.participant, b.participant) << "removed participants can rejoin";
   EXPECT_EQ(back.freed, std::vector<std::string>{c.participant});
 }
 
-TEST(LoginPolicy, ALockedRoomTakesOnlyThoseItKnowsAndChairs) {
-  LoginPolicy door(kSecrets, {});
-  const LoginDecision a = door.enter(with(kSecrets.speak), "a", 0);
-  door.lock(true);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 1).answer, LoginResult::locked);
-  EXPECT_EQ(door.enter(with(kSecrets.watch), "a", 1).answer, LoginResult::locked);
-  EXPECT_EQ(door.enter(with("guess"), "a", 1).answer, LoginResult::wrong_link) << "a stranger learns nothing";
-  EXPECT_EQ(door.enter(with(kSecrets.speak, a.rejoin), "a", 1).answer, LoginResult::log_in);
-  EXPECT_EQ(door.enter(with(kSecrets.chair), "a", 1).answer, LoginResult::log_in);
-  door.lock(false);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 1).answer, LoginResult::log_in);
+TEST(LoginPolicy, LockedMeetingAcceptsMembersAndChairs) {
+  LoginPolicy policy(kSecrets, {});
+  const LoginDecision a = policy.log_in(with(kSecrets.speak), "a", 0);
+  policy.lock(true);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 1).result, LoginResult::locked);
+  EXPECT_EQ(policy.log_in(with(kSecrets.watch), "a", 1).result, LoginResult::locked);
+  EXPECT_EQ(policy.log_in(with("guess"), "a", 1).result, LoginResult::wrong_link)
+      << "a wrong link reveals nothing";
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak, a.rejoin), "a", 1).result, LoginResult::accepted);
+  EXPECT_EQ(policy.log_in(with(kSecrets.chair), "a", 1).result, LoginResult::accepted);
+  policy.lock(false);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 1).result, LoginResult::accepted);
 }
 
-TEST(LoginPolicy, WhoGuessesTooOftenWaits) {
+TEST(LoginPolicy, GuessingIsLimited) {
   LoginRules strict;
-  strict.rates.misses = 3;
-  strict.rates.misses_per_second = 0.1;
-  LoginPolicy door(kSecrets, strict);
+  strict.rate_limit.failures = 3;
+  strict.rate_limit.failures_per_second = 0.1;
+  LoginPolicy policy(kSecrets, strict);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(door.enter(with("guess"), "a", 0).answer, LoginResult::wrong_link);
+    EXPECT_EQ(policy.log_in(with("guess"), "a", 0).result, LoginResult::wrong_link);
   }
-  EXPECT_EQ(door.enter(with("guess"), "a", 0).answer, LoginResult::too_many_tries);
-  EXPECT_EQ(door.enter(std::nullopt, "a", 9).answer, LoginResult::too_many_tries);
-  EXPECT_EQ(door.enter(with("guess"), "b", 9).answer, LoginResult::wrong_link) << "elsewhere";
-  EXPECT_EQ(door.enter(with("guess"), "a", 11).answer, LoginResult::wrong_link);
+  EXPECT_EQ(policy.log_in(with("guess"), "a", 0).result, LoginResult::too_many_attempts);
+  EXPECT_EQ(policy.log_in(std::nullopt, "a", 9).result, LoginResult::too_many_attempts);
+  EXPECT_EQ(policy.log_in(with("guess"), "b", 9).result, LoginResult::wrong_link) << "elsewhere";
+  EXPECT_EQ(policy.log_in(with("guess"), "a", 11).result, LoginResult::wrong_link);
 }
 
-TEST(LoginPolicy, WhoGuessesShutsNobodyOutBehindTheSameAddress) {
-  LoginPolicy door(kSecrets, {});
+TEST(LoginPolicy, GuessingLocksNobodyElseOut) {
+  LoginPolicy policy(kSecrets, {});
   for (int i = 0; i < 1000; ++i) {
-    door.enter(with("guess"), "proxy", 0);
+    policy.log_in(with("guess"), "proxy", 0);
   }
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "proxy", 0).answer, LoginResult::log_in);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "proxy", 0).result, LoginResult::accepted);
 }
 
-TEST(LoginPolicy, WhoNeverComesKeepsNobodyOut) {
-  LoginPolicy door(kSecrets, rules(3));
-  const LoginDecision here = door.enter(with(kSecrets.speak), "a", 0);
-  door.seen(here.participant, true, 1);
-  const LoginDecision away = door.enter(with(kSecrets.speak), "a", 1);
-  door.seen(away.participant, true, 1);
-  door.seen(away.participant, false, 2);
-  const LoginDecision lost = door.enter(with(kSecrets.speak), "a", 3);
-  EXPECT_EQ(door.enter(with(kSecrets.speak), "a", 32).answer, LoginResult::full);
-  const LoginDecision next = door.enter(with(kSecrets.speak), "a", 33);
-  EXPECT_EQ(next.answer, LoginResult::log_in);
-  EXPECT_EQ(next.freed, std::vector<std::string>{lost.participant}) << "not who was here a while ago";
+TEST(LoginPolicy, NewcomersWhoNeverJoinLoseTheirSeat) {
+  LoginPolicy policy(kSecrets, rules(3));
+  const LoginDecision here = policy.log_in(with(kSecrets.speak), "a", 0);
+  policy.set_presence(here.participant, true, 1);
+  const LoginDecision away = policy.log_in(with(kSecrets.speak), "a", 1);
+  policy.set_presence(away.participant, true, 1);
+  policy.set_presence(away.participant, false, 2);
+  const LoginDecision lost = policy.log_in(with(kSecrets.speak), "a", 3);
+  EXPECT_EQ(policy.log_in(with(kSecrets.speak), "a", 32).result, LoginResult::full);
+  const LoginDecision next = policy.log_in(with(kSecrets.speak), "a", 33);
+  EXPECT_EQ(next.result, LoginResult::accepted);
+  EXPECT_EQ(next.freed, std::vector<std::string>{lost.participant}) << "not somebody who was present";
 }
 
-TEST(RateLimit, TriesComeBackWithTime) {
-  RateLimit limit(
-      {.tries = 2, .tries_per_second = 0.5, .misses = 9, .misses_per_second = 1, .most_addresses = 9});
+TEST(RateLimit, AttemptsAreAddedAgainWithTime) {
+  RateLimit limit({.attempts = 2,
+                   .attempts_per_second = 0.5,
+                   .failures = 9,
+                   .failures_per_second = 1,
+                   .most_addresses = 9});
   EXPECT_TRUE(limit.allow("a", 0));
   EXPECT_TRUE(limit.allow("a", 0));
   EXPECT_FALSE(limit.allow("a", 1.9));
   EXPECT_TRUE(limit.allow("a", 2));
   EXPECT_TRUE(limit.allow("b", 2));
   EXPECT_TRUE(limit.allow("a", 1e9));
-  EXPECT_TRUE(limit.allow("a", 1e9)) << "no more than at first come together";
+  EXPECT_TRUE(limit.allow("a", 1e9)) << "never more than at the start";
   EXPECT_FALSE(limit.allow("a", 1e9));
 }
 
-TEST(RateLimit, OneNetworkOfIpv6IsOneAddress) {
-  RateLimit limit(
-      {.tries = 1, .tries_per_second = 0, .misses = 9, .misses_per_second = 1, .most_addresses = 9});
+TEST(RateLimit, Ipv6NetworkIsOneAddress) {
+  RateLimit limit({.attempts = 1,
+                   .attempts_per_second = 0,
+                   .failures = 9,
+                   .failures_per_second = 1,
+                   .most_addresses = 9});
   EXPECT_TRUE(limit.allow("2001:db8::1", 0));
   EXPECT_FALSE(limit.allow("2001:db8::2:0:0:9", 0));
   EXPECT_TRUE(limit.allow("2001:db8:0:1::1", 0));
 }
 
-TEST(RateLimit, RemembersSoManyAddressesAtMost) {
-  RateLimit limit(
-      {.tries = 1, .tries_per_second = 0, .misses = 9, .misses_per_second = 1, .most_addresses = 2});
+TEST(RateLimit, NumberOfAddressesIsBounded) {
+  RateLimit limit({.attempts = 1,
+                   .attempts_per_second = 0,
+                   .failures = 9,
+                   .failures_per_second = 1,
+                   .most_addresses = 2});
   EXPECT_TRUE(limit.allow("a", 0));
   EXPECT_TRUE(limit.allow("b", 1));
   EXPECT_TRUE(limit.allow("c", 2));

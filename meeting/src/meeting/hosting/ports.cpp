@@ -4,44 +4,46 @@
 #include <arpa/inet.h>
 #include <ifaddrs.h>
 #include <net/if.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <memory>
 
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
+namespace {
+
+namespace errc = boost::system::errc;
+using boost::asio::ip::tcp;
+
+constexpr const char* kAddresses = "127.0.0.1 is this computer only, 0.0.0.0 all networks.";
+
+}  // namespace
 
 std::optional<std::uint16_t> free_port(const std::string& address, std::uint16_t port) {
-  sockaddr_in where{};
-  where.sin_family = AF_INET;
-  where.sin_port = htons(port);
-  if (::inet_pton(AF_INET, address.c_str(), &where.sin_addr) != 1) {
-    throw Error(ErrorKind::usage, "'" + address + "' is no address that a room can be opened at",
-                "Write numbers: 127.0.0.1 is for this computer alone, 0.0.0.0 for whoever can reach it.");
+  boost::system::error_code error;
+  const auto where = boost::asio::ip::make_address_v4(address, error);
+  if (error) {
+    throw Error(ErrorKind::usage, "'" + address + "' is not an IPv4 address", kAddresses);
   }
-  const int descriptor = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int yes = 1;  // as the broker: a port whose last connections are still dying is free
-  ::setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  const bool bound = ::bind(descriptor, reinterpret_cast<const sockaddr*>(&where), sizeof where) == 0;
-  const int error = bound ? 0 : errno;
-  const bool free = bound && ::listen(descriptor, 1) == 0;
-  socklen_t size = sizeof where;
-  ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&where), &size);
-  ::close(descriptor);
-  if (error == EADDRNOTAVAIL) {
-    throw Error(ErrorKind::usage, "this computer has no address " + address,
-                "127.0.0.1 is for this computer alone, 0.0.0.0 for whoever can reach it.");
+  boost::asio::io_context io;
+  tcp::acceptor acceptor(io, tcp::v4());
+  // Like the broker, which can use a port whose last connections are still closing.
+  acceptor.set_option(tcp::acceptor::reuse_address(true));
+  acceptor.bind({where, port}, error);
+  if (error == errc::address_not_available) {
+    throw Error(ErrorKind::usage, "this computer does not have the address " + address, kAddresses);
   }
-  if (error == EACCES) {
-    throw Error(ErrorKind::output, "port " + std::to_string(port) + " is not for ordinary users",
-                "Choose one above 1023.");
+  if (error == errc::permission_denied) {
+    throw Error(ErrorKind::output, "port " + std::to_string(port) + " is reserved for the system",
+                "Choose a port above 1023.");
   }
-  return free ? std::optional(ntohs(where.sin_port)) : std::nullopt;
+  if (!error) {
+    acceptor.listen(1, error);
+  }
+  return error ? std::nullopt : std::optional(acceptor.local_endpoint().port());
 }
 
 std::string own_address() {

@@ -7,12 +7,13 @@
 
 namespace telemime::meeting {
 
-/// The port itself where a program can listen at it now, with port 0 any such port; nothing when it is taken.
-/// `address` is IPv4, in numbers. Throws Error(usage) when it is no address of this computer.
+/// Returns the port if a program can listen at it now (0: any free port), and nothing if it is taken.
+/// `address` is a numeric IPv4 address. Throws Error(usage) when this computer does not have it, and
+/// Error(output) for a port that is reserved.
 std::optional<std::uint16_t> free_port(const std::string& address, std::uint16_t port);
 
-/// The address that other computers of the same network most likely reach this one at; "127.0.0.1" when there
-/// is none.
+/// The address at which other computers on the network most likely reach this one; "127.0.0.1" without a
+/// network.
 std::string own_address();
 
 }  // namespace telemime::meeting

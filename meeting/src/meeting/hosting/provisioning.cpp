@@ -17,13 +17,13 @@ double seconds_now() {
 
 }  // namespace
 
-Provisioning::Provisioning(MeetingAddress meeting, MeetingSecrets secrets, LoginRules rules,
-                           BrokerAccount service, const SecretsFile& file, Hooks hooks)
+Provisioning::Provisioning(MeetingAddress meeting, LoginPolicy policy, BrokerAccount service,
+                           const SecretsFile& file, Hooks hooks)
     : meeting_(std::move(meeting)),
       service_(std::move(service)),
       file_(file),
       hooks_(std::move(hooks)),
-      door_(std::move(secrets), rules) {}
+      policy_(std::move(policy)) {}
 
 Provisioning::~Provisioning() {
   close();
@@ -32,7 +32,7 @@ Provisioning::~Provisioning() {
 void Provisioning::close() {
   {
     const std::lock_guard lock(mutex_);
-    end_ = true;
+    closed_ = true;
   }
   changed_.notify_all();
   if (broker_ != nullptr) {
@@ -55,80 +55,86 @@ std::vector<BrokerAccount> Provisioning::accounts() const {
 }
 
 std::vector<BrokerAccount> Provisioning::accounts_now() const {
-  const std::string& key = door_.secrets().key;
+  const std::string& key = policy_.secrets().key;
   std::vector<BrokerAccount> accounts = {service_, watcher_account(meeting_, key)};
-  for (const auto& [id, member] : door_.members()) {
+  for (const auto& [id, member] : policy_.members()) {
     accounts.push_back(participant_account(meeting_, key, id, member.chair));
   }
   return accounts;
 }
 
-Provisioning::Ticket Provisioning::ticket_of(const LoginDecision& admission) const {
-  const std::string& key = door_.secrets().key;
-  Ticket ticket{admission.answer, {}, admission.participant, admission.chair, admission.rejoin};
-  if (admission.answer == LoginResult::log_in) {
-    ticket.account = admission.participant.empty()
-                         ? watcher_account(meeting_, key)
-                         : participant_account(meeting_, key, admission.participant, admission.chair);
+Provisioning::Grant Provisioning::grant_of(const LoginDecision& decision) const {
+  const std::string& key = policy_.secrets().key;
+  Grant grant{.result = decision.result,
+              .account = {},
+              .participant = decision.participant,
+              .chair = decision.chair,
+              .rejoin = decision.rejoin};
+  if (decision.result == LoginResult::accepted) {
+    grant.account = decision.participant.empty()
+                        ? watcher_account(meeting_, key)
+                        : participant_account(meeting_, key, decision.participant, decision.chair);
   }
-  return ticket;
+  return grant;
 }
 
-void Provisioning::ask(const std::string& body, const std::string& address, Answer answer) {
-  const std::optional<LoginRequest> question = read_login_request(body);
-  std::optional<Ticket> ticket;
+void Provisioning::request(const std::string& body, const std::string& address, Answer answer) {
+  const std::optional<LoginRequest> login = read_login_request(body);
+  std::optional<Grant> grant;
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() < kMostWaiting) {
-      const LoginDecision admission = door_.enter(question, address, seconds_now());
-      ticket = ticket_of(admission);
-      freed_.insert(freed_.end(), admission.freed.begin(), admission.freed.end());
-      stale_ = stale_ || admission.changed;
-      // Who comes back while the broker is being told may be one of those whom it does not know yet.
-      if (!admission.participant.empty() && (stale_ || busy_)) {
-        waiting_.push_back({std::move(*ticket), std::move(answer)});
+      const LoginDecision decision = policy_.log_in(login, address, seconds_now());
+      grant = grant_of(decision);
+      freed_.insert(freed_.end(), decision.freed.begin(), decision.freed.end());
+      stale_ = stale_ || decision.changed;
+      // During an update, the broker may not know a participant who rejoins either.
+      if (!decision.participant.empty() && (stale_ || busy_)) {
+        waiting_.push_back({std::move(*grant), std::move(answer)});
         changed_.notify_all();
         return;
       }
     }
   }
-  answer(ticket);
+  answer(grant);
 }
 
-void Provisioning::seen(const std::string& participant, bool here) {
+void Provisioning::set_presence(const std::string& participant, bool here) {
   const std::lock_guard lock(mutex_);
-  door_.seen(participant, here, seconds_now());
+  policy_.set_presence(participant, here, seconds_now());
 }
 
 void Provisioning::set_all_absent() {
   const std::lock_guard lock(mutex_);
-  const std::map<std::string, LoginPolicy::Member> members = door_.members();
+  const std::map<std::string, LoginPolicy::Member> members = policy_.members();
   for (const auto& [id, member] : members) {
     if (member.here) {
-      door_.seen(id, false, seconds_now());
+      policy_.set_presence(id, false, seconds_now());
     }
   }
 }
 
 void Provisioning::lock(bool locked) {
   const std::lock_guard lock(mutex_);
-  door_.lock(locked);
+  policy_.lock(locked);
 }
 
 void Provisioning::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return end_ || !waiting_.empty(); });
-    if (end_) {
+    changed_.wait(lock, [this] { return closed_ || !waiting_.empty(); });
+    if (closed_) {
       return;
     }
+    // Take all waiting requests and the accounts that they need.
     std::vector<Waiting> waiting = std::exchange(waiting_, {});
     std::vector<std::string> freed = std::exchange(freed_, {});
-    std::erase_if(freed, [this](const std::string& id) { return door_.members().contains(id); });  // is back
+    std::erase_if(freed,
+                  [this](const std::string& id) { return policy_.members().contains(id); });  // rejoined
     const std::vector<BrokerAccount> accounts = accounts_now();
-    const MeetingSecrets secrets = door_.secrets();
+    const MeetingSecrets secrets = policy_.secrets();
     std::vector<std::string> chairs;
-    for (const auto& [id, member] : door_.members()) {
+    for (const auto& [id, member] : policy_.members()) {
       if (member.chair) {
         chairs.push_back(id);
       }
@@ -136,30 +142,33 @@ void Provisioning::work() {
     busy_ = true;
     stale_ = false;
     lock.unlock();
-    const bool known = tell_broker(accounts, secrets);
-    if (known) {
+
+    // Update the broker and answer them.
+    const bool updated = update_broker(accounts, secrets);
+    if (updated) {
       hooks_.changed(std::move(chairs), freed);
     }
     for (const Waiting& one : waiting) {
-      one.answer(known ? std::optional(one.ticket) : std::nullopt);
+      one.answer(updated ? std::optional(one.grant) : std::nullopt);
     }
+
     lock.lock();
     busy_ = false;
-    stale_ = stale_ || !known;
-    if (!known) {
+    stale_ = stale_ || !updated;
+    if (!updated) {
       freed_.insert(freed_.end(), freed.begin(), freed.end());
     }
   }
 }
 
-// The next number first: were it lost, somebody else would get an account that was given out.
-bool Provisioning::tell_broker(const std::vector<BrokerAccount>& accounts, const MeetingSecrets& secrets) {
+// Saves the next number first: if it were lost, another participant would get an account that is in use.
+bool Provisioning::update_broker(const std::vector<BrokerAccount>& accounts, const MeetingSecrets& secrets) {
   try {
     file_.save(secrets);
     if (broker_->set_accounts(accounts)) {
       return true;
     }
-    hooks_.warn("the broker does not take new accounts now; newcomers are asked to try again");
+    hooks_.warn("the broker does not accept new accounts now; newcomers are asked to try again");
   } catch (const Error& e) {
     hooks_.warn(e.what());
   }

@@ -6,66 +6,50 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "meeting/hosting/crypto.h"
-#include "meeting/hosting/private_file.h"
+#include "meeting/protocol/json.h"
+#include "meeting/transport/files.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
-constexpr std::size_t kLongestFile = 4096;
+constexpr std::size_t kLongestFile = 4096;  // bytes
 constexpr std::size_t kShortestSecret = 16;
 constexpr std::size_t kLongestSecret = 200;
 constexpr unsigned kMostParticipants = 1'000'000'000;
-constexpr mode_t kMine = 0600;
 
-std::string system_words() {
-  return std::generic_category().message(errno);
+[[noreturn]] void unusable(const fs::path& path, const std::string& reason, const std::string& remedy = {}) {
+  throw Error(ErrorKind::usage,
+              "the secrets of the meeting cannot be read from " + path.string() + ": " + reason, remedy);
 }
 
-[[noreturn]] void unusable(const fs::path& path, const std::string& why, const std::string& remedy = {}) {
-  throw Error(ErrorKind::usage, "the secrets of the room cannot be taken from " + path.string() + ": " + why,
-              remedy);
-}
-
-/// What an address may hold (docs/room-page.md).
+/// Whether the text is valid in the fragment of a URL (meeting/docs/page.md).
 bool is_secret(const std::string& text) {
   return text.size() >= kShortestSecret && text.size() <= kLongestSecret &&
-         std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-                  c == '-' || c == '.' || c == '~';
-         });
+         text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.~") ==
+             std::string::npos;
 }
 
 MeetingSecrets secrets_of(const fs::path& path, const std::string& content) {
-  const Json json = Json::parse(
-      content, [](int depth, Json::parse_event_t, Json&) { return depth < 3; }, /*allow_exceptions=*/false);
-  const auto text = [&json](const char* name) {
-    return json.is_object() && json.contains(name) && json[name].is_string() ? json[name].get<std::string>()
-                                                                             : std::string();
-  };
-  MeetingSecrets secrets{text("speak"), text("watch"), text("chair"), text("key"), 0};
-  if (json.is_object() && json.contains("next") && json["next"].is_number_unsigned()) {
-    secrets.next =
-        static_cast<unsigned>(std::min<std::uint64_t>(json["next"].get<std::uint64_t>(), kMostParticipants));
-  }
-  const bool whole = is_secret(secrets.speak) && is_secret(secrets.watch) && is_secret(secrets.chair) &&
-                     is_secret(secrets.key) && secrets.next > 0;
-  if (!whole || secrets.speak == secrets.watch || secrets.speak == secrets.chair ||
+  const Json json = parse_object(content);
+  const MeetingSecrets secrets{
+      .speak = text_member(json, "speak"),
+      .watch = text_member(json, "watch"),
+      .chair = text_member(json, "chair"),
+      .key = text_member(json, "key"),
+      .next = static_cast<unsigned>(whole_member(json, "next", 1, kMostParticipants).value_or(0))};
+  const bool complete = is_secret(secrets.speak) && is_secret(secrets.watch) && is_secret(secrets.chair) &&
+                        is_secret(secrets.key) && secrets.next > 0;
+  if (!complete || secrets.speak == secrets.watch || secrets.speak == secrets.chair ||
       secrets.watch == secrets.chair) {
-    unusable(path, "it does not hold what telemime room writes",
-             "Move it away: a new one is made, with new links.");
+    unusable(path, "telemime meeting did not write it", "Move it away to create a new one, with new links.");
   }
   return secrets;
 }
@@ -79,22 +63,22 @@ MeetingSecrets new_secrets() {
 SecretsFile::SecretsFile(fs::path path) : path_(std::move(path)) {
   make_private_folders(path_.parent_path());
   const fs::path lock = path_.string() + ".lock";
-  lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, kMine);
-  if (lock_ < 0) {
-    throw Error(ErrorKind::output, lock.string() + " cannot be made: " + system_words(),
-                "--secrets names another file.");
+  lock_ = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) {
+    return;
   }
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    const int number = errno;
+  const int error = errno;
+  if (lock_ >= 0) {
     ::close(lock_);
-    if (number != EWOULDBLOCK) {
-      throw Error(ErrorKind::output,
-                  lock.string() + " cannot be locked: " + std::generic_category().message(number),
-                  "--secrets names a file elsewhere.");
-    }
-    throw Error(ErrorKind::usage, "this room is open already, by another program that uses " + path_.string(),
-                "End that one, or open another room: --name.");
   }
+  if (error == EWOULDBLOCK) {
+    throw Error(ErrorKind::usage,
+                "this meeting is already open, in another program that uses " + path_.string(),
+                "Close that one, or open another meeting: --name.");
+  }
+  throw Error(ErrorKind::output,
+              lock.string() + " cannot be locked: " + std::generic_category().message(error),
+              "--secrets names another file.");
 }
 
 SecretsFile::~SecretsFile() {
@@ -102,52 +86,41 @@ SecretsFile::~SecretsFile() {
 }
 
 MeetingSecrets SecretsFile::load() {
-  const int file = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-  if (file < 0 && errno == ENOENT) {
-    MeetingSecrets secrets = new_secrets();
-    save(secrets);
-    return secrets;
+  SmallFile read;
+  try {
+    read = read_small_file(path_, kLongestFile, SymbolicLinks::refuse);
+  } catch (const std::system_error& e) {
+    if (e.code().value() == ENOENT) {
+      MeetingSecrets secrets = new_secrets();
+      save(secrets);
+      return secrets;
+    }
+    unusable(path_, e.code().value() == ELOOP ? "it is a symbolic link" : e.what());
+  } catch (const std::runtime_error& e) {
+    unusable(path_, e.what());
   }
-  if (file < 0) {
-    unusable(path_, errno == ELOOP ? "it is a link to another file" : system_words());
-  }
-  struct stat about {};
-  std::array<char, kLongestFile + 1> bytes{};
-  const bool known = ::fstat(file, &about) == 0;
-  const bool plain = known && S_ISREG(about.st_mode);
-  const ssize_t size = plain ? ::read(file, bytes.data(), bytes.size()) : -1;
-  ::close(file);
-  if (known && !plain) {
-    unusable(path_, "it is no file");
-  }
-  if (size < 0) {
-    unusable(path_, system_words());
-  }
-  if (about.st_uid != ::geteuid()) {
+  if (read.owner != ::geteuid()) {
     unusable(path_, "it belongs to another user");
   }
-  if ((about.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
-    unusable(path_, "others of this computer may read it",
-             "If nobody did: chmod 600 " + path_.string() + ". Else --new-links makes new ones.");
+  if ((read.mode & (S_IRWXG | S_IRWXO)) != 0) {
+    unusable(path_, "other users of this computer can read it",
+             "If nobody did: chmod 600 " + path_.string() + ". Otherwise --new-links creates new links.");
   }
-  if (static_cast<std::size_t>(size) > kLongestFile) {
-    unusable(path_, "it is too long");
-  }
-  return secrets_of(path_, {bytes.data(), static_cast<std::size_t>(size)});
+  return secrets_of(path_, read.content);
 }
 
 void SecretsFile::save(const MeetingSecrets& secrets) const {
   const Json json = {{"version", 1},           {"speak", secrets.speak}, {"watch", secrets.watch},
                      {"chair", secrets.chair}, {"key", secrets.key},     {"next", secrets.next}};
-  write_private_file(path_, json.dump(2) + "\n", /*lasting=*/true);
+  write_private_file(path_, json.dump(2) + "\n", /*durable=*/true);
 }
 
 fs::path default_secrets_file(const std::string& name, const char* state, const char* home) {
   const fs::path folder(state == nullptr ? "" : state);
   const fs::path users(home == nullptr ? "" : home);
   if (!folder.is_absolute() && !users.is_absolute()) {
-    throw Error(ErrorKind::usage, "there is no home folder to keep the room's secrets in",
-                "--secrets FILE says where.");
+    throw Error(ErrorKind::usage, "there is no home folder to keep the links of the meeting",
+                "--secrets FILE names another place.");
   }
   const fs::path base = folder.is_absolute() ? folder : users / ".local" / "state";
   return base / "telemime" / "rooms" / (name + ".json");

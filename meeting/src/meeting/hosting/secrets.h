@@ -6,33 +6,34 @@
 
 namespace telemime::meeting {
 
-/// What a room's links and accounts are made of. Who knows it can do all in the room.
+/// The secrets behind the links and accounts of a meeting. They give full access to it.
 struct MeetingSecrets {
-  std::string speak;  ///< invite of those who take part
-  std::string watch;  ///< of those who only look on
-  std::string chair;  ///< of those who may change the room, too
-  std::string key;    ///< signs ways back and passwords (accounts.h)
-  unsigned next = 1;  ///< number of the next participant who is new
+  std::string speak;  ///< in the link to take part
+  std::string watch;  ///< in the link to watch
+  std::string chair;  ///< in the link to chair
+  std::string key;    ///< signs rejoin tokens and passwords (accounts.h)
+  unsigned next = 1;  ///< number of the next new participant
 };
 
-/// New ones; all that was made of others is worth nothing.
+/// New secrets. Everything made from earlier ones becomes invalid.
 MeetingSecrets new_secrets();
 
-/// The file in which the secrets of one room are kept from one opening to the next. Only its user may read
-/// it. As long as this lives no other program opens the same one.
+/// The file that keeps the secrets of a meeting from one opening to the next. Only its owner can read it.
+/// While this object exists, no other program can open the same meeting.
 class SecretsFile {
  public:
-  /// Makes the folders (0700) above `path` where there are none. Throws Error(usage) when others may read or
-  /// write the file, when it is not the user's, is no plain file or holds no secrets, or when the room is
-  /// open already; Error(output) when it cannot be used. No words hold a secret.
+  /// Creates missing folders (0700). Throws Error(usage) when the meeting is already open, and Error(output)
+  /// when the file cannot be used.
   explicit SecretsFile(std::filesystem::path path);
   SecretsFile(const SecretsFile&) = delete;
   SecretsFile& operator=(const SecretsFile&) = delete;
   ~SecretsFile();
 
-  /// Those of the file; new ones, which are saved, where there is none.
+  /// The secrets in the file; without a file, new ones, which are saved. Throws Error(usage) when other users
+  /// can access the file, when it belongs to another user, is not a regular file or contains no secrets. No
+  /// message contains a secret.
   MeetingSecrets load();
-  /// Replaces the file at once: whoever reads it finds the old or the new one. Throws Error(output).
+  /// Replaces the file atomically. Throws Error(output).
   void save(const MeetingSecrets& secrets) const;
   const std::filesystem::path& path() const { return path_; }
 
@@ -41,9 +42,9 @@ class SecretsFile {
   int lock_ = -1;
 };
 
-/// $XDG_STATE_HOME/telemime/rooms/<name>.json, or ~/.local/state/... (the XDG Base Directory Specification: a
-/// relative path there does not count). `state`, `home`: the two variables; may be null. Throws Error(usage)
-/// when there is neither.
+/// $XDG_STATE_HOME/telemime/rooms/<name>.json, or ~/.local/state/telemime/rooms/<name>.json (XDG Base
+/// Directory Specification; relative paths are ignored). `state`, `home`: the two variables; may be null.
+/// Throws Error(usage) when both are missing.
 std::filesystem::path default_secrets_file(const std::string& name, const char* state, const char* home);
 
 }  // namespace telemime::meeting

@@ -5,9 +5,8 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <iterator>
 
-#include "telemime/core/errors.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/scratch_folder.h"
 
 namespace telemime::meeting {
@@ -21,18 +20,8 @@ mode_t mode_of(const fs::path& file) {
   return about.st_mode & 07777;
 }
 
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 std::string refusal(const fs::path& file) {
-  try {
-    SecretsFile(file).load();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "nothing was refused";
+  return error_of([&] { SecretsFile(file).load(); });
 }
 
 class Secrets : public ::testing::Test {
@@ -55,7 +44,7 @@ TEST_F(Secrets, AreTheSameTheNextTime) {
   EXPECT_EQ(SecretsFile(file_).load().next, 7U);
 }
 
-TEST_F(Secrets, AreForTheirUserAlone) {
+TEST_F(Secrets, AreForTheirOwnerOnly) {
   const mode_t before = ::umask(0);
   SecretsFile(file_).load();
   ::umask(before);
@@ -67,40 +56,40 @@ TEST_F(Secrets, AreForTheirUserAlone) {
       << "it and its lock: nothing is left of the writing";
 }
 
-TEST_F(Secrets, WhatOthersMayReadIsRefused) {
+TEST_F(Secrets, FileThatOthersCanReadIsRejected) {
   const MeetingSecrets secrets = SecretsFile(file_).load();
   for (const mode_t mode : {0640U, 0604U, 0644U, 0620U, 0610U}) {
     ASSERT_EQ(::chmod(file_.c_str(), mode), 0);
     const std::string words = refusal(file_);
-    EXPECT_NE(words.find("others of this computer may read it"), std::string::npos) << words;
+    EXPECT_NE(words.find("other users of this computer can read it"), std::string::npos) << words;
     EXPECT_NE(words.find("chmod 600"), std::string::npos) << words;
     EXPECT_EQ(words.find(secrets.speak), std::string::npos);
   }
   ASSERT_EQ(::chmod(file_.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(file_), "nothing was refused");
+  EXPECT_EQ(refusal(file_), "");
 }
 
-TEST_F(Secrets, WhatIsNoSuchFileIsRefused) {
+TEST_F(Secrets, OtherFilesAreRejected) {
   SecretsFile(file_).load();
   const std::string good = content_of(file_);
   for (const std::string& bad : {std::string(), std::string("{}"), std::string("[1]"),
                                  good.substr(0, good.size() / 2), good + good, std::string(5000, ' ')}) {
     std::ofstream(file_) << bad;
-    EXPECT_NE(refusal(file_).find("cannot be taken from"), std::string::npos) << bad;
+    EXPECT_NE(refusal(file_).find("cannot be read from"), std::string::npos) << bad;
   }
   const fs::path link = folder_.path() / "link.json";
   fs::create_symlink(file_, link);
   EXPECT_NE(refusal(link).find("link"), std::string::npos) << refusal(link);
   const fs::path directory = folder_.path() / "folder.json";
   fs::create_directory(directory);
-  EXPECT_NE(refusal(directory).find("no file"), std::string::npos) << refusal(directory);
+  EXPECT_NE(refusal(directory).find("not a regular file"), std::string::npos) << refusal(directory);
   std::ofstream(folder_.path() / "file") << "x";
-  EXPECT_NE(refusal(folder_.path() / "file" / "blue.json"), "nothing was refused");
+  EXPECT_NE(refusal(folder_.path() / "file" / "blue.json"), "");
 }
 
-TEST_F(Secrets, OneRoomIsOpenOnce) {
+TEST_F(Secrets, MeetingIsOpenedOnce) {
   const SecretsFile open(file_);
-  EXPECT_NE(refusal(file_).find("open already"), std::string::npos);
+  EXPECT_NE(refusal(file_).find("already open"), std::string::npos);
 }
 
 TEST_F(Secrets, NewOnesDiffer) {

@@ -15,17 +15,12 @@ namespace {
 constexpr int kKeepAlive = 10;  // s
 constexpr int kTick = 50;       // ms
 constexpr std::chrono::milliseconds kPause{100};
-// What the broker still keeps comes before that; what a chair says meanwhile is not talked over.
-constexpr std::chrono::milliseconds kListenFirst{200};
-constexpr std::chrono::milliseconds kTellAgain{300};
+// Retained messages and changes by a chair arrive in this time and are not overwritten.
+constexpr std::chrono::milliseconds kSettle{200};
+constexpr std::chrono::milliseconds kRepeat{300};
 constexpr int kAtLeastOnce = 1;
-constexpr std::size_t kLongestPayload = 16384;
 
 }  // namespace
-
-void MeetingService::Destroy::operator()(mosquitto* client) const {
-  mosquitto_destroy(client);
-}
 
 MeetingService::MeetingService(std::filesystem::path socket, MeetingAddress address, BrokerAccount account,
                                MeetingInfo meeting, Hooks hooks)
@@ -36,17 +31,17 @@ MeetingService::MeetingService(std::filesystem::path socket, MeetingAddress addr
       meeting_(std::move(meeting)) {
   client_.reset(mosquitto_new(nullptr, /*clean_session=*/true, this));
   if (!client_) {
-    throw Error(ErrorKind::output, "no connection to the broker can be made here");
+    throw Error(ErrorKind::output, "no MQTT client can be created");
   }
   mosquitto_int_option(client_.get(), MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311);
   mosquitto_username_pw_set(client_.get(), account_.user.c_str(), account_.password.c_str());
   mosquitto_connect_callback_set(client_.get(), on_connect);
-  mosquitto_message_callback_set(client_.get(), on_message);
+  mosquitto_message_callback_set(client_.get(), on_incoming);
   thread_ = std::thread([this] { work(); });
 }
 
 MeetingService::~MeetingService() {
-  end_ = true;
+  closed_ = true;
   thread_.join();
 }
 
@@ -57,36 +52,36 @@ void MeetingService::on_connect(mosquitto* client, void* self, int code) {
          {presence_filter(own.address_), topic_text(own.address_, {TopicKind::meeting, "", 0})}) {
       mosquitto_subscribe(client, nullptr, filter.c_str(), kAtLeastOnce);
     }
-    own.due_ = Clock::now() + kListenFirst;
+    own.due_ = Clock::now() + kSettle;
   }
 }
 
-void MeetingService::on_message(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
+void MeetingService::on_incoming(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
   const auto size = static_cast<std::size_t>(message->payloadlen);
   if (size <= kLongestPayload) {
-    static_cast<MeetingService*>(self)->hear(
+    static_cast<MeetingService*>(self)->on_message(
         message->topic, size == 0 ? "" : std::string(static_cast<const char*>(message->payload), size));
   }
 }
 
 void MeetingService::work() {
-  while (!end_) {
-    told_ = false;
+  while (!closed_) {
+    published_ = false;
     if (mosquitto_connect(client_.get(), socket_.c_str(), 0, kKeepAlive) == MOSQ_ERR_SUCCESS) {
-      talk();
+      serve();
       hooks_.lost();
     }
-    if (!end_) {
+    if (!closed_) {
       std::this_thread::sleep_for(kPause);
     }
   }
 }
 
-// Until the connection breaks.
-void MeetingService::talk() {
+// Serves until the connection breaks.
+void MeetingService::serve() {
   while (mosquitto_loop(client_.get(), kTick, 1) == MOSQ_ERR_SUCCESS) {
-    say_what_is_due();
-    if (end_) {
+    publish_pending();
+    if (closed_) {
       mosquitto_disconnect(client_.get());
       return;
     }
@@ -99,24 +94,24 @@ bool MeetingService::publish(const std::string& topic, const std::string& payloa
                            payload.data(), kAtLeastOnce, /*retain=*/true) == MOSQ_ERR_SUCCESS;
 }
 
-void MeetingService::say_what_is_due() {
+void MeetingService::publish_pending() {
   std::vector<std::string> forgotten;
   std::optional<MeetingInfo> meeting;
   {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(chairs_changed_, false) && told_) {
+    if (std::exchange(chairs_changed_, false) && published_) {
       due_ = Clock::now();
     }
     if (due_ && Clock::now() >= *due_) {
       meeting = meeting_;
       due_.reset();
     }
-    if (told_) {  // else there is nothing: the broker is a new one
+    if (published_) {  // otherwise the broker is new and retains nothing
       forgotten.swap(forgotten_);
     }
   }
   if (meeting) {
-    told_ = publish(topic_text(address_, {TopicKind::meeting, "", 0}), write_meeting_info(*meeting));
+    published_ = publish(topic_text(address_, {TopicKind::meeting, "", 0}), write_meeting_info(*meeting));
   }
   for (const std::string& id : forgotten) {
     for (const TopicKind kind : {TopicKind::presence, TopicKind::state, TopicKind::chat, TopicKind::pose}) {
@@ -128,31 +123,31 @@ void MeetingService::say_what_is_due() {
   }
 }
 
-void MeetingService::hear(const std::string& text, const std::string& payload) {
+void MeetingService::on_message(const std::string& text, const std::string& payload) {
   const auto topic = read_topic(address_, text);
   if (!topic) {
     return;
   }
   if (topic->kind == TopicKind::meeting) {
-    hear_room(payload);
+    on_meeting_info(payload);
   } else if (topic->kind == TopicKind::presence) {
     const auto presence = read_presence(payload);
-    hooks_.seen(topic->participant, presence && presence->here);
+    hooks_.on_presence(topic->participant, presence && presence->here);
   }
 }
 
-void MeetingService::hear_room(const std::string& payload) {
-  const std::optional<MeetingInfo> said = read_meeting_info(payload);
+void MeetingService::on_meeting_info(const std::string& payload) {
+  const std::optional<MeetingInfo> received = read_meeting_info(payload);
   std::optional<MeetingInfo> next;
-  bool wrong = false;
+  bool differs = false;
   {
     const std::lock_guard lock(mutex_);
-    next = after_change(meeting_, said);
+    next = after_change(meeting_, received);
     meeting_ = next.value_or(meeting_);
-    wrong = said != meeting_;
+    differs = received != meeting_;
   }
-  if (wrong) {
-    due_ = due_.value_or(Clock::now() + kTellAgain);
+  if (differs) {
+    due_ = due_.value_or(Clock::now() + kRepeat);
   }
   if (next) {
     hooks_.changed(*next);

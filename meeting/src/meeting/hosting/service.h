@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,21 +13,19 @@
 
 #include "meeting/hosting/accounts.h"
 #include "meeting/protocol/meeting_info.h"
-#include "meeting/transport/mqtt_library.h"
-
-struct mosquitto;
-struct mosquitto_message;
+#include "meeting/transport/mqtt_connection.h"
 
 namespace telemime::meeting {
 
-/// The room's own participant, whom nobody sees: it keeps what the room is with the broker, whatever happens
-/// to that, and hears who is here. A thread of its own connects, again and again.
+/// The program's own invisible client in a meeting: it keeps the message `room` at the broker, even when the
+/// broker restarts, and observes who is present. It connects in its own thread, again after each failure.
 class MeetingService {
  public:
   struct Hooks {
-    std::function<void(const std::string& participant, bool here)> seen;  ///< from its thread, as the others
-    std::function<void(const MeetingInfo& meeting)> changed;              ///< by a chair
-    std::function<void()> lost;  ///< there is no connection: nobody is known to be here
+    std::function<void(const std::string& participant, bool here)>
+        on_presence;                                          ///< from the thread, like the others
+    std::function<void(const MeetingInfo& meeting)> changed;  ///< changed by a chair
+    std::function<void()> lost;                               ///< no connection: nobody counts as present
   };
   MeetingService(std::filesystem::path socket, MeetingAddress address, BrokerAccount account,
                  MeetingInfo meeting, Hooks hooks);
@@ -36,26 +33,23 @@ class MeetingService {
   MeetingService& operator=(const MeetingService&) = delete;
   ~MeetingService();
 
-  /// From any thread: these are the chairs from now on.
+  /// Sets the chairs. From any thread.
   void set_chairs(std::vector<std::string> chairs);
-  /// From any thread: what the broker keeps of these participants goes.
+  /// Clears the retained messages of these participants. From any thread.
   void forget(const std::vector<std::string>& participants);
-  /// Whether the broker has what the room is.
-  bool told() const { return told_; }
+  /// Whether the broker has the message `room`.
+  bool published() const { return published_; }
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Destroy {
-    void operator()(mosquitto* client) const;
-  };
   static void on_connect(mosquitto* client, void* self, int code);
-  static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
+  static void on_incoming(mosquitto* client, void* self, const mosquitto_message* message);
 
   void work();
-  void talk();
-  void hear(const std::string& topic, const std::string& payload);
-  void hear_room(const std::string& payload);
-  void say_what_is_due();
+  void serve();
+  void on_message(const std::string& topic, const std::string& payload);
+  void on_meeting_info(const std::string& payload);
+  void publish_pending();
   bool publish(const std::string& topic, const std::string& payload);
 
   const std::filesystem::path socket_;
@@ -63,10 +57,10 @@ class MeetingService {
   const BrokerAccount account_;
   const Hooks hooks_;
   const MqttLibrary library_;
-  std::unique_ptr<mosquitto, Destroy> client_;
-  std::atomic<bool> end_ = false;
-  std::atomic<bool> told_ = false;
-  std::optional<Clock::time_point> due_;  ///< when the room is told
+  MqttClient client_;
+  std::atomic<bool> closed_ = false;
+  std::atomic<bool> published_ = false;
+  std::optional<Clock::time_point> due_;  ///< when to publish the message `room`
 
   std::mutex mutex_;  ///< of what follows
   MeetingInfo meeting_;

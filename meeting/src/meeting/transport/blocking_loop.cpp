@@ -13,13 +13,11 @@ using SteadyClock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr milliseconds kLook{50};
+constexpr milliseconds kCheck{50};
 constexpr milliseconds kFirstPause{100};
 constexpr milliseconds kLongestPause{5000};
 
 }  // namespace
-
-BlockingLoop::BlockingLoop(std::function<bool()> stop) : stop_(std::move(stop)) {}
 
 bool BlockingLoop::wait(const std::function<bool()>& done, milliseconds limit) {
   const auto end = SteadyClock::now() + limit;
@@ -31,7 +29,7 @@ bool BlockingLoop::wait(const std::function<bool()>& done, milliseconds limit) {
     if (now >= end) {
       return false;
     }
-    io_->run_one_until(std::min(end, now + kLook));
+    io_->run_one_until(std::min(end, now + kCheck));
   }
   return true;
 }
@@ -44,7 +42,7 @@ std::function<void()> BlockingLoop::waker() {
   };
 }
 
-void BlockingLoop::forget_old_handlers() {
+void BlockingLoop::discard_handlers() {
   for (;;) {
     try {
       if (io_->poll_one() == 0) {

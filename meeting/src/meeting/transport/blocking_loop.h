@@ -10,23 +10,24 @@
 
 namespace telemime::meeting {
 
-/// Ends a BlockingLoop's waiting. Not a std::exception: nobody but who asked for it shall catch it.
+/// Ends the waiting of a BlockingLoop. Not derived from std::exception, so that general handlers do not catch
+/// it.
 struct LoopStopped {};
 
-/// A SendLoop in the thread that calls it, without a sender's queue and status.
+/// A SendLoop that runs in the calling thread, without the queue and status of a sender.
 class BlockingLoop final : public SendLoop {
  public:
-  /// `stop` is asked every 50 ms, and whenever something happened; once it holds, wait() throws LoopStopped.
-  explicit BlockingLoop(std::function<bool()> stop);
+  /// `stop` is checked every 50 ms and after each event; once it is true, wait() throws LoopStopped.
+  explicit BlockingLoop(std::function<bool()> stop) : stop_(std::move(stop)) {}
 
   boost::asio::io_context& io() override { return *io_; }
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit) override;
   std::function<void()> waker() override;
-  void waiting(const std::string& /*words*/) override {}
-  void sending(const std::string& /*words*/) override {}
+  void waiting(const std::string& /*text*/) override {}
+  void sending(const std::string& /*text*/) override {}
   void receivers(std::int64_t /*count*/) override {}
-  /// Runs what a closed connection has left behind, and passes over its complaints.
-  void forget_old_handlers();
+  /// Runs the remaining handlers of a closed connection and ignores their exceptions.
+  void discard_handlers();
 
  private:
   const std::function<bool()> stop_;
@@ -38,7 +39,7 @@ class BlockingLoop final : public SendLoop {
 class RetryPauses {
  public:
   std::chrono::milliseconds next();
-  /// The next failure is a new one.
+  /// Starts again with no pause.
   void reset() { next_ = std::chrono::milliseconds{0}; }
 
  private:

@@ -1,295 +1,268 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meeting/transport/link_login.h"
-
+// The request for an account at the web server of a meeting.
+#include <curl/curl.h>
 #include <openssl/ssl.h>
-#include <openssl/x509v3.h>
+#include <openssl/x509_vfy.h>
 
 #include <algorithm>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ssl/stream.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http/read.hpp>
-#include <boost/beast/http/string_body.hpp>
-#include <boost/beast/http/write.hpp>
-#include <cctype>
-#include <nlohmann/json.hpp>
+#include <exception>
+#include <memory>
 #include <optional>
 
-#include "meeting/transport/mqtt_tls.h"
-#include "meeting/transport/tls_authorities.h"
+#include "meeting/protocol/json.h"
+#include "meeting/transport/login.h"
+#include "meeting/transport/tls.h"
 #include "telemime/core/errors.h"
-#include "telemime/streaming/resolve.h"
 #include "telemime/streaming/tcp.h"
 #include "telemime/streaming/url.h"
 
 namespace telemime::meeting {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = boost::beast::http;
-using boost::system::error_code;
-using Json = nlohmann::json;
-
-constexpr std::chrono::seconds kLongestVisit{10};
-constexpr std::chrono::milliseconds kLook{50};  // whether to give up
+constexpr long kLongestRequest = 10;  // s
+constexpr int kPoll = 50;             // ms between checks whether to cancel
 constexpr std::size_t kLongestAnswer = 16 * 1024;
 constexpr std::size_t kLongestField = 500;
-constexpr int kDeepestAnswer = 4;
-constexpr std::string_view kExample = "http://localhost:7080/room#k=INVITE";
-constexpr std::string_view kPath = "/room";
+constexpr std::string_view kExample = "http://localhost:7080/room#k=SECRET";
 
-std::string small(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
-bool is_page(std::string_view text) {
-  const std::string scheme = small(text.substr(0, text.find("://")));
+bool is_web_url(std::string_view text) {
+  std::string scheme(text.substr(0, text.find("://")));
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return scheme == "http" || scheme == "https";
 }
 
-[[noreturn]] void unreachable(const SendUrl& url, const std::string& why) {
-  throw Error(ErrorKind::input, "the room at " + url.text + " cannot be entered: " + why);
+[[noreturn]] void fail(const SendUrl& url, const std::string& reason) {
+  throw Error(ErrorKind::input, "the meeting at " + url.text + " cannot be joined: " + reason);
 }
 
-using Secure = asio::ssl::stream<beast::tcp_stream&>;
-
-/// TLS 1.2 or newer to servers that the authorities of `ca` (empty: the system's) vouch for.
-asio::ssl::context client_tls(const std::filesystem::path& ca) {
-  asio::ssl::context tls(asio::ssl::context::tls_client);
-  SSL_CTX* const native = tls.native_handle();
-  SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
-  trust_authorities(native, ca);
-  SSL_CTX_set_verify(native, SSL_VERIFY_PEER, nullptr);
-  return tls;
-}
-
-/// The host must stand in the certificate, and is told which of its certificates is meant.
-void expect(Secure& secure, const std::string& host) {
-  SSL* const native = secure.native_handle();
-  X509_VERIFY_PARAM* const asked = SSL_get0_param(native);
-  X509_VERIFY_PARAM_set_hostflags(asked, X509_CHECK_FLAG_NO_PARTIAL_WILDCARDS);
-  error_code no_address;
-  asio::ip::make_address(host, no_address);
-  if (no_address) {
-    SSL_set_tlsext_host_name(native, host.c_str());
-    X509_VERIFY_PARAM_set1_host(asked, host.c_str(), host.size());
-  } else {
-    X509_VERIFY_PARAM_set1_ip_asc(asked, host.c_str());
-  }
-}
-
-/// One request to the room's server and its answer, with one limit of time for all of it.
-class Visit {
- public:
-  Visit(const SendUrl& url, const LinkLogin& entry)
-      : url_(url), entry_(entry), tcp_(io_), until_(std::chrono::steady_clock::now() + kLongestVisit) {
-    if (url.scheme == "https") {
-      tls_.emplace(client_tls(entry.ca));
-    }
-  }
-
-  http::response<http::string_body> ask(const http::request<http::string_body>& request) {
-    connect();
-    if (!tls_) {
-      return ask(tcp_, request);
-    }
-    Secure secure(tcp_, *tls_);
-    expect(secure, url_.host);
-    const error_code error = run([&](auto note) { secure.async_handshake(secure.client, note); });
-    if (error) {
-      const long result = SSL_get_verify_result(secure.native_handle());
-      unreachable(url_, result == X509_V_OK ? "no TLS connection comes about; is TLS spoken at that port?"
-                                            : tls_refusal(result, url_.host));
-    }
-    return ask(secure, request);
-  }
-
- private:
-  /// Begins an operation and waits for its end.
-  template <class Begin>
-  error_code run(const Begin& begin) {
-    std::optional<error_code> ended;
-    tcp_.expires_at(until_);
-    begin([&ended](error_code error, auto&&...) { ended = error; });
-    io_.restart();
-    bool given_up = false;
-    while (!ended && !io_.stopped()) {
-      io_.run_one_for(kLook);
-      if (!given_up && entry_.stopped && entry_.stopped()) {
-        given_up = true;
-        tcp_.cancel();
-      }
-    }
-    if (given_up) {
-      unreachable(url_, "it was given up");
-    }
-    if (!ended || *ended == beast::error::timeout) {
-      unreachable(url_, "no answer from there");
-    }
-    return *ended;
-  }
-
-  std::vector<std::string> addresses() const {
-    if (!entry_.addresses.empty()) {
-      return entry_.addresses;
-    }
-    error_code no_address;
-    asio::ip::make_address(url_.host, no_address);
-    try {
-      return no_address ? system_lookup(url_.host) : std::vector<std::string>{url_.host};
-    } catch (const LinkBroken& e) {
-      unreachable(url_, e.what());
-    }
-  }
-
-  void connect() {
-    std::optional<error_code> first;
-    for (const std::string& address : addresses()) {
-      const asio::ip::tcp::endpoint there(asio::ip::make_address(address), *url_.port);
-      const error_code error = run([&](auto note) { tcp_.async_connect(there, note); });
-      if (!error) {
-        return;
-      }
-      first = first.value_or(error);
-      tcp_.close();  // an IPv4 socket reaches no IPv6 address
-    }
-    unreachable(url_, first ? in_words(*first) : "no computer of that name is known");
-  }
-
-  template <class Stream>
-  http::response<http::string_body> ask(Stream& stream, const http::request<http::string_body>& request) {
-    error_code error = run([&](auto note) { http::async_write(stream, request, note); });
-    beast::flat_buffer buffer(kLongestAnswer);
-    http::response_parser<http::string_body> answer;
-    answer.body_limit(kLongestAnswer);
-    if (!error) {
-      error = run([&](auto note) { http::async_read(stream, buffer, answer, note); });
-    }
-    if (error) {
-      const bool another = error.category() == http::make_error_code(http::error::bad_method).category();
-      unreachable(url_, another ? "no room's server answers there" : in_words(error));
-    }
-    return answer.release();
-  }
-
-  const SendUrl& url_;
-  const LinkLogin& entry_;
-  asio::io_context io_{1};
-  beast::tcp_stream tcp_;
-  std::chrono::steady_clock::time_point until_;
-  std::optional<asio::ssl::context> tls_;
-};
-
-std::string words_for(unsigned status) {
+std::string reason_of(long status) {
   switch (status) {
     case 403:
-      return "this link does not open it; it may be old, or cut off";
+      return "this link is not valid; it may be old or truncated";
     case 404:
-      return "there is no room; ask for a new link";
+      return "there is no meeting; ask for a new link";
     case 409:
-      return "all of its seats are taken";
+      return "it is full";
     case 423:
-      return "it is locked, nobody new comes in now";
+      return "it is locked";
     case 429:
-      return "too many tries; wait a minute";
+      return "too many attempts; wait a minute";
     default:
       return "its server answers with " + std::to_string(status);
   }
 }
 
-std::string text_of(const Json& json, const char* name) {
-  if (!json.contains(name) || !json[name].is_string()) {
-    return {};
+CURL* new_easy() {
+  static const CURLcode initialised = curl_global_init(CURL_GLOBAL_DEFAULT);
+  return initialised == CURLE_OK ? curl_easy_init() : nullptr;
+}
+
+/// One POST request with a JSON body, by libcurl.
+class Request {
+ public:
+  Request(const SendUrl& url, const LinkLogin& login, const std::string& body) : url_(url), login_(login) {
+    if (!easy_ || !multi_) {
+      fail(url, "no connection can be created");
+    }
+    const std::string target = url.scheme + "://" + host_and_port(url.host, *url.port) + "/room/enter";
+    headers_.reset(curl_slist_append(nullptr, "Content-Type: application/json"));
+    set(CURLOPT_URL, target.c_str());
+    set(CURLOPT_HTTPHEADER, headers_.get());
+    set(CURLOPT_COPYPOSTFIELDS, body.c_str());
+    set(CURLOPT_PROXY, "");  // whatever the environment says
+    set(CURLOPT_TIMEOUT, kLongestRequest);
+    set(CURLOPT_NOSIGNAL, 1L);
+    set(CURLOPT_WRITEFUNCTION, on_data);
+    set(CURLOPT_WRITEDATA, this);
+    if (!login.addresses.empty()) {
+      std::string entry = url.host + ":" + std::to_string(*url.port) + ":";
+      for (const std::string& address : login.addresses) {
+        entry += (entry.back() == ':' ? "" : ",") + address;
+      }
+      addresses_.reset(curl_slist_append(nullptr, entry.c_str()));
+      set(CURLOPT_RESOLVE, addresses_.get());
+    }
+    // Only the authorities that on_tls() adds are trusted.
+    set(CURLOPT_SSLVERSION, static_cast<long>(CURL_SSLVERSION_TLSv1_2));
+    set(CURLOPT_CAINFO, nullptr);
+    set(CURLOPT_CAPATH, nullptr);
+    set(CURLOPT_SSL_CTX_FUNCTION, on_tls);
+    set(CURLOPT_SSL_CTX_DATA, this);
   }
-  auto text = json[name].get<std::string>();
+  Request(const Request&) = delete;
+  Request& operator=(const Request&) = delete;
+  ~Request() { curl_multi_remove_handle(multi_.get(), easy_.get()); }
+
+  /// The body of the answer 200.
+  const std::string& answer() {
+    const CURLcode result = perform();
+    if (tls_failure_) {
+      std::rethrow_exception(tls_failure_);
+    }
+    if (result != CURLE_OK) {
+      fail(url_, reason_of_failure(result));
+    }
+    if (const long status = info(CURLINFO_RESPONSE_CODE); status != 200) {
+      fail(url_, reason_of(status));
+    }
+    return answer_;
+  }
+
+ private:
+  template <class Value>
+  void set(CURLoption option, Value value) {
+    curl_easy_setopt(easy_.get(), option, value);
+  }
+
+  long info(CURLINFO name) const {
+    long value = 0;
+    curl_easy_getinfo(easy_.get(), name, &value);
+    return value;
+  }
+
+  static std::size_t on_data(char* data, std::size_t size, std::size_t count, void* self) {
+    std::string& answer = static_cast<Request*>(self)->answer_;
+    answer.append(data, size * count);
+    return answer.size() <= kLongestAnswer ? size * count : 0;
+  }
+
+  static CURLcode on_tls(CURL* /*easy*/, void* context, void* self) {
+    auto& own = *static_cast<Request*>(self);
+    try {
+      trust_authorities(static_cast<SSL_CTX*>(context), own.login_.ca);
+      return CURLE_OK;
+    } catch (...) {
+      own.tls_failure_ = std::current_exception();
+      return CURLE_ABORTED_BY_CALLBACK;
+    }
+  }
+
+  CURLcode perform() {
+    curl_multi_add_handle(multi_.get(), easy_.get());
+    for (int running = 1; running > 0;) {
+      curl_multi_perform(multi_.get(), &running);
+      if (running > 0 && login_.stopped && login_.stopped()) {
+        fail(url_, "it was cancelled");
+      }
+      if (running > 0) {
+        curl_multi_poll(multi_.get(), nullptr, 0, kPoll, nullptr);
+      }
+    }
+    int left = 0;
+    const CURLMsg* const message = curl_multi_info_read(multi_.get(), &left);
+    return message == nullptr ? CURLE_FAILED_INIT : message->data.result;
+  }
+
+  std::string reason_of_failure(CURLcode result) const {
+    switch (result) {
+      case CURLE_COULDNT_RESOLVE_HOST:
+        return "no computer of that name is known";
+      case CURLE_COULDNT_CONNECT:
+        return in_words({static_cast<int>(info(CURLINFO_OS_ERRNO)), boost::system::system_category()});
+      case CURLE_OPERATION_TIMEDOUT:
+        return "no answer from there";
+      case CURLE_GOT_NOTHING:
+      case CURLE_SEND_ERROR:
+      case CURLE_RECV_ERROR:
+        return "it closed the connection";
+      case CURLE_SSL_CONNECT_ERROR:
+        return kNoTls;
+      case CURLE_PEER_FAILED_VERIFICATION: {
+        const long verified = info(CURLINFO_SSL_VERIFYRESULT);
+        return tls_refusal(verified == X509_V_OK ? X509_V_ERR_HOSTNAME_MISMATCH : verified, url_.host);
+      }
+      case CURLE_UNSUPPORTED_PROTOCOL:
+      case CURLE_WEIRD_SERVER_REPLY:
+        return "there is no server of a meeting";
+      default:
+        return curl_easy_strerror(result);
+    }
+  }
+
+  using List = std::unique_ptr<curl_slist, void (*)(curl_slist*)>;
+  const SendUrl& url_;
+  const LinkLogin& login_;
+  List headers_{nullptr, curl_slist_free_all};
+  List addresses_{nullptr, curl_slist_free_all};
+  std::unique_ptr<CURLM, CURLMcode (*)(CURLM*)> multi_{curl_multi_init(), curl_multi_cleanup};
+  std::unique_ptr<CURL, void (*)(CURL*)> easy_{new_easy(), curl_easy_cleanup};
+  std::string answer_;
+  std::exception_ptr tls_failure_;
+};
+
+std::string field(const Json& json, const char* name) {
+  std::string text = text_member(json, name);
   return text.size() <= kLongestField ? text : std::string();
 }
 
 bool is_topic(std::string_view topic) {
-  const auto may_stand = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '/';
-  };
-  return topic.starts_with("r/") && std::all_of(topic.begin(), topic.end(), may_stand) &&
-         std::count(topic.begin(), topic.end(), '/') == 2;
+  return topic.starts_with("r/") && std::count(topic.begin(), topic.end(), '/') == 2 &&
+         topic.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-/") == std::string_view::npos;
 }
 
-Credentials key_of(const SendUrl& url, const std::string& body) {
-  const Json json = Json::parse(
-      body, [](int depth, Json::parse_event_t, Json&) { return depth < kDeepestAnswer; },
-      /*allow_exceptions=*/false);
-  if (!json.is_object()) {
-    unreachable(url, "its server gave an answer that cannot be understood");
-  }
-  Credentials key{text_of(json, "tcp"),   text_of(json, "user"),        text_of(json, "password"),
-                  text_of(json, "topic"), text_of(json, "participant"), {},
-                  text_of(json, "return")};
-  if (json.contains("roles") && json["roles"].is_array()) {
-    for (const Json& role : json["roles"]) {
+Credentials credentials_of(const SendUrl& url, const std::string& body) {
+  const Json json = parse_object(body);
+  Credentials credentials{.broker = field(json, "tcp"),
+                          .user = field(json, "user"),
+                          .password = field(json, "password"),
+                          .topic = field(json, "topic"),
+                          .participant = field(json, "participant"),
+                          .roles = {},
+                          .rejoin = field(json, "return")};
+  if (const Json& roles = member(json, "roles"); roles.is_array()) {
+    for (const Json& role : roles) {
       if (role.is_string()) {
-        key.roles.push_back(role.get<std::string>());
+        credentials.roles.push_back(role.get<std::string>());
       }
     }
   }
-  if (key.user.empty() || key.password.empty() || !is_topic(key.topic)) {
-    unreachable(url, "its server gave an answer that cannot be understood");
+  if (credentials.user.empty() || credentials.password.empty() || !is_topic(credentials.topic)) {
+    fail(url, "the answer of its server is invalid");
   }
-  const bool secure = key.broker.starts_with("mqtts://");
-  if (!secure && !key.broker.starts_with("mqtt://")) {
-    unreachable(url, "its server does not say where programs reach the broker");
+  const bool secure = credentials.broker.starts_with("mqtts://");
+  if (!secure && !credentials.broker.starts_with("mqtt://")) {
+    fail(url, "its server does not name a broker for programs");
   }
   if (!secure && url.scheme == "https") {
-    unreachable(url, "its broker is not encrypted, unlike its page");
+    fail(url, "its broker is not encrypted, but its page is");
   }
-  return key;
+  return credentials;
 }
 
 }  // namespace
 
 bool is_meeting_link(std::string_view text) {
-  return is_page(text) && text.find("#k=") != std::string_view::npos;
+  return is_web_url(text) && text.find("#k=") != std::string_view::npos;
 }
 
 std::string without_secret(const std::string& link) {
-  return is_page(link) ? without_password(link) : link;
+  return is_web_url(link) ? without_password(link) : link;
 }
 
-Credentials log_in_by_link(const LinkLogin& entry) {
-  if (!is_page(entry.link)) {
-    throw Error(ErrorKind::usage, "\"" + without_password(entry.link) + "\" is no link to a room",
-                "Write it like " + std::string(kExample) + ".");
+Credentials log_in_by_link(const LinkLogin& login) {
+  const auto invalid = [](const std::string& text) {
+    return Error(ErrorKind::usage, "\"" + text + "\" is not the link of a meeting; it may be truncated",
+                 "Write it like " + std::string(kExample) + ".");
+  };
+  if (!is_web_url(login.link)) {
+    throw invalid(without_password(login.link));
   }
-  SendUrl url = parse_url(entry.link, kExample);
+  SendUrl url = parse_url(login.link, kExample);
   require_host(url);
-  if (url.path != kPath || (url.password.empty() && entry.rejoin.empty())) {
-    throw Error(ErrorKind::usage, "\"" + url.text + "\" is no link to a room; it may be cut off",
-                "Write it like " + std::string(kExample) + ".");
+  if (url.path != "/room" || (url.password.empty() && login.rejoin.empty())) {
+    throw invalid(url.text);
   }
-  const bool usual = !url.port;
   url.port = url.port.value_or(url.scheme == "https" ? 443 : 80);
-  Json question = {{"v", 1}, {"watch", entry.watch}};
+  Json question = {{"v", 1}, {"watch", login.watch}};
   if (!url.password.empty()) {
     question["invite"] = url.password;
   }
-  if (!entry.rejoin.empty()) {
-    question["return"] = entry.rejoin;
+  if (!login.rejoin.empty()) {
+    question["return"] = login.rejoin;
   }
-  http::request<http::string_body> request(http::verb::post, "/room/enter", 11);
-  const std::string host = host_and_port(url.host, *url.port);
-  request.set(http::field::host, usual ? host.substr(0, host.rfind(':')) : host);
-  request.set(http::field::content_type, "application/json");
-  request.set(http::field::connection, "close");
-  request.body() = question.dump(-1, ' ', false, Json::error_handler_t::replace);
-  request.prepare_payload();
-  const http::response<http::string_body> answer = Visit(url, entry).ask(request);
-  if (answer.result_int() != 200) {
-    unreachable(url, words_for(answer.result_int()));
-  }
-  return key_of(url, answer.body());
+  return credentials_of(
+      url, Request(url, login, question.dump(-1, ' ', false, Json::error_handler_t::replace)).answer());
 }
 
 }  // namespace telemime::meeting

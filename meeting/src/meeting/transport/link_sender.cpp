@@ -1,131 +1,96 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meeting/transport/link_sender.h"
-
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <exception>
-#include <functional>
 #include <future>
-#include <optional>
 #include <thread>
 #include <utility>
 
-#include "meeting/transport/link_login.h"
-#include "meeting/transport/meeting_link.h"
-#include "meeting/transport/mqtt_sender.h"
+#include "meeting/transport/login.h"
+#include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/resolve.h"
-#include "telemime/streaming/send_queue.h"
 
 namespace telemime::meeting {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestEntry{30000};  // names are looked up, too
+constexpr std::chrono::milliseconds kLongestLogin{30000};  // including the lookup of the host
 
-/// What takes part with that key, as the link's options say.
-MeetingOutput output_of(const SendUrl& link, const Credentials& key) {
-  SendUrl url = parse_url(key.broker, "mqtt://localhost:1883");
+/// The output for these credentials, with the options of the link.
+MeetingOutput output_of(const SendUrl& link, const Credentials& credentials) {
+  SendUrl url = parse_url(credentials.broker, "mqtt://localhost:1883");
   url.text = link.text;
-  url.user = key.user;
-  url.password = key.password;
-  url.path = key.topic.substr(1);  // "r/tenant/room"
+  url.user = credentials.user;
+  url.password = credentials.password;
+  url.path = credentials.topic.substr(1);  // of "r/tenant/meeting"
   url.options = link.options;
   std::erase_if(url.options, [](const auto& option) { return option.first == "mirror"; });
   MeetingOutput output = meeting_output_of(url);
-  output.participant = key.participant;
+  output.participant = credentials.participant;
   if (!free_option(url, "name")) {
-    output.name = key.participant;
+    output.name = credentials.participant;
   }
   return output;
 }
 
-std::string in_one_line(std::string words) {
-  std::replace(words.begin(), words.end(), '\n', ' ');
-  return words;
-}
-
-/// A thread that is told to give up, and waited for.
-class Visitor {
- public:
-  Visitor(std::atomic<bool>& give_up, std::function<void()> work)
-      : give_up_(give_up), thread_(std::move(work)) {}
-  Visitor(const Visitor&) = delete;
-  Visitor& operator=(const Visitor&) = delete;
-  ~Visitor() {
-    give_up_ = true;
-    thread_.join();
-  }
-
- private:
-  std::atomic<bool>& give_up_;
-  std::thread thread_;
-};
-
-/// Takes part by the key that the room's server gave.
+/// Logs in by a link, then takes part like MeetingLink.
 class LoginLink final : public Link {
  public:
-  LoginLink(SendLoop& loop, SendUrl url, LinkLogin entry)
-      : loop_(loop), url_(std::move(url)), entry_(std::move(entry)) {}
+  LoginLink(SendLoop& loop, SendUrl url, LinkLogin login)
+      : loop_(loop), url_(std::move(url)), login_(std::move(login)) {}
 
   void open() override {
-    const Credentials key = enter();
-    if (key.participant.empty()) {
-      throw LinkBroken("this link is only for watching");
-    }
-    entry_.rejoin = key.rejoin;
-    // The same seat, the same session: to the others it is a break, and nobody new.
-    if (!meeting_ || key.broker != key_.broker || key.user != key_.user || key.password != key_.password) {
-      try {
-        meeting_ = std::make_unique<MeetingLink>(loop_, output_of(url_, key));
-      } catch (const Error& e) {
-        throw LinkBroken(in_one_line(e.what()));
+    try {
+      const Credentials credentials = log_in();
+      if (credentials.participant.empty()) {
+        throw LinkBroken("this link is only for watching");
       }
-      key_ = key;
+      login_.rejoin = credentials.rejoin;
+      // With the same account the session stays the same: to the others it was only an interruption.
+      if (!link_ || credentials.broker != credentials_.broker || credentials.user != credentials_.user ||
+          credentials.password != credentials_.password) {
+        link_ = std::make_unique<MeetingLink>(loop_, output_of(url_, credentials));
+        credentials_ = credentials;
+      }
+    } catch (const Error& e) {
+      std::string text = e.what();
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      throw LinkBroken(text);
     }
-    meeting_->open();
+    link_->open();
   }
-  void person(const std::shared_ptr<const StreamHeader>& person) override { meeting_->person(person); }
-  bool frame(const MotionFrame& frame, double taken) override { return meeting_->frame(frame, taken); }
+  void person(const std::shared_ptr<const StreamHeader>& person) override { link_->person(person); }
+  bool frame(const MotionFrame& frame, double taken) override { return link_->frame(frame, taken); }
   void close() noexcept override {
-    if (meeting_) {
-      meeting_->close();
+    if (link_) {
+      link_->close();
     }
   }
 
  private:
-  // Not a thread that is left behind: OpenSSL, which it uses, is taken down when the program ends.
-  Credentials enter() {
-    std::atomic<bool> given_up = false;
-    LinkLogin entry = entry_;
-    entry.addresses = resolve(loop_, url_.host);
-    entry.stopped = [&given_up] { return given_up.load(); };
-    std::promise<Credentials> promise;
-    std::future<Credentials> key = promise.get_future();
-    const Visitor visitor(given_up, [&promise, &entry, wake = loop_.waker()] {
-      try {
-        promise.set_value(log_in_by_link(entry));
-      } catch (...) {
-        promise.set_exception(std::current_exception());
-      }
+  // In a thread that is joined before this returns: OpenSSL, which it uses, is cleaned up at the program's
+  // end.
+  Credentials log_in() {
+    LinkLogin login = login_;
+    login.addresses = resolve(loop_, url_.host);
+    std::packaged_task<Credentials()> task([&login] { return log_in_by_link(login); });
+    std::future<Credentials> result = task.get_future();
+    const std::jthread thread([&login, &task, wake = loop_.waker()](const std::stop_token& stop) {
+      login.stopped = [&stop] { return stop.stop_requested(); };
+      task();
       wake();
     });
-    const auto ready = [&key] { return key.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
-    if (!loop_.wait(ready, kLongestEntry)) {
-      throw LinkBroken("the room's server does not answer");
+    const auto ready = [&] { return result.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    if (!loop_.wait(ready, kLongestLogin)) {
+      throw LinkBroken("the meeting's server does not answer");
     }
-    try {
-      return key.get();
-    } catch (const Error& e) {
-      throw LinkBroken(in_one_line(e.what()));
-    }
+    return result.get();
   }
 
   SendLoop& loop_;
   const SendUrl url_;
-  LinkLogin entry_;
-  Credentials key_;
-  std::unique_ptr<MeetingLink> meeting_;
+  LinkLogin login_;
+  Credentials credentials_;
+  std::unique_ptr<MeetingLink> link_;
 };
 
 }  // namespace
@@ -134,24 +99,30 @@ std::unique_ptr<Sender> make_link_sender(const SendUrl& url) {
   check_options(url, {"name", "look", "seat", "ca", "mirror"});
   require_host(url);
   if (url.password.empty()) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no secret of a room behind \"#k=\"",
-                "Secrets are not kept. Give the whole link again, as it was shared.");
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no secret after \"#k=\"",
+                "Secrets are not stored. Give the whole link again.");
   }
   if (url.path != "/room") {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" is no link to a room",
-                "Write it like http://localhost:7080/room#k=INVITE.");
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" is not the link of a meeting",
+                "Write it like http://localhost:7080/room#k=SECRET.");
   }
   const bool tls = url.scheme == "https";
-  // Mistakes in the options are told at once, not when somebody has opened the door.
-  const Credentials tried{tls ? "mqtts://localhost" : "mqtt://localhost", "x.x", "x", "r/x/x", "x", {}, {}};
-  LinkLogin entry;
-  entry.link = url.scheme + "://" + host_and_port(url.host, url.port.value_or(tls ? kHttpsPort : 80)) +
+  // Checks the options now, and not only after the login.
+  const Credentials example{.broker = tls ? "mqtts://localhost" : "mqtt://localhost",
+                            .user = "x.x",
+                            .password = "x",
+                            .topic = "r/x/x",
+                            .participant = "x",
+                            .roles = {},
+                            .rejoin = {}};
+  LinkLogin login;
+  login.link = url.scheme + "://" + host_and_port(url.host, url.port.value_or(tls ? kHttpsPort : kHttpPort)) +
                url.path + "#k=" + url.password;
-  entry.ca = output_of(url, tried).server.ca_file.value_or("");
+  login.ca = output_of(url, example).server.ca_file.value_or("");
   SendUrl shown = url;
   shown.password.clear();
   return make_queued_sender(shown,
-                            [&](SendLoop& loop) { return std::make_unique<LoginLink>(loop, shown, entry); });
+                            [&](SendLoop& loop) { return std::make_unique<LoginLink>(loop, shown, login); });
 }
 
 }  // namespace telemime::meeting

@@ -8,9 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "meeting/protocol/tracked_pose.h"
-#include "meeting/transport/mqtt_names.h"
-
 namespace telemime::meeting {
 namespace {
 
@@ -20,12 +17,12 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr milliseconds kLongestAnswer{3000};
 constexpr milliseconds kSlowWrite{1000};
 constexpr milliseconds kLongestWrite{4000};  // after that
-/// What others can rely on, s: frames may not come for a while.
-constexpr double kPromise = 1.25;
-constexpr double kLongestSilence = 1.0;  // s: there is time to be late
-constexpr double kShortestWait = 0.1;    // s, while a connection takes nothing
-/// What a page on our seat says so soon after we came in was on its way, s: it then makes room.
-constexpr double kCrossing = 1.0;
+constexpr double kPromise = 1.25;            // s, the promised time between messages
+constexpr double kLongestSilence = 1.0;  // s, after which presence is repeated: some time before the promise
+constexpr double kShortestWait = 0.1;    // s, while the connection accepts no data
+/// A page with our id gives way to a tracker. For this long after we joined, its presence may still be on its
+/// way.
+constexpr double kCrossing = 1.0;  // s
 constexpr double kMicrosecondsPerMillisecond = 1000.0;
 
 double seconds_now() {
@@ -53,12 +50,12 @@ std::uint64_t microseconds(double milliseconds_taken) {
 MeetingLink::MeetingLink(SendLoop& loop, MeetingOutput output)
     : loop_(loop),
       output_(std::move(output)),
-      session_(any_session()),
+      session_(random_session()),
       pose_topic_(topic(TopicKind::pose)),
-      last_words_{presence(false), MqttMessage{topic(TopicKind::state), ""}},
-      connection_(loop, output_.server, [this](const MqttMessage& message) { hear(message); }),
-      timer_(loop.io()),
-      breath_(loop.io()) {}
+      last_messages_{presence(false), MqttMessage{topic(TopicKind::state), ""}},
+      connection_(loop, output_.server, [this](const MqttMessage& message) { on_message(message); }),
+      pose_timer_(loop.io()),
+      presence_timer_(loop.io()) {}
 
 std::string MeetingLink::topic(TopicKind kind) const {
   return topic_text(output_.meeting, {kind, output_.participant, 0});
@@ -86,36 +83,35 @@ MqttMessage MeetingLink::state() const {
   return {topic(TopicKind::state), write_state(state)};
 }
 
-std::string MeetingLink::words() const {
-  std::string words = output_.warning;
-  const auto add = [&words](const std::string& more) { words += (words.empty() ? "" : "; ") + more; };
+std::string MeetingLink::warnings() const {
+  std::string text = output_.warning;
+  const auto add = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (!output_.server.ca_file && !output_.server.password.empty() && !is_this_computer(output_.server.host)) {
-    add("the password travels unencrypted, which mqtts:// would change");
+    add("the password is sent unencrypted; mqtts:// encrypts it");
   }
-  if (twin_) {
-    add("somebody else takes part as \"" + output_.participant + "\", too");
+  if (duplicate_) {
+    add("another client takes part as \"" + output_.participant + "\"");
   }
-  return words;
+  return text;
 }
 
 void MeetingLink::open() {
-  here_ = {};
+  attendance_ = {};
   confirmed_.reset();
-  twin_ = false;
+  duplicate_ = false;
   waiting_.reset();
-  connection_.open(any_client_id(output_.participant), presence(false));
+  connection_.open(random_client_id(output_.participant), presence(false));
   connection_.subscribe(presence_filter(output_.meeting));
-  connection_.keep(presence(true));
-  connection_.keep(state());
-  // MQTT 3.1.1 has no word for what a broker does not let pass. What it lets pass comes back to us.
+  connection_.publish_retained(presence(true));
+  connection_.publish_retained(state());
+  // MQTT 3.1.1 does not report a message that the broker discards. What it accepts comes back to us.
   if (!loop_.wait([this] { return confirmed_.has_value(); }, kLongestAnswer)) {
-    throw LinkBroken("it lets nothing pass that we say as \"" + output_.participant +
-                     "\": the account may not publish there");
+    throw LinkBroken("the account may not publish as \"" + output_.participant + "\"");
   }
-  loop_.sending(words());
+  loop_.sending(warnings());
   count_participants();
-  said_ = seconds_now();
-  breathe_when_silent();
+  last_sent_ = seconds_now();
+  repeat_presence();
 }
 
 void MeetingLink::person(const std::shared_ptr<const StreamHeader>& person) {
@@ -124,7 +120,7 @@ void MeetingLink::person(const std::shared_ptr<const StreamHeader>& person) {
     person_ = person;
     waiting_.reset();
   }
-  connection_.keep(state());
+  connection_.publish_retained(state());
 }
 
 bool MeetingLink::frame(const MotionFrame& raw, double taken) {
@@ -141,54 +137,55 @@ bool MeetingLink::frame(const MotionFrame& raw, double taken) {
 
 void MeetingLink::close() noexcept {
   boost::system::error_code ignored;
-  timer_.cancel(ignored);
-  breath_.cancel(ignored);
+  pose_timer_.cancel(ignored);
+  presence_timer_.cancel(ignored);
   waiting_.reset();
   confirmed_.reset();
-  connection_.goodbye(last_words_);
+  connection_.disconnect(last_messages_);
   connection_.close();
 }
 
-void MeetingLink::hear(const MqttMessage& message) {
+void MeetingLink::on_message(const MqttMessage& message) {
   const auto topic = read_topic(output_.meeting, message.topic);
   if (!topic || topic->kind != TopicKind::presence) {
     return;
   }
-  here_.heard(topic->participant, message.payload);
+  attendance_.update(topic->participant, message.payload);
   if (topic->participant == output_.participant) {
     if (message.payload.empty()) {
-      hear_that_we_are_gone();
+      on_own_absence();
     } else if (const auto presence = read_presence(message.payload)) {
-      hear_of_oneself(*presence);
+      on_own_presence(*presence);
     }
   }
   count_participants();
 }
 
-void MeetingLink::hear_of_oneself(const ParticipantPresence& presence) {
+void MeetingLink::on_own_presence(const ParticipantPresence& presence) {
   if (!presence.here) {
-    hear_that_we_are_gone();
+    on_own_absence();
   } else if (presence.session == session_) {
     confirmed_ = confirmed_ ? confirmed_ : seconds_now();
-  } else if (confirmed_ && seconds_now() > *confirmed_ + kCrossing) {  // else it was left by an earlier run
-    twin_ = true;
-    loop_.sending(words());
+  } else if (confirmed_ &&
+             seconds_now() > *confirmed_ + kCrossing) {  // before that, it may be of an earlier run
+    duplicate_ = true;
+    loop_.sending(warnings());
   }
 }
 
-// An older connection of ours may have ended only now for the broker, somebody else under our name may have
-// left, or what was kept of us may have been cleared away.
-void MeetingLink::hear_that_we_are_gone() {
+// The broker may have noticed only now that an older connection of ours ended, another client with our id may
+// have left, or our retained messages may have been cleared.
+void MeetingLink::on_own_absence() {
   if (confirmed_) {
-    twin_ = false;
-    loop_.sending(words());
-    connection_.keep(presence(true));
-    connection_.keep(state());
+    duplicate_ = false;
+    loop_.sending(warnings());
+    connection_.publish_retained(presence(true));
+    connection_.publish_retained(state());
   }
 }
 
 void MeetingLink::count_participants() {
-  const std::size_t others = here_.count() - (here_.has(output_.participant) ? 1 : 0);
+  const std::size_t others = attendance_.count() - (attendance_.has(output_.participant) ? 1 : 0);
   pace_.set_participants(others + 1);
   if (confirmed_) {
     loop_.receivers(static_cast<std::int64_t>(others));
@@ -200,9 +197,9 @@ void MeetingLink::drain() {
   if (!loop_.wait(done, kSlowWrite)) {
     loop_.sending("it reads too slowly; frames are dropped");
     if (!loop_.wait(done, kLongestWrite)) {
-      throw LinkBroken("it does not read what is sent");
+      throw LinkBroken("it does not read the data");
     }
-    loop_.sending(words());
+    loop_.sending(warnings());
   }
 }
 
@@ -213,8 +210,8 @@ void MeetingLink::send_when_due() {
   const double now = seconds_now();
   const double due = pace_.due(*waiting_);
   if (due > now) {
-    timer_.expires_at(at_seconds(due));
-    timer_.async_wait([this](const boost::system::error_code& error) {
+    pose_timer_.expires_at(at_seconds(due));
+    pose_timer_.async_wait([this](const boost::system::error_code& error) {
       if (!error) {
         send_when_due();
       }
@@ -223,29 +220,29 @@ void MeetingLink::send_when_due() {
   }
   waiting_->session = session_;
   waiting_->sequence = sequence_++;
-  // A person who is left has no picture of their own: the time of the one before.
+  // The frame of a lost person may repeat the time of the previous one.
   waiting_->captured = captured_ = std::max(waiting_->captured, captured_ + 1);
   waiting_->still = pace_.still(*waiting_);
-  connection_.tell(pose_topic_, encode(*waiting_));
+  const std::vector<std::uint8_t> bytes = encode(*waiting_);
+  connection_.publish(pose_topic_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   pace_.sent(*waiting_, now);
-  said_ = now;
+  last_sent_ = now;
   waiting_.reset();
   ++uncounted_;
 }
 
-// The broker tells others late that somebody has vanished; that they are silent is heard at once.
-void MeetingLink::breathe_when_silent() {
+// The broker reports a vanished client late; others notice its silence sooner.
+void MeetingLink::repeat_presence() {
   const double now = seconds_now();
-  if (now >= said_ + kLongestSilence && connection_.drained()) {
-    const MqttMessage breath = presence(true);
-    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(breath.payload.data());
-    connection_.tell(breath.topic, {bytes, breath.payload.size()});
-    said_ = now;
+  if (now >= last_sent_ + kLongestSilence && connection_.drained()) {
+    const MqttMessage own = presence(true);
+    connection_.publish(own.topic, own.payload);
+    last_sent_ = now;
   }
-  breath_.expires_at(at_seconds(std::max(said_ + kLongestSilence, now + kShortestWait)));
-  breath_.async_wait([this](const boost::system::error_code& error) {
-    if (!error && confirmed_) {  // what was due when the connection was closed comes all the same
-      breathe_when_silent();
+  presence_timer_.expires_at(at_seconds(std::max(last_sent_ + kLongestSilence, now + kShortestWait)));
+  presence_timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error && confirmed_) {  // a handler that was due also runs after close()
+      repeat_presence();
     }
   });
 }

@@ -8,10 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "meeting/protocol/attendance.h"
 #include "meeting/protocol/messages.h"
-#include "meeting/protocol/pose_frame.h"
-#include "meeting/protocol/publish_pace.h"
+#include "meeting/protocol/publishing.h"
 #include "meeting/protocol/topics.h"
 #include "meeting/transport/mqtt_connection.h"
 #include "telemime/streaming/person_motion.h"
@@ -19,7 +17,7 @@
 
 namespace telemime::meeting {
 
-/// Where and as whom to take part.
+/// A tracker's place in a meeting.
 struct MeetingOutput {
   MqttServer server;
   MeetingAddress meeting;
@@ -27,20 +25,20 @@ struct MeetingOutput {
   std::string name;            ///< is_participant_name()
   std::string look = "plain";  ///< is_topic_segment()
   std::optional<int> seat;
-  std::string warning;  ///< for the user, while all is well otherwise
+  std::string warning;  ///< shown while there is no failure
 };
 
-/// A participant of a room: presence and state for those who come later, poses as often as publish_pace.h
-/// allows, always the newest.
+/// A tracker in a meeting: retained presence and state, and poses at the rate of PublishPace, always the
+/// newest.
 class MeetingLink final : public Link {
  public:
-  /// Throws Error(usage) when TLS cannot be used (mqtt_tls.h).
+  /// Throws Error(usage) when TLS cannot be used (tls.h).
   MeetingLink(SendLoop& loop, MeetingOutput output);
 
   void open() override;
   void person(const std::shared_ptr<const StreamHeader>& person) override;
-  /// False for a frame that waits for its time; the next one may take its place. One that was sent in the
-  /// meantime is counted with the next.
+  /// Returns false for a frame that waits for its slot; a newer one may replace it. If it was sent in the
+  /// meantime, the next call returns true.
   bool frame(const MotionFrame& raw, double taken) override;
   void close() noexcept override;
 
@@ -48,35 +46,35 @@ class MeetingLink final : public Link {
   std::string topic(TopicKind kind) const;
   MqttMessage presence(bool here) const;
   MqttMessage state() const;
-  std::string words() const;
-  void hear(const MqttMessage& message);
-  void hear_of_oneself(const ParticipantPresence& presence);
-  void hear_that_we_are_gone();
+  std::string warnings() const;
+  void on_message(const MqttMessage& message);
+  void on_own_presence(const ParticipantPresence& presence);
+  void on_own_absence();
   void count_participants();
   void drain();
   void send_when_due();
-  void breathe_when_silent();
+  void repeat_presence();
 
   SendLoop& loop_;
   const MeetingOutput output_;
   const std::uint16_t session_;
   const std::string pose_topic_;
-  const std::array<MqttMessage, 2> last_words_;
+  const std::array<MqttMessage, 2> last_messages_;
   MqttConnection connection_;
-  boost::asio::steady_timer timer_;
-  boost::asio::steady_timer breath_;
-  double said_ = 0.0;  ///< when something was said last, s of the steady clock
+  boost::asio::steady_timer pose_timer_;
+  boost::asio::steady_timer presence_timer_;
+  double last_sent_ = 0.0;  ///< when anything was sent, s of the steady clock
   std::optional<PersonMotion> motion_;
-  std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
+  std::shared_ptr<const StreamHeader> person_;  ///< of motion_
   PublishPace pace_;
-  Attendance here_;
+  Attendance attendance_;
   std::optional<PoseFrame> waiting_;  ///< the newest frame, until it is sent
   std::uint32_t sequence_ = 0;
-  std::uint64_t captured_ = 0;  ///< us, of the last frame that was sent
-  int uncounted_ = 0;           ///< frames that were sent and not yet told by frame()
-  /// When our presence came back, s of the steady clock: what we publish is taken.
+  std::uint64_t captured_ = 0;  ///< us, of the last frame sent
+  int uncounted_ = 0;           ///< frames sent that frame() has not reported yet
+  /// When our own presence came back, s of the steady clock: the broker accepts what we publish.
   std::optional<double> confirmed_;
-  bool twin_ = false;  ///< somebody else takes part under our name
+  bool duplicate_ = false;  ///< another client takes part with our id
 };
 
 }  // namespace telemime::meeting

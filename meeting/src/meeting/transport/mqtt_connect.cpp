@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a connection comes about, and in words why it does not.
+// Opening a connection, and the reasons why that fails.
 #include <fcntl.h>
 #include <mosquitto.h>
 #include <sys/socket.h>
@@ -22,9 +22,9 @@ constexpr std::chrono::milliseconds kLongestConnect{5000};
 constexpr int kKeepAlive = 5;           // s
 constexpr int kSendBuffer = 16 * 1024;  // bytes
 constexpr int kAtLeastOnce = 1;
-constexpr const char* kNoBroker = "it does not answer as an MQTT broker does";
+constexpr const char* kNoBroker = "it does not answer like an MQTT broker";
 
-/// This address of the host leads nowhere; another one may.
+/// This address of the host cannot be reached; another one may.
 class Unreachable : public LinkBroken {
  public:
   using LinkBroken::LinkBroken;
@@ -35,19 +35,19 @@ boost::system::error_code system_error(int number) {
 }
 
 // MQTT 3.1.1, 3.2.2.3.
-std::string refusal_words(int code, bool named) {
+std::string refusal_reason(int code, bool named) {
   switch (code) {
     case 1:
       return "it does not speak MQTT 3.1.1";
     case 2:
-      return "it does not accept our name";
+      return "it rejects the client id";
     case 3:
-      return "it takes nobody now";
+      return "it is not available now";
     case 4:
     case 5:
-      return named ? "it refuses the user or the password" : "it wants a user and a password";
+      return named ? "it rejects the user name or password" : "it requires a user name and password";
     default:
-      return "it refuses the connection";
+      return "it rejects the connection";
   }
 }
 
@@ -59,7 +59,7 @@ void MqttConnection::open(const std::string& client_id, const std::optional<Mqtt
     try {
       connect(address, client_id, will);
       return;
-    } catch (const Unreachable& e) {  // the first address is the one that most brokers listen at
+    } catch (const Unreachable& e) {  // most brokers listen at the first address
       cause = cause.empty() ? e.what() : cause;
     }
   }
@@ -71,12 +71,12 @@ void MqttConnection::prepare(const std::string& client_id, const std::optional<M
   client_.reset(mosquitto_new(client_id.c_str(), /*clean_session=*/true, this));
   mosquitto* const client = client_.get();
   if (client == nullptr) {
-    throw LinkBroken("no connection can be made here");
+    throw LinkBroken("no MQTT client can be created");
   }
   mosquitto_connect_callback_set(client, on_connect);
   mosquitto_subscribe_callback_set(client, on_subscribe);
   mosquitto_publish_callback_set(client, on_publish);
-  mosquitto_message_callback_set(client, on_message);
+  mosquitto_message_callback_set(client, on_incoming);
   check(mosquitto_int_option(client, MOSQ_OPT_PROTOCOL_VERSION, MQTT_PROTOCOL_V311));
   check(mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1));
   if (will) {
@@ -87,7 +87,7 @@ void MqttConnection::prepare(const std::string& client_id, const std::optional<M
     check(mosquitto_username_pw_set(client, server_.user.c_str(), server_.password.c_str()));
   }
   if (tls_) {
-    tls_->forget();
+    tls_->reset();
     check(mosquitto_int_option(client, MOSQ_OPT_SSL_CTX_WITH_DEFAULTS, 0));
     check(mosquitto_void_option(client, MOSQ_OPT_SSL_CTX, tls_->context()));
   }
@@ -100,7 +100,7 @@ void MqttConnection::connect(const std::string& address, const std::string& clie
   const int result = mosquitto_connect_async(client_.get(), address.c_str(), server_.port, kKeepAlive);
   const int error = errno;
   if (result != MOSQ_ERR_SUCCESS) {
-    tell_why_unreachable(address, result, error);
+    report_unreachable(address, result, error);
   }
   const int descriptor = ::fcntl(mosquitto_socket(client_.get()), F_DUPFD_CLOEXEC, 0);
   if (descriptor < 0) {
@@ -112,23 +112,23 @@ void MqttConnection::connect(const std::string& address, const std::string& clie
   watch_writes();
   watch_time();
   if (!loop_.wait([this] { return answer_.has_value() || refused_; }, kLongestConnect)) {
-    if (!look_at_socket()) {
+    if (!check_socket()) {
       throw Unreachable("no answer from there");
     }
-    throw LinkBroken(words_for(MOSQ_ERR_KEEPALIVE, 0));
+    throw LinkBroken(reason(MOSQ_ERR_KEEPALIVE, 0));
   }
   if (refused_) {
-    tell_why_unreachable(address, MOSQ_ERR_CONN_LOST, 0);
+    report_unreachable(address, MOSQ_ERR_CONN_LOST, 0);
   }
   if (*answer_ != 0) {
-    throw LinkBroken(refusal_words(*answer_, !server_.user.empty()));
+    throw LinkBroken(refusal_reason(*answer_, !server_.user.empty()));
   }
 }
 
-// TLS hides why; a connection without it tells. When that one can be made, what else is known must do.
-void MqttConnection::tell_why_unreachable(const std::string& address, int result, int error) {
+// TLS hides the reason; a plain TCP connection shows it. If that one succeeds, the TLS result is reported.
+void MqttConnection::report_unreachable(const std::string& address, int result, int error) {
   reached_ = true;
-  const std::string otherwise = words_for(result, error);
+  const std::string tls_reason = reason(result, error);
   close();
   try {
     asio::ip::tcp::socket probe(loop_.io());
@@ -136,12 +136,12 @@ void MqttConnection::tell_why_unreachable(const std::string& address, int result
   } catch (const LinkBroken& e) {
     throw Unreachable(e.what());
   }
-  throw LinkBroken(otherwise);
+  throw LinkBroken(tls_reason);
 }
 
-// The first that is heard of the socket is whether it could be connected. False: there is nothing to be read
-// or written.
-bool MqttConnection::look_at_socket() {
+// The first event of the socket tells whether it is connected. Returns false when nothing can be read or
+// written.
+bool MqttConnection::check_socket() {
   if (reached_ || refused_) {
     return reached_;
   }
@@ -156,28 +156,28 @@ bool MqttConnection::look_at_socket() {
   reached_ = broke || (error == 0 && stands);
   refused_ = !reached_;
   if (broke) {
-    throw LinkBroken(words_for(MOSQ_ERR_CONN_LOST, error));
+    throw LinkBroken(reason(MOSQ_ERR_CONN_LOST, error));
   }
   return reached_;
 }
 
-std::string MqttConnection::words_for(int result, int error) const {
+std::string MqttConnection::reason(int result, int error) const {
   if (tls_ && !tls_->refusal().empty()) {
     return tls_->refusal();
   }
   if (answer_.value_or(0) != 0) {
-    return refusal_words(*answer_, !server_.user.empty());
+    return refusal_reason(*answer_, !server_.user.empty());
   }
-  if (tls_ && reached_ && !tls_->shaken()) {
-    return "no TLS connection comes about; is TLS spoken at that port?";
+  if (tls_ && reached_ && !tls_->established()) {
+    return kNoTls;
   }
   const bool broke = result == MOSQ_ERR_ERRNO && (error == ECONNRESET || error == EPIPE);
   switch (broke ? static_cast<int>(MOSQ_ERR_CONN_LOST) : result) {
     case MOSQ_ERR_CONN_LOST:
       return answer_ || tls_ ? "it closed the connection"
-                             : "it closed the connection without a word; mqtts:// may be meant";
+                             : "it closed the connection without an answer; it may need mqtts://";
     case MOSQ_ERR_KEEPALIVE:
-      return answer_ ? "it does not answer any more" : kNoBroker;
+      return answer_ ? "it stopped answering" : kNoBroker;
     case MOSQ_ERR_PROTOCOL:
     case MOSQ_ERR_MALFORMED_PACKET:
       return kNoBroker;

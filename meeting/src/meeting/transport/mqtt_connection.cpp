@@ -8,7 +8,11 @@
 #include <boost/asio/io_context.hpp>
 #include <cerrno>
 #include <chrono>
+#include <mutex>
+#include <random>
 #include <utility>
+
+#include "meeting/protocol/topics.h"
 
 namespace telemime::meeting {
 
@@ -18,23 +22,53 @@ using SteadyClock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr milliseconds kLongestGrant{6000};  // a cluster in need takes 4 s to refuse
-constexpr milliseconds kTick{1000};          // libmosquitto's own wish
+constexpr milliseconds kLongestGrant{6000};  // a cluster that lost a node takes 4 s to refuse
+constexpr milliseconds kTick{1000};          // as libmosquitto recommends
 constexpr milliseconds kLongestGoodbye{500};
 constexpr std::size_t kLongestTopic = 256;
-constexpr std::size_t kLongestPayload = 16384;
 constexpr int kSubscriptionRefused = 0x80;  // MQTT 3.1.1, 3.9.3
 constexpr int kAtMostOnce = 0;
 constexpr int kAtLeastOnce = 1;
 
+// The counter of the library has no lock and is one for the whole process.
+std::mutex& count_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 }  // namespace
 
-void MqttConnection::Destroy::operator()(mosquitto* client) const {
+MqttLibrary::MqttLibrary() {
+  const std::lock_guard lock(count_mutex());
+  mosquitto_lib_init();
+}
+
+MqttLibrary::~MqttLibrary() {
+  const std::lock_guard lock(count_mutex());
+  mosquitto_lib_cleanup();
+}
+
+void DestroyClient::operator()(mosquitto* client) const {
   mosquitto_destroy(client);
 }
 
-MqttConnection::MqttConnection(SendLoop& loop, MqttServer server, Heard heard)
-    : loop_(loop), server_(std::move(server)), heard_(std::move(heard)), timer_(loop.io()) {
+std::uint16_t random_session() {
+  std::random_device random;
+  return static_cast<std::uint16_t>(std::uniform_int_distribution<int>(1, UINT16_MAX)(random));
+}
+
+std::string random_client_id(const std::string& who) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::random_device random;
+  std::string id = who + "-";
+  for (int i = 0; i < 8; ++i) {
+    id += kDigits[random() % kDigits.size()];
+  }
+  return id;
+}
+
+MqttConnection::MqttConnection(SendLoop& loop, MqttServer server, OnMessage on_message)
+    : loop_(loop), server_(std::move(server)), on_message_(std::move(on_message)), timer_(loop.io()) {
   if (server_.ca_file) {
     tls_ = std::make_unique<MqttTls>(server_.host, *server_.ca_file);
   }
@@ -44,7 +78,7 @@ MqttConnection::~MqttConnection() {
   close();
 }
 
-// Called by libmosquitto, which knows no exceptions: they only take notes.
+// Called by libmosquitto, a C library: they must not throw.
 void MqttConnection::on_connect(mosquitto* /*client*/, void* self, int code) {
   static_cast<MqttConnection*>(self)->answer_ = code;
 }
@@ -58,7 +92,7 @@ void MqttConnection::on_publish(mosquitto* /*client*/, void* self, int id) {
   static_cast<MqttConnection*>(self)->unconfirmed_.erase(id);
 }
 
-void MqttConnection::on_message(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
+void MqttConnection::on_incoming(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
   const std::string_view topic(message->topic);
   const auto size = static_cast<std::size_t>(message->payloadlen);
   if (topic.size() <= kLongestTopic && size <= kLongestPayload) {
@@ -88,7 +122,7 @@ void MqttConnection::watch_writes() {
                       [this, generation = generation_](const boost::system::error_code& error) {
                         if (!error && generation == generation_) {
                           write_watched_ = false;
-                          if (look_at_socket()) {
+                          if (check_socket()) {
                             check(mosquitto_loop_write(client_.get(), 1));
                             watch_writes();
                           }
@@ -96,7 +130,7 @@ void MqttConnection::watch_writes() {
                       });
 }
 
-// For the library's keep-alive.
+// Drives the keep-alive of the library.
 void MqttConnection::watch_time() {
   timer_.expires_after(kTick);
   timer_.async_wait([this, generation = generation_](const boost::system::error_code& error) {
@@ -109,20 +143,16 @@ void MqttConnection::watch_time() {
 }
 
 void MqttConnection::on_readable() {
-  if (!look_at_socket()) {
+  if (!check_socket()) {
     return;
   }
   check(mosquitto_loop_read(client_.get(), 1));
   if (mosquitto_want_write(client_.get())) {
-    check(mosquitto_loop_write(client_.get(), 1));  // what TLS held back until it had read
+    check(mosquitto_loop_write(client_.get(), 1));  // what TLS could not write before it had read
   }
   watch_writes();
-  hand_out();
-}
-
-void MqttConnection::hand_out() {
   for (const MqttMessage& message : std::exchange(incoming_, {})) {
-    heard_(message);
+    on_message_(message);
   }
 }
 
@@ -131,19 +161,19 @@ bool MqttConnection::is_open() const {
 }
 
 bool MqttConnection::wants_to_write() const {
-  // In the middle of a TLS handshake there may be nothing to write before something was read.
+  // During a TLS handshake there may be nothing to write before something was read.
   const auto* const connection = static_cast<const SSL*>(mosquitto_ssl_get(client_.get()));
   return mosquitto_want_write(client_.get()) && (connection == nullptr || !SSL_want_read(connection));
 }
 
 void MqttConnection::check(int result) const {
   if (result != MOSQ_ERR_SUCCESS) {
-    throw LinkBroken(words_for(result, errno));
+    throw LinkBroken(reason(result, errno));
   }
 }
 
 void MqttConnection::subscribe(const std::string& filter) {
-  // A broker cluster that has just lost a node may be unable to grant more than QoS 0.
+  // A broker cluster that has just lost a node may not be able to grant more than QoS 0.
   for (const int quality : {kAtLeastOnce, kAtMostOnce}) {
     granted_.reset();
     check(mosquitto_subscribe(client_.get(), nullptr, filter.c_str(), quality));
@@ -155,24 +185,16 @@ void MqttConnection::subscribe(const std::string& filter) {
       return;
     }
   }
-  throw LinkBroken("this user may not read there");
+  throw LinkBroken("this account may not read the meeting");
 }
 
-void MqttConnection::tell(const std::string& topic, std::span<const std::uint8_t> payload) {
+void MqttConnection::publish(const std::string& topic, std::string_view payload) {
   check(mosquitto_publish(client_.get(), nullptr, topic.c_str(), static_cast<int>(payload.size()),
                           payload.data(), kAtMostOnce, /*retain=*/false));
   watch_writes();
 }
 
-void MqttConnection::keep(const MqttMessage& message) {
-  publish(message, /*retain=*/true);
-}
-
-void MqttConnection::say(const MqttMessage& message) {
-  publish(message, /*retain=*/false);
-}
-
-void MqttConnection::publish(const MqttMessage& message, bool retain) {
+void MqttConnection::publish_reliably(const MqttMessage& message, bool retain) {
   int id = 0;
   check(mosquitto_publish(client_.get(), &id, message.topic.c_str(), static_cast<int>(message.payload.size()),
                           message.payload.data(), kAtLeastOnce, retain));
@@ -184,22 +206,22 @@ bool MqttConnection::drained() const {
   return client_ && !mosquitto_want_write(client_.get());
 }
 
-void MqttConnection::goodbye(std::span<const MqttMessage> last_words) noexcept {
+void MqttConnection::disconnect(std::span<const MqttMessage> last_messages) noexcept {
   if (!is_open()) {
     return;
   }
   try {
-    for (const MqttMessage& message : last_words) {
-      keep(message);
+    for (const MqttMessage& message : last_messages) {
+      publish_retained(message);
     }
   } catch (const std::exception&) {
-    return;  // then the will says it
+    return;  // the broker publishes the will instead
   }
   wait_for_confirmation();
   mosquitto_disconnect(client_.get());
 }
 
-// Not by the loop, which is ending. Closed at once, what was written might not arrive.
+// Without the loop, which is ending. Closing at once could lose what was written.
 void MqttConnection::wait_for_confirmation() noexcept {
   const auto end = SteadyClock::now() + kLongestGoodbye;
   while (!unconfirmed_.empty() && is_open()) {

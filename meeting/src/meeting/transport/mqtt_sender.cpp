@@ -1,34 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meeting/transport/mqtt_sender.h"
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 
-#include "meeting/transport/meeting_link.h"
-#include "meeting/transport/mqtt_key.h"
+#include "meeting/protocol/json.h"
+#include "meeting/transport/files.h"
+#include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/send_queue.h"
 
 namespace telemime::meeting {
 namespace {
 
-constexpr std::string_view kNobody = "tracker";  // who takes part without an account
+constexpr std::string_view kDefaultParticipant = "tracker";  // without an account
+constexpr std::size_t kLongestFile = 4096;                   // bytes
+constexpr std::size_t kLongestText = 256;                    // bytes, of user and password
 
-/// The option's value with its "%41" as "A".
-std::optional<std::string> plain_option(const SendUrl& url, std::string_view name) {
+[[noreturn]] void reject(const SendUrl& url, const std::string& what, const std::string& remedy) {
+  throw Error(ErrorKind::usage, "the output \"" + url.text + "\" " + what, remedy);
+}
+
+// MQTT requires UTF-8: the JSON reader has checked the file, and URLs are ASCII.
+bool is_valid(const BrokerKey& key) {
+  const auto fits = [](const std::string& text) {
+    return !text.empty() && text.size() <= kLongestText && text.find('\0') == std::string::npos;
+  };
+  return fits(key.user) && fits(key.password);
+}
+
+/// The value of an option with "%41" decoded to "A".
+std::optional<std::string> decoded_option(const SendUrl& url, std::string_view name) {
   const auto raw = free_option(url, name);
   if (!raw) {
     return std::nullopt;
   }
   auto value = percent_decoded(*raw);
   if (!value) {
-    throw Error(ErrorKind::usage, "the option \"" + std::string(name) + "\" of \"" + url.text +
-                                      "\" has a \"%\" without two hexadecimal digits");
+    reject(url, "has the option \"" + std::string(name) + "\" with a \"%\" without two hexadecimal digits",
+           "");
   }
   return value;
-}
-
-[[noreturn]] void refuse(const SendUrl& url, const std::string& what, const std::string& remedy) {
-  throw Error(ErrorKind::usage, "the output \"" + url.text + "\" " + what, remedy);
 }
 
 MeetingAddress meeting_of(const SendUrl& url) {
@@ -37,31 +50,81 @@ MeetingAddress meeting_of(const SendUrl& url) {
   MeetingAddress meeting{std::string(path.substr(0, slash)),
                          slash == std::string_view::npos ? "" : std::string(path.substr(slash + 1))};
   if (!is_topic_segment(meeting.tenant) || !is_topic_segment(meeting.meeting)) {
-    refuse(url, "does not name a room",
-           "Write it like mqtt://localhost:1883/home/studio: small letters, digits, _ and - are a name.");
+    reject(url, "does not name a meeting",
+           "Write it like mqtt://localhost:1883/home/studio: names consist of lower-case letters, digits, _ "
+           "and -.");
   }
   return meeting;
 }
 
 std::optional<int> seat_of(const SendUrl& url) {
-  const auto text = plain_option(url, "seat");
-  if (!text) {
-    return std::nullopt;
-  }
-  for (int seat = 0; seat < kMostSeats; ++seat) {
+  const auto text = decoded_option(url, "seat");
+  for (int seat = 0; seat < kMostSeats && text; ++seat) {
     if (*text == std::to_string(seat)) {
       return seat;
     }
   }
-  refuse(url, "names a seat that there is not", "Seats are 0 to " + std::to_string(kMostSeats - 1) + ".");
+  if (text) {
+    reject(url, "names a seat that does not exist", "Seats are 0 to " + std::to_string(kMostSeats - 1) + ".");
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
+BrokerKey read_key_file(const std::filesystem::path& file) {
+  const auto unusable = [&file](const std::string& reason) {
+    return Error(ErrorKind::usage, "the key file " + file.string() + " cannot be used: " + reason,
+                 R"(It contains {"user": "...", "password": "..."}.)");
+  };
+  SmallFile read;
+  try {
+    read = read_small_file(file, kLongestFile);
+  } catch (const std::runtime_error& e) {
+    throw unusable(e.what());
+  }
+  const Json json = parse_object(read.content);
+  BrokerKey key{text_member(json, "user"), text_member(json, "password"), ""};
+  if (!is_valid(key)) {
+    throw unusable("it contains no user and password");
+  }
+  if ((read.mode & (S_IRWXG | S_IRWXO)) != 0) {
+    key.warning = "other users of this computer can read the key: chmod 600 " + file.string();
+  }
+  return key;
+}
+
+std::optional<BrokerKey> key_of(const SendUrl& url, const char* environment) {
+  std::optional<BrokerKey> key;
+  std::string source = "the output";
+  if (!url.password.empty()) {
+    key = {url.user, url.password, ""};
+  } else if (const auto file = decoded_option(url, "key")) {
+    if (file->empty()) {
+      reject(url, "has the option \"key\" without a file", "");
+    }
+    key = read_key_file(*file);
+  } else if (environment != nullptr && *environment != '\0') {
+    const std::string text(environment);
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    key = {text.substr(0, colon), text.substr(std::min(colon + 1, text.size())), ""};
+    source = kKeyVariable;
+  }
+  if (key && !is_valid(*key)) {
+    throw Error(ErrorKind::usage, source + " has no user and password of 1 to 256 bytes");
+  }
+  if (!url.user.empty() && (!key || key->user != url.user)) {
+    reject(url, "has a user but no password" + (key ? ": the key is of the user \"" + key->user + "\"" : ""),
+           "Passwords are not stored. Give it again as user:password@ before the host, or by key=FILE or " +
+               std::string(kKeyVariable) + ".");
+  }
+  return key;
+}
+
 MeetingOutput meeting_output_of(const SendUrl& url) {
   for (const auto& [name, value] : url.options) {
-    if (name == "password" || name == "user") {  // before anything shows the URL
-      throw Error(ErrorKind::usage, "an output's user and password are no options",
+    if (name == "password" || name == "user") {  // before any message shows the URL
+      throw Error(ErrorKind::usage, "the user and password of an output are not options",
                   "Write user:password@ before the host, or use key=FILE.");
     }
   }
@@ -70,36 +133,39 @@ MeetingOutput meeting_output_of(const SendUrl& url) {
   const bool tls = url.scheme == "mqtts";
   MeetingOutput output;
   output.meeting = meeting_of(url);
+
+  // The broker and the account.
   output.server.host = url.host;
   output.server.port = url.port.value_or(tls ? kMqttsPort : kMqttPort);
   if (output.server.port == 0) {
-    refuse(url, "has no port", "1883 is the usual one, 8883 with TLS.");
+    reject(url, "has no port", "The usual one is 1883, with TLS 8883.");
   }
   if (tls) {
-    output.server.ca_file = plain_option(url, "ca").value_or("");
+    output.server.ca_file = decoded_option(url, "ca").value_or("");
   } else if (free_option(url, "ca")) {
-    refuse(url, "names certificates, and is not encrypted", "Write mqtts:// for TLS.");
+    reject(url, "names certificates but is not encrypted", "Write mqtts:// for TLS.");
   }
-  const auto key = key_of(url, std::getenv(kMeetingKeyVariable));
-  if (key) {
+  if (const auto key = key_of(url, std::getenv(kKeyVariable))) {
     output.server.user = key->user;
     output.server.password = key->password;
     output.warning = key->warning;
   }
-  output.participant =
-      plain_option(url, "participant")
-          .value_or(participant_of_user(output.meeting, output.server.user).value_or(std::string(kNobody)));
+
+  // The participant.
+  const auto default_participant = participant_of_user(output.meeting, output.server.user);
+  output.participant = decoded_option(url, "participant")
+                           .value_or(default_participant.value_or(std::string(kDefaultParticipant)));
   if (!is_topic_segment(output.participant)) {
-    refuse(url, "names a participant that cannot be one",
-           "1 to 32 small letters, digits, _ and - are a name.");
+    reject(url, "names an invalid participant",
+           "A name consists of 1 to 32 lower-case letters, digits, _ and -.");
   }
-  output.name = plain_option(url, "name").value_or(output.participant);
+  output.name = decoded_option(url, "name").value_or(output.participant);
   if (!is_participant_name(output.name)) {
-    refuse(url, "has a name that cannot be shown", "A name is 1 to 40 characters, in UTF-8.");
+    reject(url, "has a name that cannot be shown", "A name has 1 to 40 characters, in UTF-8.");
   }
-  output.look = plain_option(url, "look").value_or(output.look);
+  output.look = decoded_option(url, "look").value_or(output.look);
   if (!is_topic_segment(output.look)) {
-    refuse(url, "has a look that cannot be one", "Looks are plain, robot and the like.");
+    reject(url, "has an invalid look", "Looks are plain, robot and so on.");
   }
   output.seat = seat_of(url);
   return output;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "meeting/transport/blocking_loop.h"
-#include "meeting/transport/mqtt_names.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -14,7 +13,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kForever = std::chrono::hours(1);
-/// A connection that stood this long was a good one: the next failure is a new one.
+/// After a connection of this length the pauses between attempts start again.
 constexpr std::chrono::seconds kGoodConnection{2};
 
 std::int64_t steady_us() {
@@ -23,11 +22,11 @@ std::int64_t steady_us() {
 
 }  // namespace
 
-MeetingRecorder::MeetingRecorder(MeetingLogin& door, std::function<bool()> stop, Say say)
-    : door_(door), stop_(std::move(stop)), say_(std::move(say)), began_(steady_us()) {}
+MeetingRecorder::MeetingRecorder(MeetingLogin& login, std::function<bool()> stop, Report report)
+    : way_(login), stop_(std::move(stop)), report_(std::move(report)), began_(steady_us()) {}
 
 const BrokerLogin& MeetingRecorder::log_in() {
-  login_ = door_.log_in();
+  login_ = way_.log_in();
   return login_;
 }
 
@@ -35,16 +34,10 @@ std::uint64_t MeetingRecorder::now() const {
   return static_cast<std::uint64_t>(steady_us() - began_);
 }
 
-void MeetingRecorder::hear(RecordingWriter& writer, const MqttMessage& message) const {
-  if (auto topic = read_topic(login_.meeting, message.topic)) {
-    writer.add(RecordedMessage{now(), std::move(*topic), message.payload});
-  }
-}
-
 std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
   began_ = steady_us();
-  BlockingLoop pauses([&] { return stop_() || writer.failure(); });
-  RetryPauses pause;
+  BlockingLoop loop([&] { return stop_() || writer.failure(); });
+  RetryPauses pauses;
   try {
     while (!stop_()) {
       const auto start = SteadyClock::now();
@@ -52,13 +45,13 @@ std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
         break;
       }
       if (SteadyClock::now() - start >= kGoodConnection) {
-        pause.reset();
+        pauses.reset();
       }
-      pauses.wait([] { return false; }, pause.next());
-      if (door_.is_link()) {  // a room that was opened anew has new accounts
+      loop.wait([] { return false; }, pauses.next());
+      if (way_.is_link()) {  // a meeting that was closed and opened again has new accounts
         try {
           log_in();
-        } catch (const Error&) {  // the account that is known may do
+        } catch (const Error&) {  // the known account may still work
           continue;
         }
       }
@@ -69,34 +62,38 @@ std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
   return now();
 }
 
-// Until the connection is lost (true) or the recording is over (false).
+// Returns true when the connection is lost, and false when the recording ends.
 bool MeetingRecorder::attempt(RecordingWriter& writer) {
   BlockingLoop loop([&] { return stop_() || writer.failure(); });
-  MqttConnection connection(loop, login_.server, [&](const MqttMessage& message) { hear(writer, message); });
+  MqttConnection connection(loop, login_.server, [&](const MqttMessage& message) {
+    if (auto topic = read_topic(login_.meeting, message.topic)) {
+      writer.add(RecordedMessage{now(), std::move(*topic), message.payload});
+    }
+  });
   try {
-    connection.open(any_client_id("record"), std::nullopt);
+    connection.open(random_client_id("record"), std::nullopt);
     if (std::exchange(lost_, false)) {
       writer.add(ConnectionRestored{now()});
-      say_("the room is heard again");
+      report_("the connection to the meeting is restored");
     }
     connection.subscribe(meeting_filter(login_.meeting));
-    heard_ever_ = true;
+    connected_before_ = true;
     for (;;) {
       loop.wait([] { return false; }, kForever);
     }
   } catch (const LinkBroken& e) {
-    if (!heard_ever_) {
-      throw Error(ErrorKind::input, "the room at " + door_.shown() + " cannot be heard: " + e.what());
+    if (!connected_before_) {
+      throw Error(ErrorKind::input, "the meeting at " + way_.shown() + " cannot be recorded: " + e.what());
     }
     if (!lost_) {
       writer.add(ConnectionLost{now(), e.what()});
-      say_(std::string("the room is not heard any more: ") + e.what() + "; trying again");
+      report_(std::string("the connection to the meeting is lost: ") + e.what() + "; trying again");
     }
     lost_ = true;
     connection.close();
     return true;
   } catch (const LoopStopped&) {
-    connection.goodbye({});
+    connection.disconnect({});
     return false;
   }
 }

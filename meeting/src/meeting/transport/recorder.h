@@ -10,32 +10,30 @@
 
 namespace telemime::meeting {
 
-/// Hears all that is said in a room and has it written, until `stop` holds, or the file cannot be written. A
-/// connection that is lost is made again, and the gap is told in the recording and by `say`, in words.
+/// Records all messages of a meeting until `stop` returns true or the file cannot be written. Connects again
+/// when the connection is lost; the gap is marked in the recording and reported.
 class MeetingRecorder {
  public:
-  using Say = std::function<void(const std::string& words)>;
+  using Report = std::function<void(const std::string& text)>;
 
-  MeetingRecorder(MeetingLogin& door, std::function<bool()> stop, Say say);
+  MeetingRecorder(MeetingLogin& login, std::function<bool()> stop, Report report);
 
-  /// Comes in. Throws Error(input) in words when that fails.
+  /// Logs in. Throws Error(input) when that fails.
   const BrokerLogin& log_in();
-  /// Records from now on; the times count from here. Returns the time of the end, us, which is left to the
-  /// caller to be written. Throws Error(input) when the room cannot be heard at first, Error(usage) as
-  /// MqttConnection does.
+  /// Records from now on; the times start at 0. Returns the time of the end, us; the caller writes the end.
+  /// Throws Error(input) when the first connection fails, and Error(usage) like MqttConnection.
   std::uint64_t record(RecordingWriter& writer);
 
  private:
   bool attempt(RecordingWriter& writer);
-  void hear(RecordingWriter& writer, const MqttMessage& message) const;
   std::uint64_t now() const;
 
-  MeetingLogin& door_;
+  MeetingLogin& way_;
   const std::function<bool()> stop_;
-  const Say say_;
+  const Report report_;
   BrokerLogin login_;
   std::int64_t began_ = 0;  ///< us of the steady clock
-  bool heard_ever_ = false;
+  bool connected_before_ = false;
   bool lost_ = false;
 };
 

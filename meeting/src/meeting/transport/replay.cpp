@@ -7,7 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "meeting/transport/mqtt_names.h"
+#include "meeting/protocol/meeting_info.h"
+#include "meeting/protocol/recording_reader.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -17,24 +18,24 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr milliseconds kLook{50};
-constexpr std::chrono::seconds kLongestStart{20};    // until all are connected
-constexpr std::chrono::seconds kLongestEnd{2};       // until the last words are said
+constexpr milliseconds kCheck{50};
+constexpr std::chrono::seconds kLongestStart{20};    // until everyone is connected
+constexpr std::chrono::seconds kLongestEnd{2};       // until everything is published
 constexpr std::chrono::seconds kShortestPass{5};     // with loop
 constexpr double kLongestSession = 365.0 * 86400e6;  // us
-constexpr milliseconds kLead{100};  // from the start of a pass to its first message: none is late then
+constexpr milliseconds kLead{100};  // before the first message of a pass, so that none is late
 
 using Stop = std::function<bool()>;
 
 struct Part {
   std::string recorded;
   std::set<std::string> names;
-  std::unique_ptr<MeetingLogin> door;
-  std::unique_ptr<ReplayParticipant> voice;
+  std::unique_ptr<MeetingLogin> login;
+  std::unique_ptr<ReplayParticipant> replayer;
   std::uint16_t session = 0;  ///< the first of this pass
 };
 
-/// Until `done` holds or `end` has come; false when it was stopped.
+/// Waits until `done` returns true, or until `end`. Returns false when it was stopped.
 template <class Done>
 bool wait_until(SteadyClock::time_point end, const Stop& stop, const Done& done) {
   for (;;) {
@@ -45,11 +46,11 @@ bool wait_until(SteadyClock::time_point end, const Stop& stop, const Done& done)
     if (done() || now >= end) {
       return true;
     }
-    std::this_thread::sleep_until(std::min(end, now + kLook));
+    std::this_thread::sleep_until(std::min(end, now + kCheck));
   }
 }
 
-std::string list_of(const RecordingSummary& summary) {
+std::string names_in(const RecordingSummary& summary) {
   std::string list;
   for (const auto& [participant, person] : summary.people) {
     if (person.takes_part) {
@@ -66,7 +67,7 @@ std::vector<Part> parts_of(const RecordingSummary& summary, const ReplayOptions&
   std::vector<Part> parts;
   for (const auto& [participant, person] : summary.people) {
     if (person.takes_part && is_wanted(participant, person, options.only)) {
-      parts.push_back({participant, person.names, nullptr, nullptr, any_session()});
+      parts.push_back({participant, person.names, nullptr, nullptr, random_session()});
     }
   }
   for (const std::string& wanted : options.only) {
@@ -75,44 +76,44 @@ std::vector<Part> parts_of(const RecordingSummary& summary, const ReplayOptions&
     });
     if (!found) {
       throw Error(ErrorKind::usage, "\"" + wanted + "\" is not in the recording",
-                  "There are: " + list_of(summary));
+                  "It contains: " + names_in(summary));
     }
   }
   if (parts.empty()) {
-    throw Error(ErrorKind::input, options.file.string() + " holds nobody who could be replayed");
+    throw Error(ErrorKind::input, options.file.string() + " contains nobody to replay");
   }
   if (parts.size() > kMostReplayed) {
-    throw Error(ErrorKind::usage,
-                std::to_string(parts.size()) + " people are too many to be replayed at once",
-                "Name up to " + std::to_string(kMostReplayed) + " of them by --only.");
+    throw Error(ErrorKind::usage, std::to_string(parts.size()) + " participants are too many for a replay",
+                "Choose up to " + std::to_string(kMostReplayed) + " of them with --only.");
   }
   return parts;
 }
 
-// With a link everybody has a seat of their own; a broker's account speaks for all under their old names.
+// By a link everyone gets a seat of their own; the account of a broker publishes for all, under their old
+// ids.
 BrokerLogin login_of(Part& part, const ReplayOptions& options) {
-  part.door = std::make_unique<MeetingLogin>(options.to, /*watch=*/false, options.ca, options.enter);
-  BrokerLogin login = part.door->log_in();
-  if (!part.door->is_link()) {
+  part.login = std::make_unique<MeetingLogin>(options.to, /*watch=*/false, options.ca, options.log_in);
+  BrokerLogin login = part.login->log_in();
+  if (!part.login->is_link()) {
     login.participant = part.recorded;
   } else if (login.participant.empty()) {
-    throw Error(ErrorKind::input, "the link at " + part.door->shown() + " only lets one watch",
-                "A replay needs a link to take part.");
+    throw Error(ErrorKind::input, "the link at " + part.login->shown() + " only allows watching",
+                "A replay needs a link to speak.");
   }
   return login;
 }
 
 bool all_ready(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
-    const ReplayParticipant::Status status = part.voice->status();
+    const ReplayParticipant::Status status = part.replayer->status();
     if (!status.failure.empty()) {
-      const bool may_not = !part.door->is_link() && status.failure.find("account") != std::string::npos;
+      const bool forbidden = !part.login->is_link() && status.failure.find("account") != std::string::npos;
       throw Error(
           ErrorKind::input,
-          "\"" + part.recorded + "\" cannot take part at " + part.door->shown() + ": " + status.failure,
-          may_not
-              ? "A replay by a broker's URL needs an account that may write for all of the room. A room's "
-                "link gives everybody one of their own."
+          "\"" + part.recorded + "\" cannot take part at " + part.login->shown() + ": " + status.failure,
+          forbidden
+              ? "A replay to the URL of a broker needs an account that may publish for all participants. The "
+                "link of a meeting gives everyone an account of their own."
               : "");
     }
     if (!status.ready) {
@@ -135,7 +136,7 @@ class Pass {
     }
   }
 
-  /// False when it was stopped.
+  /// Returns false when it was stopped.
   bool run() {
     while (const auto record = reader_.next()) {
       const std::chrono::duration<double, std::micro> passed(
@@ -145,7 +146,7 @@ class Pass {
         return false;
       }
       if (const auto* const message = std::get_if<RecordedMessage>(&*record)) {
-        say(*message);
+        publish(*message);
       }
     }
     for (auto& [recorded, person] : people_) {
@@ -160,9 +161,9 @@ class Pass {
     ParticipantReplay replay;
   };
 
-  void say(const RecordedMessage& message) {
+  void publish(const RecordedMessage& message) {
     if (message.topic.kind == TopicKind::meeting) {
-      if (const auto epoch = epoch_of_meeting(message.payload)) {
+      if (const auto epoch = read_epoch(message.payload)) {
         for (auto& [recorded, person] : people_) {
           person.replay.set_epoch(*epoch);
         }
@@ -172,7 +173,7 @@ class Pass {
     const auto found = people_.find(message.topic.participant);
     if (found != people_.end()) {
       if (auto step = found->second.replay.step(message)) {
-        found->second.part->voice->say(std::move(*step));
+        found->second.part->replayer->publish(std::move(*step));
       }
     }
   }
@@ -184,48 +185,50 @@ class Pass {
   std::map<std::string, Person> people_;
 };
 
-void say_last_words(const std::vector<Part>& parts, const Stop& stop) {
+void finish_publishing(const std::vector<Part>& parts, const Stop& stop) {
   wait_until(SteadyClock::now() + kLongestEnd, stop, [&] {
-    return std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.voice->idle(); });
+    return std::all_of(parts.begin(), parts.end(), [](const Part& part) { return part.replayer->idle(); });
   });
 }
 
 }  // namespace
 
-std::vector<ReplayedParticipant> replay_recording(const ReplayOptions& options, const Stop& stop,
-                                                  const std::function<void(const std::string& words)>& say) {
-  const RecordingReport look = inspect_recording(options.file);
-  if (!look.complaint.empty()) {
-    say(options.file.string() + ": " + look.complaint);
+std::vector<ReplayedParticipant> replay_recording(
+    const ReplayOptions& options, const Stop& stop,
+    const std::function<void(const std::string& text)>& report) {
+  const RecordingReport recording = inspect_recording(options.file);
+  if (!recording.complaint.empty()) {
+    report(options.file.string() + ": " + recording.complaint);
   }
-  std::vector<Part> parts = parts_of(look.summary, options);
+  std::vector<Part> parts = parts_of(recording.summary, options);
   for (Part& part : parts) {
-    part.voice = std::make_unique<ReplayParticipant>(login_of(part, options), part.session);
+    part.replayer = std::make_unique<ReplayParticipant>(login_of(part, options), part.session);
   }
   bool ready = false;
   const bool go_on =
       wait_until(SteadyClock::now() + kLongestStart, stop, [&] { return ready = ready || all_ready(parts); });
   if (go_on && !ready) {
-    throw Error(ErrorKind::input, "not everybody could come in within 20 s: the broker does not answer");
+    throw Error(ErrorKind::input, "not everyone could join within 20 s: the broker does not answer");
   }
   if (go_on) {
-    say("replaying " + std::to_string(parts.size()) + (parts.size() == 1 ? " participant" : " participants"));
+    report("replaying " + std::to_string(parts.size()) +
+           (parts.size() == 1 ? " participant" : " participants"));
     auto begun = SteadyClock::now();
     while (Pass(parts, options, stop).run() && options.loop) {
-      // Everybody in the room sees who comes and goes.
+      // A limit for how often everyone in the meeting sees them leave and join.
       wait_until(begun + kShortestPass, stop, [] { return false; });
       begun = SteadyClock::now();
       for (const Part& part : parts) {
-        part.voice->leave();
+        part.replayer->leave();
       }
-      say_last_words(parts, stop);
+      finish_publishing(parts, stop);
     }
-    say_last_words(parts, stop);
+    finish_publishing(parts, stop);
   }
   std::vector<ReplayedParticipant> people;
   people.reserve(parts.size());
   for (const Part& part : parts) {
-    people.push_back({part.recorded, part.voice->participant(), part.names, part.voice->status()});
+    people.push_back({part.recorded, part.replayer->participant(), part.names, part.replayer->status()});
   }
   return people;
 }

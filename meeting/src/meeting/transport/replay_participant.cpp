@@ -4,8 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
-#include "meeting/transport/mqtt_names.h"
 
 namespace telemime::meeting {
 namespace {
@@ -18,18 +18,14 @@ constexpr milliseconds kLongestWrite{5000};
 constexpr milliseconds kForever = std::chrono::hours(1);
 constexpr std::chrono::seconds kGoodConnection{2};
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 }  // namespace
 
 ReplayParticipant::ReplayParticipant(BrokerLogin login, std::uint16_t session)
     : login_(std::move(login)),
       loop_([this] { return stopping_.load(); }),
       wake_(loop_.waker()),
-      connection_(loop_, login_.server, [this](const MqttMessage& message) { hear(message); }) {
-  wish_.session = session;
+      connection_(loop_, login_.server, [this](const MqttMessage& message) { on_message(message); }) {
+  pending_.session = session;
   thread_ = std::thread([this] { run(); });
 }
 
@@ -47,40 +43,40 @@ MqttMessage ReplayParticipant::presence(bool here) const {
   return {topic(TopicKind::presence), write_presence({here, open_session_})};
 }
 
-void ReplayParticipant::say(ReplayStep step) {
+void ReplayParticipant::publish(ReplayStep step) {
   {
     const std::lock_guard lock(mutex_);
-    if (step.session != wish_.session) {  // a new run, which knows nothing of the one before
-      status_.dropped += wish_.poses.size();
-      wish_.session = step.session;
-      wish_.here = false;
-      wish_.state.clear();
-      wish_.poses.clear();
+    if (step.session != pending_.session) {  // a new run starts from nothing
+      status_.dropped += pending_.poses.size();
+      pending_.session = step.session;
+      pending_.here = false;
+      pending_.state.clear();
+      pending_.poses.clear();
     }
     switch (step.kind) {
       case TopicKind::presence:
-        wish_.here = step.here;
-        wish_.new_presence = true;
+        pending_.here = step.here;
+        pending_.new_presence = true;
         break;
       case TopicKind::state:
-        wish_.state = std::move(step.payload);
-        wish_.new_state = true;
+        pending_.state = std::move(step.payload);
+        pending_.new_state = true;
         break;
       case TopicKind::board:
-        wish_.pages[step.page] = std::move(step.payload);
-        wish_.new_pages.insert(step.page);
+        pending_.pages[step.page] = std::move(step.payload);
+        pending_.new_pages.insert(step.page);
         break;
       case TopicKind::chat:
-        if (wish_.chats.size() < kQueuedChats) {
-          wish_.chats.push_back(std::move(step.payload));
+        if (pending_.chats.size() < kQueuedChats) {
+          pending_.chats.push_back(std::move(step.payload));
         }
         break;
       case TopicKind::pose:
-        if (wish_.poses.size() == kQueuedPoses) {
-          wish_.poses.pop_front();
+        if (pending_.poses.size() == kQueuedPoses) {
+          pending_.poses.pop_front();
           ++status_.dropped;
         }
-        wish_.poses.push_back(std::move(step.payload));
+        pending_.poses.push_back(std::move(step.payload));
         break;
       case TopicKind::meeting:
         return;
@@ -92,13 +88,13 @@ void ReplayParticipant::say(ReplayStep step) {
 void ReplayParticipant::leave() {
   {
     const std::lock_guard lock(mutex_);
-    wish_.here = false;
-    wish_.state.clear();
-    wish_.new_presence = true;
-    wish_.new_state = true;
-    for (auto& [page, payload] : wish_.pages) {
+    pending_.here = false;
+    pending_.state.clear();
+    pending_.new_presence = true;
+    pending_.new_state = true;
+    for (auto& [page, payload] : pending_.pages) {
       payload.clear();
-      wish_.new_pages.insert(page);
+      pending_.new_pages.insert(page);
     }
   }
   wake_();
@@ -106,7 +102,7 @@ void ReplayParticipant::leave() {
 
 bool ReplayParticipant::idle() const {
   const std::lock_guard lock(mutex_);
-  return !wish_.has_work() && !working_;
+  return !pending_.has_work() && !working_;
 }
 
 ReplayParticipant::Status ReplayParticipant::status() const {
@@ -122,85 +118,80 @@ void ReplayParticipant::run() {
       try {
         open();
         serve();
-        goodbye();
+        disconnect();
         pauses.reset();
       } catch (const std::exception& e) {
-        failed(e.what());
+        const std::lock_guard lock(mutex_);
+        status_.ready = false;
+        status_.failure = e.what();
+        working_ = false;
         if (SteadyClock::now() - start >= kGoodConnection) {
           pauses.reset();
         }
       }
       connection_.close();
-      loop_.forget_old_handlers();
-      // Who could not come in at all does not try again: that is for the user to see.
+      loop_.discard_handlers();
+      // If even the first connection failed, the user sees the failure and there is no second attempt.
       loop_.wait([] { return false; }, first_ ? kForever : pauses.next());
     }
   } catch (const LoopStopped&) {
-    goodbye();
+    disconnect();
     connection_.close();
   }
 }
 
-void ReplayParticipant::failed(const std::string& words) {
-  const std::lock_guard lock(mutex_);
-  status_.ready = false;
-  status_.failure = words;
-  working_ = false;
-}
-
-// That it is gone already is nothing new to those who are in the room. It comes back to us if the account may
-// speak for this participant; MQTT 3.1.1 has no other word for that.
+// The others see a repeated absence as nothing new. It comes back to us if the account may publish for this
+// participant, which MQTT 3.1.1 does not report otherwise.
 void ReplayParticipant::open() {
   {
     const std::lock_guard lock(mutex_);
-    open_session_ = wish_.session;
+    open_session_ = pending_.session;
   }
-  said_here_ = false;
+  published_here_ = false;
   confirmed_ = false;
   other_.reset();
-  connection_.open(any_client_id(login_.participant), presence(false));
+  connection_.open(random_client_id(login_.participant), presence(false));
   connection_.subscribe(topic_text(login_.meeting, {TopicKind::meeting, "", 0}));
   connection_.subscribe(topic(TopicKind::presence));
-  connection_.keep(presence(false));
+  connection_.publish_retained(presence(false));
   if (!loop_.wait([this] { return confirmed_; }, kLongestAnswer)) {
-    throw LinkBroken("it lets nothing pass that we say as \"" + login_.participant +
-                     "\": the account may not publish there");
+    throw LinkBroken("the account may not publish as \"" + login_.participant + "\"");
   }
   if (first_ && other_) {
-    throw LinkBroken("somebody takes part as \"" + login_.participant + "\" there");
+    throw LinkBroken("another client takes part as \"" + login_.participant + "\"");
   }
   first_ = false;
   const std::lock_guard lock(mutex_);
   status_.ready = true;
   status_.failure.clear();
-  wish_.new_presence = wish_.new_presence || wish_.here;
-  wish_.new_state = wish_.new_state || !wish_.state.empty();
-  for (const auto& page : wish_.pages) {
-    wish_.new_pages.insert(page.first);
+  pending_.new_presence = pending_.new_presence || pending_.here;
+  pending_.new_state = pending_.new_state || !pending_.state.empty();
+  for (const auto& page : pending_.pages) {
+    pending_.new_pages.insert(page.first);
   }
 }
 
-// Until the participant has a new session.
+// Publishes until the participant has a new session.
 void ReplayParticipant::serve() {
   for (;;) {
-    Wish work;
+    Pending work;
     loop_.wait(
         [this] {
           const std::lock_guard lock(mutex_);
-          return wish_.has_work() || wish_.session != open_session_;
+          return pending_.has_work() || pending_.session != open_session_;
         },
         kForever);
     {
       const std::lock_guard lock(mutex_);
-      if (wish_.session != open_session_) {
+      if (pending_.session != open_session_) {
         return;
       }
       working_ = true;
-      work = wish_;
-      wish_.new_presence = wish_.new_state = false;
-      wish_.new_pages.clear();
-      wish_.chats.clear();
-      wish_.poses.clear();
+      work = pending_;
+      pending_.new_presence = pending_.new_state = false;
+      pending_.new_pages.clear();
+      pending_.chats.clear();
+      pending_.poses.clear();
     }
     write(std::move(work));
     const std::lock_guard lock(mutex_);
@@ -208,72 +199,72 @@ void ReplayParticipant::serve() {
   }
 }
 
-void ReplayParticipant::write(Wish work) {
+void ReplayParticipant::write(Pending work) {
   drain();
   if (work.new_presence) {
-    said_here_ = work.here;
-    connection_.keep(presence(work.here));
+    published_here_ = work.here;
+    connection_.publish_retained(presence(work.here));
   }
   if (work.new_state) {
-    connection_.keep({topic(TopicKind::state), work.state});
+    connection_.publish_retained({topic(TopicKind::state), work.state});
   }
   for (const int page : work.new_pages) {
-    write_page(page, work.pages[page]);
+    const std::string& payload = work.pages[page];
+    const auto current = payload.empty() ? std::optional(payload) : page_with_epoch(payload, epoch_);
+    if (current) {
+      connection_.publish_retained({topic(TopicKind::board, page), *current});
+    }
   }
   for (const std::string& chat : work.chats) {
-    connection_.say({topic(TopicKind::chat), chat});
+    connection_.publish_reliably({topic(TopicKind::chat), chat});
   }
   for (const std::string& pose : work.poses) {
-    connection_.tell(topic(TopicKind::pose), bytes_of(pose));
+    connection_.publish(topic(TopicKind::pose), pose);
     const std::lock_guard lock(mutex_);
     ++status_.frames;
   }
   drain();
 }
 
-void ReplayParticipant::write_page(int page, const std::string& payload) {
-  const auto now = payload.empty() ? std::optional(payload) : page_with_epoch(payload, epoch_);
-  if (now) {
-    connection_.keep({topic(TopicKind::board, page), *now});
-  }
-}
-
 void ReplayParticipant::drain() {
   if (!loop_.wait([this] { return connection_.drained(); }, kLongestWrite)) {
-    throw LinkBroken("it does not read what is sent");
+    throw LinkBroken("it does not read the data");
   }
 }
 
-void ReplayParticipant::hear(const MqttMessage& message) {
+void ReplayParticipant::on_message(const MqttMessage& message) {
   const auto topic = read_topic(login_.meeting, message.topic);
   if (!topic) {
     return;
   }
   if (topic->kind == TopicKind::meeting) {
-    epoch_ = epoch_of_meeting(message.payload).value_or(epoch_);
+    epoch_ = read_epoch(message.payload).value_or(epoch_);
   } else if (topic->kind == TopicKind::presence && topic->participant == login_.participant) {
-    hear_of_oneself(message.payload);
+    on_own_presence(message.payload);
   }
 }
 
-// An older connection of ours may have ended only now for the broker, or what was kept may have been cleared.
-void ReplayParticipant::hear_of_oneself(const std::string& payload) {
+// The broker may have noticed only now that an older connection of ours ended, or our messages may be
+// cleared.
+void ReplayParticipant::on_own_presence(const std::string& payload) {
   const auto heard = read_presence(payload);
   const bool ours = heard && heard->session == open_session_;
   if (!confirmed_) {
     confirmed_ = ours;
     other_ = heard && heard->here && !ours ? std::optional(heard->session) : other_;
-  } else if (said_here_ && !(heard && heard->here)) {
-    connection_.keep(presence(true));
+  } else if (published_here_ && !(heard && heard->here)) {
+    connection_.publish_retained(presence(true));
     const std::lock_guard lock(mutex_);
-    wish_.new_state = wish_.new_state || !wish_.state.empty();
+    pending_.new_state = pending_.new_state || !pending_.state.empty();
   }
 }
 
-void ReplayParticipant::goodbye() noexcept {
-  const std::array<MqttMessage, 2> last_words = {presence(false), MqttMessage{topic(TopicKind::state), ""}};
-  connection_.goodbye(said_here_ ? std::span<const MqttMessage>(last_words) : std::span<const MqttMessage>());
-  said_here_ = false;
+void ReplayParticipant::disconnect() noexcept {
+  const std::array<MqttMessage, 2> last_messages = {presence(false),
+                                                    MqttMessage{topic(TopicKind::state), ""}};
+  connection_.disconnect(published_here_ ? std::span<const MqttMessage>(last_messages)
+                                         : std::span<const MqttMessage>());
+  published_here_ = false;
 }
 
 }  // namespace telemime::meeting

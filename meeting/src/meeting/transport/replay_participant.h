@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -21,41 +20,43 @@
 
 namespace telemime::meeting {
 
-/// Poses and chat messages of a voice that wait for the broker at most; the newest stay.
+/// Maximum number of poses and chat messages of a participant that wait for the broker; the newest poses
+/// stay.
 inline constexpr std::size_t kQueuedPoses = 4;
 inline constexpr std::size_t kQueuedChats = 100;
 
-/// One participant of a recording who takes part again: a connection of its own in a thread of its own. It
-/// says what it is told as soon as the broker takes it, connects again after a failure (unless it never came
-/// in) and repeats what the broker should keep. Each session is a connection, so that its last will is of
-/// that session.
+/// A recorded participant who takes part again, with its own connection in its own thread. It publishes each
+/// step as soon as the broker accepts it, connects again after a failure (unless the first connection
+/// failed), and then repeats what the broker should retain. Each session has its own connection, so that its
+/// last will belongs to it.
 class ReplayParticipant {
  public:
   struct Status {
-    bool ready = false;   ///< connected, and what it says is let pass
-    std::string failure;  ///< why not, in words
+    bool ready = false;   ///< connected, and the broker accepts its messages
+    std::string failure;  ///< why not
     std::uint64_t frames = 0;
-    std::uint64_t dropped = 0;  ///< frames that the broker was too slow or too dead for
+    std::uint64_t dropped = 0;  ///< frames that the broker did not accept in time
   };
 
-  /// Connects at once; nobody sees the participant before it is told to be here.
+  /// Connects at once. The others see the participant only after its first presence.
   ReplayParticipant(BrokerLogin login, std::uint16_t session);
   ReplayParticipant(const ReplayParticipant&) = delete;
   ReplayParticipant& operator=(const ReplayParticipant&) = delete;
-  /// Leaves in order, within half a second.
+  /// Leaves properly, within 0.5 s.
   ~ReplayParticipant();
 
-  /// Never waits.
-  void say(ReplayStep step);
-  /// Leaves the room, stays connected, and takes its pages back.
+  /// Publishes a step. Never blocks.
+  void publish(ReplayStep step);
+  /// Leaves the meeting and clears its pages, but stays connected.
   void leave();
-  /// Whether all was said that was told.
+  /// Whether everything is published.
   bool idle() const;
   Status status() const;
   const std::string& participant() const { return login_.participant; }
 
  private:
-  struct Wish {
+  /// What the broker should retain, and what is to be published.
+  struct Pending {
     std::uint16_t session = 0;
     bool here = false;
     std::string state;
@@ -73,31 +74,29 @@ class ReplayParticipant {
   void run();
   void open();
   void serve();
-  void write(Wish work);
-  void write_page(int page, const std::string& payload);
+  void write(Pending work);
   void drain();
-  void hear(const MqttMessage& message);
-  void hear_of_oneself(const std::string& payload);
-  void failed(const std::string& words);
+  void on_message(const MqttMessage& message);
+  void on_own_presence(const std::string& payload);
   std::string topic(TopicKind kind, int page = 0) const;
   MqttMessage presence(bool here) const;
-  void goodbye() noexcept;
+  void disconnect() noexcept;
 
   const BrokerLogin login_;
   std::atomic<bool> stopping_ = false;
   BlockingLoop loop_;
   const std::function<void()> wake_;
   MqttConnection connection_;
-  // The thread's.
+  // Used by the thread only.
   std::uint16_t open_session_ = 0;
-  bool said_here_ = false;
+  bool published_here_ = false;
   bool confirmed_ = false;
-  bool first_ = true;                   ///< has not come in yet
-  std::optional<std::uint16_t> other_;  ///< who is here in our place
-  std::uint32_t epoch_ = 0;             ///< of the room
-  mutable std::mutex mutex_;            ///< of these
-  Wish wish_;
-  bool working_ = false;  ///< takes from the wish what is not yet said
+  bool first_ = true;                   ///< no connection has succeeded yet
+  std::optional<std::uint16_t> other_;  ///< the session of another client with our id
+  std::uint32_t epoch_ = 0;             ///< of the meeting
+  mutable std::mutex mutex_;            ///< of what follows
+  Pending pending_;
+  bool working_ = false;  ///< the thread publishes what it took from `pending_`
   Status status_;
   std::thread thread_;
 };

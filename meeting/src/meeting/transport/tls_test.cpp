@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "meeting/transport/tls_authorities.h"
+#include "meeting/transport/tls.h"
 
 #include <gtest/gtest.h>
 #include <openssl/pem.h>
@@ -12,13 +12,13 @@
 #include <memory>
 #include <string>
 
-#include "telemime/core/errors.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/scratch_folder.h"
 
 namespace telemime::meeting {
 namespace {
 
-/// A certificate that vouches for itself, as PEM.
+/// A self-signed certificate in PEM form.
 std::string authority(const std::string& name) {
   const std::unique_ptr<EVP_PKEY, void (*)(EVP_PKEY*)> key(EVP_EC_gen("P-256"), EVP_PKEY_free);
   const std::unique_ptr<X509, void (*)(X509*)> made(X509_new(), X509_free);
@@ -48,24 +48,18 @@ class Certificates : public ::testing::Test {
     return sk_X509_OBJECT_num(X509_STORE_get0_objects(SSL_CTX_get_cert_store(tls_.get())));
   }
   std::string refusal(const std::string& path) const {
-    try {
-      trust_authorities(tls_.get(), path);
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::usage);
-      return e.what();
-    }
-    return "";
+    return error_of([&] { trust_authorities(tls_.get(), path); }, ErrorKind::usage);
   }
   ScratchFolder folder_;
   std::unique_ptr<SSL_CTX, void (*)(SSL_CTX*)> tls_{SSL_CTX_new(TLS_client_method()), SSL_CTX_free};
 };
 
-TEST_F(Certificates, AllOfAFileAreTrusted) {
+TEST_F(Certificates, AllInAFileAreTrusted) {
   trust_authorities(tls_.get(), file("Of our own:\n" + authority("one") + "and\n" + authority("two")));
   EXPECT_EQ(trusted(), 2);
 }
 
-TEST_F(Certificates, FilesWithoutThemAreRefused) {
+TEST_F(Certificates, FilesWithoutAnyAreRejected) {
   const std::string good = authority("one");
   std::string broken = authority("two");
   broken.replace(broken.size() / 2, 8, "!!!!!!!!");
@@ -75,12 +69,12 @@ TEST_F(Certificates, FilesWithoutThemAreRefused) {
   }
 }
 
-// A page may name any path of this computer: nobody is to wait for what never comes.
-TEST_F(Certificates, WhatIsNoFileIsRefusedAtOnce) {
+// A page may name any path of this computer, and reading some would block forever.
+TEST_F(Certificates, SpecialFilesAreRejectedAtOnce) {
   const std::string pipe = folder_.file("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& path : {pipe, folder_.path().string(), std::string("/dev/zero")}) {
-    EXPECT_NE(refusal(path).find("it is no file"), std::string::npos) << path;
+    EXPECT_NE(refusal(path).find("it is not a regular file"), std::string::npos) << path;
   }
   EXPECT_NE(refusal(folder_.file("none")).find("No such file"), std::string::npos);
   EXPECT_NE(refusal(file(std::string(5U << 20, '\n'))).find("too long"), std::string::npos);
