@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 
 #include "meeting/protocol/pose_frame.h"
 
-// Nothing may be thrown at all. What is read can be written, and says the same.
+using namespace telemime::meeting;
+
+// Nothing is ever thrown. A frame that was read can be written, and says the same.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto read = telemime::meeting::decode_pose_frame({data, size});
+  const auto read = decode_pose_frame({data, size});
   if (!read) {
     return 0;
   }
-  const auto again = telemime::meeting::decode_pose_frame(telemime::meeting::encode(*read));
+  const auto again = decode_pose_frame(encode(*read));
   if (!again || again->mask != read->mask || again->captured != read->captured ||
       again->confidence != read->confidence) {
     std::abort();

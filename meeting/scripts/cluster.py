@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the configuration of a broker cluster of three `nats-server` nodes for one room, and runs it for a try.
+"""Writes the configuration of a broker cluster of three `nats-server` nodes for one meeting, and runs it for a try.
 
-    scripts/cluster.py make cluster --tenant home --room studio --participants 30 \\
-        --nodes a.example.org,b.example.org,c.example.org --certificate /etc/room/cert.pem --key /etc/room/key.pem
+    scripts/cluster.py make cluster --tenant home --meeting studio --participants 30 \\
+        --nodes a.example.org,b.example.org,c.example.org --certificate /etc/meeting/cert.pem --key /etc/meeting/key.pem
     scripts/cluster.py make cluster --loopback       three nodes on free ports of this computer
     scripts/cluster.py run cluster                   runs the nodes of a folder made with --loopback
 
@@ -11,7 +11,7 @@
 bcrypt hashes of them), cluster.json (where the nodes are) and keys/ACCOUNT.json, one for each account: give p01.json to
 whom p01 is, as `--send 'mqtt://HOST/home/studio?key=p01.json'`. Files with hashes or passwords can be read by their owner
 alone. The accounts are p01, p02 ... who take part (p01 is the chair), `watch`, who only reads, and `service`, who keeps the
-room's own topic. docs/room-cluster.md says more. Python's own library and the system's libcrypt are all it needs.
+meeting's own topic. See docs/cluster.md. Python's own library and the system's libcrypt are all it needs.
 """
 
 import argparse
@@ -34,9 +34,9 @@ NODES = 3
 SEGMENT = re.compile(r"[a-z0-9_-]{1,32}")
 HOST = re.compile(r"[A-Za-z0-9.-]{1,253}")
 # Passwords are random and of 192 bits: nobody guesses them, so a hash need not be slow. A slow one would keep a node
-# busy when a whole room comes back at once (2^11, the usual cost, is 0.1 s for each).
+# busy when a whole meeting reconnects at once (2^11, the usual cost, is 0.1 s for each).
 BCRYPT_COST = 5
-BOARD_PAGES = 64  # docs/room-protocol.md
+BOARD_PAGES = 64  # docs/protocol.md
 BCRYPT_DIGITS = "./ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
 
 NODE = """\
@@ -44,19 +44,19 @@ NODE = """\
 # Node {number} of {count}: nats-server -c {file}
 server_name: {name}
 
-# NATS's own protocol and the numbers about this node: for this computer alone.
+# NATS's own protocol and the statistics of this node: for this computer only.
 listen: "{private}:{port}"
 http: "{private}:{http}"
 
 # A participant who stops reading is disconnected: nothing can be written for 2 s, or this much waits. The largest burst
-# is what a newcomer is told of a full room: blackboards, states and presences.
+# is the retained messages for a newcomer to a full meeting: blackboards, states and presences.
 write_deadline: "2s"
 max_pending: 4MB
-# The largest message of a room is a page of a blackboard, 16 KB.
+# The largest message is a page of a blackboard, 16 KB.
 max_payload: 65536
 max_connections: 5000
 
-# What is retained is kept by JetStream, on all nodes. Two of three must run.
+# JetStream stores the retained messages on all nodes. Two of three must run.
 jetstream {{
   store_dir: "{store}"
   max_memory_store: 64MB
@@ -76,7 +76,7 @@ websocket {{
   port: {ws}
 {ws_tls}}}
 
-# The nodes among themselves. This is not encrypted: use a private network (WireGuard), or add a `tls` block as in
+# Between the nodes. This is not encrypted: use a private network (WireGuard), or add a `tls` block as in
 # deploy/nats/node.conf.
 cluster {{
   name: room
@@ -92,20 +92,20 @@ include "accounts.conf"
 
 
 class Failed(Exception):
-    """What went wrong, in words for the user."""
+    """An error message for the user."""
 
 
 def subject(topic):
-    """An MQTT topic as NATS names it."""
+    """The NATS subject of an MQTT topic."""
     return topic.replace("/", ".")
 
 
 def bcrypt(password):
-    """The hash of a password as nats-server takes it, by the system's libcrypt."""
+    """The bcrypt hash of a password, by the system's libcrypt."""
     library = ctypes.CDLL(ctypes.util.find_library("crypt") or "libcrypt.so.1")
     library.crypt.restype = ctypes.c_char_p
     library.crypt.argtypes = [ctypes.c_char_p, ctypes.c_char_p]
-    # The last of the 22 digits holds 2 bits alone.
+    # The last of the 22 digits has only 2 bits.
     salt = "".join(secrets.choice(BCRYPT_DIGITS) for _ in range(21)) + secrets.choice(".Oeu")
     made = library.crypt(password.encode(), f"$2b${BCRYPT_COST:02d}${salt}".encode())
     if not made or not made.startswith(b"$2b$") or len(made) != 60:
@@ -113,10 +113,10 @@ def bcrypt(password):
     return made.decode()
 
 
-def accounts_of(tenant, room, participants):
-    """Who there is: name of the account -> topics that it may publish to, all below the room's own."""
-    topic = f"r/{tenant}/{room}"
-    # One by one: with a wildcard somebody could have the cluster keep any number of messages.
+def accounts_of(tenant, meeting, participants):
+    """Account names -> topics that they may publish to."""
+    topic = f"r/{tenant}/{meeting}"
+    # Listed one by one: a wildcard would allow any number of retained messages.
     own = ["pose", "state", "presence", "chat", *(f"board/{page}" for page in range(BOARD_PAGES))]
     all_of = {p: [f"{topic}/p/{p}/{what}" for what in own] for p in (f"p{i + 1:02d}" for i in range(participants))}
     all_of["p01"].append(f"{topic}/room")
@@ -124,20 +124,20 @@ def accounts_of(tenant, room, participants):
 
 
 def publish_rule(topics):
-    """What an account may publish, as NATS writes it. `a/#` is `a.>` alone: nobody speaks on `a`."""
+    """The publish permission of an account for NATS. `a/#` becomes `a.>` only: nobody publishes on `a`."""
     if not topics:
         return '{ deny: ">" }'
     return "[" + ", ".join(json.dumps(subject(t).replace("#", ">")) for t in topics) + "]"
 
 
-def accounts_file(tenant, room, accounts, passwords):
-    """accounts.conf. Each room has an account of NATS: what is said in one is not even there for another."""
-    base = subject(f"r/{tenant}/{room}")
+def accounts_file(tenant, meeting, accounts, passwords):
+    """accounts.conf. Each meeting is an account of NATS, so that its messages do not exist for others."""
+    base = subject(f"r/{tenant}/{meeting}")
     lines = [
         "# SPDX-License-Identifier: Apache-2.0",
-        f"# Who may do what in r/{tenant}/{room}. The same file for all nodes; `nats-server --signal reload` reads it anew.",
+        f"# Permissions in r/{tenant}/{meeting}. The same file for all nodes; `nats-server --signal reload` reads it again.",
         "accounts {",
-        f'  "{tenant}.{room}": {{',
+        f'  "{tenant}.{meeting}": {{',
         "    jetstream: enabled",
         "    users: [",
     ]
@@ -145,11 +145,11 @@ def accounts_file(tenant, room, accounts, passwords):
     subscribe = json.dumps([base, f"{base}.>", "$MQTT.sub.>"])
     for name, topics in accounts.items():
         lines += [
-            f'      {{ user: "{room}.{name}", password: "{bcrypt(passwords[name])}",',
+            f'      {{ user: "{meeting}.{name}", password: "{bcrypt(passwords[name])}",',
             '        allowed_connection_types: ["MQTT", "MQTT_WS"],',
             f"        permissions: {{ publish: {publish_rule(topics)}, subscribe: {subscribe} }} }},",
         ]
-    # Nobody but the nodes themselves needs the system's account; without a user of its own there is no way in.
+    # Only the nodes need the system account; without a user nobody can log in to it.
     lines += ["    ]", "  }", "  SYS: {}", "}", "system_account: SYS"]
     return "\n".join(lines) + "\n"
 
@@ -187,11 +187,11 @@ def write(path, text, secret=False):
 
 
 def check(options):
-    for what in (options.tenant, options.room):
+    for what in (options.tenant, options.meeting):
         if not SEGMENT.fullmatch(what):
-            raise Failed(f'"{what}" cannot name a room: 1 to 32 small letters, digits, _ and - can.')
+            raise Failed(f'"{what}" cannot name a meeting: use 1 to 32 lower-case letters, digits, _ and -.')
     if not 1 <= options.participants <= 99:
-        raise Failed("A room has 1 to 99 participants.")
+        raise Failed("A meeting has 1 to 99 participants.")
     if options.loopback == bool(options.nodes):
         raise Failed("Give --nodes A,B,C, or --loopback for a try on this computer.")
     if not options.loopback and (
@@ -209,11 +209,11 @@ def make(options):
     if folder.exists() and any(folder.iterdir()):
         raise Failed(f"{folder} is there already and not empty; give another name.")
     (folder / "keys").mkdir(parents=True, mode=0o700)
-    accounts = accounts_of(options.tenant, options.room, options.participants)
+    accounts = accounts_of(options.tenant, options.meeting, options.participants)
     passwords = {name: secrets.token_urlsafe(24) for name in accounts}
-    write(folder / "accounts.conf", accounts_file(options.tenant, options.room, accounts, passwords), secret=True)
+    write(folder / "accounts.conf", accounts_file(options.tenant, options.meeting, accounts, passwords), secret=True)
     for name, password in passwords.items():
-        user = f"{options.room}.{name}"
+        user = f"{options.meeting}.{name}"
         write(folder / "keys" / f"{name}.json", json.dumps({"user": user, "password": password}) + "\n", secret=True)
     nodes = places(options)
     route_password = secrets.token_urlsafe(24)
@@ -240,7 +240,7 @@ def make(options):
         }
         for i, n in enumerate(nodes)
     ]
-    cluster = {"topic": f"r/{options.tenant}/{options.room}", "participants": options.participants, "nodes": told}
+    cluster = {"topic": f"r/{options.tenant}/{options.meeting}", "participants": options.participants, "nodes": told}
     write(folder / "cluster.json", json.dumps(cluster, indent=2) + "\n")
     print(f"{folder}: {NODES} nodes, {len(accounts)} accounts; keys/ holds their passwords")
 
@@ -279,7 +279,7 @@ def main():
     making = commands.add_parser("make", help="writes a new folder")
     making.add_argument("folder")
     making.add_argument("--tenant", default="home")
-    making.add_argument("--room", default="studio")
+    making.add_argument("--meeting", "--room", default="studio")
     making.add_argument("--participants", type=int, default=8)
     making.add_argument("--nodes", type=lambda text: text.split(","), help="three hosts, with commas between")
     making.add_argument("--loopback", action="store_true", help="on free ports of this computer, unencrypted")

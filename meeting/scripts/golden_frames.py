@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes data/frames/golden.json and the seeds of the fuzz target meeting_frame anew.
+"""Writes data/frames/golden.json and the seeds of the fuzz target meeting_frame.
 
-It packs the frames by itself, from docs/room-protocol.md: nothing of the C++ or TypeScript code is used, so that the
-three of them check each other. Usage: scripts/golden_frames.py
+It packs the frames with its own code, from docs/protocol.md, so that it, the C++ and the TypeScript code check each
+other. Usage: scripts/golden_frames.py
 """
 
 import json
@@ -27,7 +27,7 @@ IDENTITY = [0.0, 0.0, 0.0, 1.0]
 
 def step(v):
     exact = (v * math.sqrt(2.0) + 1.0) / 2.0 * 32767.0 + 0.5
-    # Another language may round the last bit of a product in another way: no case hangs on it.
+    # Other languages may round the last bit of a product differently: no case depends on it.
     assert v == 0.0 or abs(exact - round(exact)) > 1e-6, v
     return min(32767, max(0, math.floor(exact)))
 

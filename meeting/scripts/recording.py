@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Shows what is in a recording of a room (docs/room-recording.md). Shares no code with the program.
+"""Shows the contents of a recording of a meeting (docs/recording.md). Shares no code with the program.
 
-    scripts/recording.py session.troom             who, how long, how much
-    scripts/recording.py session.troom --lines     every record as a line of JSON; poses as hexadecimal digits
+    scripts/recording.py lesson.troom             summary
+    scripts/recording.py lesson.troom --lines     each record as a line of JSON, poses in hexadecimal
 
-What is wrong with the end of the file goes to standard error. Exit code 1: it is no recording of version 1.
+Problems with the end of the file go to standard error. Exit code 1: it is not a recording of version 1.
 """
 
 import argparse
@@ -30,30 +30,30 @@ def complain(words):
 
 
 def records(file):
-    """Kind and body of each record; in words on standard error how the file ends when that is not in order."""
+    """Kind and body of each record. Reports a damaged or missing end on standard error."""
     head = file.read(12)
     if head[:8] != MAGIC:
-        refuse("it is no recording of a room")
+        refuse("it is not a recording of a meeting")
     if head[8:] != struct.pack("<I", 1):
-        refuse("it is a recording of another version")
+        refuse("this recording has another version")
     at = 12
     ended = False
     while start := file.read(7):
         if ended:
-            return complain(f"there is more behind the end, at byte {at}")
+            return complain(f"there is data after the end, at byte {at}")
         if len(start) < 7:
-            return complain(f"its end is cut off at byte {at}")
+            return complain(f"it is truncated at byte {at}")
         kind, size, crc = struct.unpack("<cHI", start)
         body = file.read(size)
         if len(body) < size:
-            return complain(f"its end is cut off at byte {at}")
+            return complain(f"it is truncated at byte {at}")
         if zlib.crc32(start[:3] + body) != crc:
             return complain(f"it is damaged at byte {at}")
         at += 7 + size
         ended = kind == b"E"
         yield kind.decode("latin-1"), body
     if not ended:
-        complain("the recording was not ended in order")
+        complain("the recording was not closed properly")
     return None
 
 
@@ -64,8 +64,8 @@ def text_of(payload):
         return payload.hex()
 
 
-def said(file):
-    """Each record but names, as an object."""
+def objects(file):
+    """Each record except names, as an object."""
     names = []
     for kind, body in records(file):
         if kind == "S":
@@ -95,10 +95,10 @@ def summarise(file):
     names = collections.defaultdict(set)
     others = collections.Counter()
     last = 0
-    for record in said(file):
+    for record in objects(file):
         last = record.get("at_us", last)
         if record["kind"] == "start":
-            print(f"room {record['tenant']}/{record['room']}, recorded {record['began']}")
+            print(f"meeting {record['tenant']}/{record['room']}, recorded {record['began']}")
         elif "participant" in record:
             people[record["participant"]][record["kind"]] += 1
             if record["kind"] == "state" and record["payload"]:
@@ -126,7 +126,7 @@ def main():
     try:
         with open(options.file, "rb") as file:
             if options.lines:
-                for record in said(file):
+                for record in objects(file):
                     print(json.dumps(record, ensure_ascii=False))
             else:
                 summarise(file)

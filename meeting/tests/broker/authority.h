@@ -9,7 +9,7 @@
 
 namespace telemime::meeting::test_support {
 
-/// Certificates of one authority, made with the command openssl.
+/// A certificate authority, by the command openssl.
 class Authority {
  public:
   Authority() {

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 
+#include "meeting/protocol/testing.h"
 #include "telemime/streaming/testing_receivers.h"
 
 namespace telemime::meeting::test_support {
@@ -18,12 +18,7 @@ namespace {
 
 constexpr int kAttempts = 10;
 
-std::string content_of(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-bool somebody_listens(std::uint16_t port) {
+bool accepts_connections(std::uint16_t port) {
   const testing_receivers::Fd fd(::socket(AF_INET, SOCK_STREAM, 0));
   const sockaddr_in where = testing_receivers::loopback(port);
   return ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)) == 0;
@@ -52,6 +47,14 @@ pid_t start_program(const std::vector<std::string>& words, const std::string& ou
     ::_exit(127);
   }
   return process;
+}
+
+void kill_process(pid_t& process) {
+  if (process > 0) {
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
+    process = -1;
+  }
 }
 
 void run(const std::vector<std::string>& words) {
@@ -95,7 +98,7 @@ Broker::~Broker() {
   kill();
 }
 
-// Somebody may take the port before the broker does: then another one.
+// Another program may take the port first: then try another one.
 void Broker::choose_port(const std::string& more) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     port_ = testing_receivers::free_port();
@@ -114,7 +117,7 @@ bool Broker::try_start() {
   bool ended = false;
   const bool ready = testing_receivers::comes_true([&] {
     ended = has_ended(process_);
-    return ended || somebody_listens(port_);
+    return ended || accepts_connections(port_);
   });
   if (ended) {
     process_ = -1;
@@ -132,11 +135,7 @@ void Broker::start() {
 }
 
 void Broker::kill() {
-  if (process_ > 0) {
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-    process_ = -1;
-  }
+  kill_process(process_);
 }
 
 std::string Broker::url(const std::string& user) const {

@@ -11,7 +11,7 @@
 
 namespace telemime::meeting::test_support {
 
-/// A Mosquitto on a port of loopback, with a configuration of its own. It ends with the test.
+/// A Mosquitto on a loopback port with its own configuration. It ends with the test.
 class Broker {
  public:
   struct Account {
@@ -20,14 +20,14 @@ class Broker {
     std::string rights;  ///< lines of an ACL file: "topic read r/home/studio/#\n"
   };
 
-  /// Which of the computer's addresses it listens at.
+  /// The addresses that it listens at.
   enum class Where { loopback, everywhere };
 
-  /// Who comes may do all.
+  /// Allows everyone everything.
   explicit Broker(Where where);
-  /// Who comes may do all; or only `accounts` may, each what its rights say.
+  /// With the rights of these accounts; without accounts it allows everyone everything.
   explicit Broker(const std::vector<Account>& accounts = {});
-  /// TLS with this certificate and its key, files in PEM form.
+  /// With TLS: a certificate and its key in PEM form.
   Broker(const std::string& certificate, const std::string& key);
   Broker(const Broker&) = delete;
   Broker& operator=(const Broker&) = delete;
@@ -36,11 +36,11 @@ class Broker {
   std::uint16_t port() const { return port_; }
   /// "mqtt://127.0.0.1:port/home/studio" with `user` ("name:password@") before the host.
   std::string url(const std::string& user = "") const;
-  /// Kills it: connections break, and all that it kept is lost.
+  /// Kills it: connections break and retained messages are lost.
   void kill();
-  /// Starts it at the same port.
+  /// Starts it again at the same port.
   void start();
-  /// What it has written.
+  /// Its output.
   std::string log() const;
 
  private:
@@ -53,10 +53,13 @@ class Broker {
   pid_t process_ = -1;
 };
 
-/// Starts a program whose output goes to a file. It does not outlive the thread that calls this.
+/// Starts a program whose output goes to a file. It ends with the calling thread.
 pid_t start_program(const std::vector<std::string>& words, const std::string& output);
 
-/// Runs a program and waits for its end; fails the test unless that is 0.
+/// Kills a process and waits for its end; sets the id to -1.
+void kill_process(pid_t& process);
+
+/// Runs a program to its end; fails the test unless its exit code is 0.
 void run(const std::vector<std::string>& words);
 
 }  // namespace telemime::meeting::test_support

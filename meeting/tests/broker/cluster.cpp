@@ -3,17 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <mosquitto.h>
-#include <signal.h>
 #include <sys/wait.h>
 
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "broker.h"
-#include "telemime/streaming/testing_receivers.h"
+#include "meeting/protocol/testing.h"
 
 namespace telemime::meeting::test_support {
 namespace {
@@ -21,13 +18,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr int kAttempts = 5;
-constexpr std::chrono::seconds kPatience{60};  // until a node takes clients: the nodes have to find a leader
+constexpr std::chrono::seconds kPatience{60};  // until a node accepts clients: the nodes elect a leader first
 constexpr int kOneAnswer = 100;                // ms
-
-std::string content_of(const std::string& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::uint16_t port_in(const std::string& url) {
   return static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
@@ -35,7 +27,7 @@ std::uint16_t port_in(const std::string& url) {
 
 }  // namespace
 
-// Somebody may take a port before a node does: then other ones.
+// Another program may take a port first: then try others.
 Cluster::Cluster() {
   while (attempt_ < kAttempts) {
     ++attempt_;
@@ -61,9 +53,9 @@ std::string Cluster::file(const std::string& name) const {
 }
 
 bool Cluster::try_start_all() {
-  const auto told = nlohmann::json::parse(content_of(file("cluster.json")));
+  const auto written = nlohmann::json::parse(content_of(file("cluster.json")));
   for (std::size_t node = 0; node < kNodes; ++node) {
-    ports_.at(node) = port_in(told.at("nodes").at(node).at("mqtt"));
+    ports_.at(node) = port_in(written.at("nodes").at(node).at("mqtt"));
     launch(node);
   }
   return comes_up(0) && comes_up(1) && comes_up(2);
@@ -82,8 +74,8 @@ bool Cluster::has_ended(std::size_t node) {
   return true;
 }
 
-/// Whether the node accepts an account now; it answers late while the nodes have no leader.
-bool Cluster::takes_clients(std::size_t node) const {
+/// Whether the node accepts an account now; without a leader it answers late.
+bool Cluster::accepts_clients(std::size_t node) const {
   std::optional<int> answer;
   const std::unique_ptr<mosquitto, void (*)(mosquitto*)> client(mosquitto_new(nullptr, true, &answer),
                                                                 mosquitto_destroy);
@@ -105,7 +97,7 @@ bool Cluster::comes_up(std::size_t node) {
   const auto end = steady_clock::now() + kPatience;
   bool up = false;
   while (!up && !has_ended(node) && steady_clock::now() < end) {
-    up = takes_clients(node);
+    up = accepts_clients(node);
     if (!up) {
       std::this_thread::sleep_for(std::chrono::milliseconds(kOneAnswer));
     }
@@ -115,11 +107,7 @@ bool Cluster::comes_up(std::size_t node) {
 }
 
 void Cluster::kill(std::size_t node) {
-  if (processes_.at(node) > 0) {
-    ::kill(processes_.at(node), SIGKILL);
-    ::waitpid(processes_.at(node), nullptr, 0);
-    processes_.at(node) = -1;
-  }
+  kill_process(processes_.at(node));
 }
 
 void Cluster::start(std::size_t node) {

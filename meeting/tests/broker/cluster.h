@@ -12,19 +12,19 @@
 
 namespace telemime::meeting::test_support {
 
-/// Three real nodes of nats-server for the room home/studio, as scripts/room_cluster.py configures them, on
-/// ports of loopback. They end with the test.
+/// Three real nodes of nats-server for the meeting home/studio, configured by scripts/cluster.py, on loopback
+/// ports. They end with the test.
 class Cluster {
  public:
   static constexpr std::size_t kNodes = 3;
 
-  /// All nodes run, and each takes clients.
+  /// All nodes run and accept clients.
   Cluster();
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
   ~Cluster();
 
-  /// Where a node (0 to 2) takes MQTT by TCP.
+  /// The MQTT port of a node (0 to 2).
   std::uint16_t port(std::size_t node) const { return ports_.at(node); }
   /// The password of an account: "p01", "watch", "service". Its user is "studio.p01".
   std::string password(const std::string& account) const;
@@ -32,16 +32,16 @@ class Cluster {
   std::string url(std::uint16_t port, const std::string& account) const;
   /// Kills a node: its connections break.
   void kill(std::size_t node);
-  /// Starts it again at the same ports, with what it stored, and waits until it takes clients.
+  /// Starts it again at the same ports, with its data, and waits until it accepts clients.
   void start(std::size_t node);
-  /// What a node has written.
+  /// The output of a node.
   std::string log(std::size_t node) const;
 
  private:
   bool try_start_all();
   void launch(std::size_t node);
   bool has_ended(std::size_t node);
-  bool takes_clients(std::size_t node) const;
+  bool accepts_clients(std::size_t node) const;
   bool comes_up(std::size_t node);
   std::string file(const std::string& name) const;
 

@@ -22,12 +22,12 @@ void ip(std::vector<std::string> words) {
 
 std::string CutNetwork::missing() {
   if (::geteuid() != 0) {
-    return "needs root, to make network namespaces";
+    return "network namespaces need root";
   }
   const int mine = ::open("/proc/self/ns/net", O_RDONLY | O_CLOEXEC);
   const bool allowed = mine >= 0 && ::setns(mine, CLONE_NEWNET) == 0;
   ::close(mine);
-  return allowed ? "" : "this system lets root make no network namespaces (CAP_SYS_ADMIN)";
+  return allowed ? "" : "root cannot create network namespaces on this system (CAP_SYS_ADMIN)";
 }
 
 CutNetwork::CutNetwork()
@@ -59,7 +59,7 @@ std::vector<std::string> CutNetwork::at_tracker() const {
   return {TELEMIME_IP, "netns", "exec", tracker_};
 }
 
-// What goes to an address of hardware that nobody has is lost without a word.
+// Packets to a hardware address that nobody has are lost silently.
 void CutNetwork::cut() {
   const std::string nobody = "02:00:00:00:00:99";
   ip({"-n", broker_, "neighbour", "replace", kTracker, "lladdr", nobody, "nud", "permanent", "dev", "cable"});

@@ -6,11 +6,11 @@
 
 namespace telemime::meeting::test_support {
 
-/// Two computers and the cable between them: network namespaces of the kernel. The thread that makes it, and
-/// what it starts from then on, is at the broker's until this ends. Needs root.
+/// Two computers and a cable between them, as network namespaces. The thread that creates it, and what it
+/// starts afterwards, is on the broker's computer until this object ends. Needs root.
 class CutNetwork {
  public:
-  /// Why there can be none here, in words; empty when there can.
+  /// Why this is not possible here; empty when it is.
   static std::string missing();
 
   CutNetwork();
@@ -18,11 +18,11 @@ class CutNetwork {
   CutNetwork& operator=(const CutNetwork&) = delete;
   ~CutNetwork();
 
-  /// The broker's address, as the tracker sees it.
+  /// The address of the broker for the tracker.
   static std::string broker() { return "10.77.0.1"; }
-  /// Before the words of a command that is to run at the tracker's.
+  /// Prefix of a command that is to run on the tracker's computer.
   std::vector<std::string> at_tracker() const;
-  /// From now on nothing that one of them sends arrives; neither is told.
+  /// From now on no packet arrives, and neither side is notified.
   void cut();
   void mend();
 

@@ -11,7 +11,7 @@
 
 namespace telemime::meeting::test_support {
 
-/// A camera and its person: gives a sender a hundred frames a second until it ends.
+/// A camera and its person: sends a hundred frames per second until it ends.
 class Feeder {
  public:
   explicit Feeder(Sender& sender) : sender_(sender) {
@@ -25,9 +25,9 @@ class Feeder {
     thread_.join();
   }
 
-  /// The person stands still from now on, or moves again.
+  /// The person stands still, or moves again.
   void stand_still(bool still) { still_ = still; }
-  /// The person is lost from now on, or found.
+  /// The person is lost, or found again.
   void lose(bool lost) { lost_ = lost; }
 
   const StreamHeader& header() const { return header_; }
@@ -49,7 +49,7 @@ class Feeder {
 
   Sender& sender_;
   StreamHeader header_ = testing_motion::header();
-  // A fast gesture: no two neighbours are still.
+  // A fast gesture: two consecutive frames always differ.
   std::vector<MotionFrame> frames_ = testing_motion::gesture(header_, 100, /*period=*/4.0);
   std::atomic<bool> still_ = false;
   std::atomic<bool> lost_ = false;

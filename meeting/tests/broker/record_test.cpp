@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rooms that are recorded.
+// Recording a meeting.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -7,24 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "broker.h"
+#include "checks.h"
 #include "feeder.h"
 #include "meeting/protocol/recording_reader.h"
 #include "meeting/transport/senders.h"
 #include "recordings.h"
-#include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
 namespace telemime::meeting::test_support {
 namespace {
 
-using testing_receivers::comes_true;
-
-std::string bytes_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-TEST(RecordedMeeting, TheScriptReadsWhatTheProgramReads) {
+TEST(RecordedMeeting, ScriptReadsTheSameAsTheProgram) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 2, 20, 500);
   const std::string script = std::string(TELEMIME_SOURCE_DIR) + "/scripts/recording.py";
@@ -50,7 +43,7 @@ TEST(RecordedMeeting, TheScriptReadsWhatTheProgramReads) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST(RecordedMeeting, ABrokerThatDiesLeavesAGap) {
+TEST(RecordedMeeting, DeadBrokerLeavesAGap) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   Broker broker;
@@ -59,15 +52,15 @@ TEST(RecordedMeeting, ABrokerThatDiesLeavesAGap) {
   Recording recording(broker.url(), file);
   ASSERT_TRUE(recording.has(10));
   broker.kill();
-  ASSERT_TRUE(recording.said("the room is not heard any more"));
+  ASSERT_TRUE(recording.reported("the connection to the meeting is lost"));
   const std::uint64_t before = recording.messages();
   broker.start();
-  ASSERT_TRUE(recording.said("the room is heard again"));
+  ASSERT_TRUE(recording.reported("the connection to the meeting is restored"));
   ASSERT_TRUE(recording.has(before + 10));
   recording.end();
-  const RecordingReport look = inspect_recording(file);
-  EXPECT_EQ(look.summary.gaps, 1U);
-  EXPECT_EQ(look.complaint, "");
+  const RecordingReport report = inspect_recording(file);
+  EXPECT_EQ(report.summary.gaps, 1U);
+  EXPECT_EQ(report.complaint, "");
   std::string order;
   std::uint64_t last = 0;
   for (const Record& record : records_of(file)) {
@@ -79,33 +72,27 @@ TEST(RecordedMeeting, ABrokerThatDiesLeavesAGap) {
   EXPECT_EQ(order, "SmLBmE");
 }
 
-TEST(RecordedMeeting, ARoomThatCannotBeHeardIsTold) {
+TEST(RecordedMeeting, MeetingThatCannotBeReadIsReported) {
   const ScratchFolder folder;
   const std::string account = "studio.watch:secretword@";
   const Broker broker({{"studio.watch", "secretword", kWatches}});
-  const auto words_of = [&](const std::string& where) -> std::string {
-    MeetingLogin door(where, true, "");
+  const auto refusal = [&](const std::string& where) {
+    MeetingLogin login(where, true, "");
     MeetingRecorder recorder(
-        door, [] { return false; }, [](const std::string&) {});
+        login, [] { return false; }, [](const std::string&) {});
     RecordingWriter writer([](std::string_view) {}, {recorder.log_in().meeting, ""});
-    try {
-      recorder.record(writer);
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::input);
-      return e.what();
-    }
-    return "";
+    return error_of([&] { recorder.record(writer); }, ErrorKind::input);
   };
-  EXPECT_NE(words_of(broker.url("studio.watch:guess@")).find("refuses the user or the password"),
+  EXPECT_NE(refusal(broker.url("studio.watch:guess@")).find("rejects the user name or password"),
             std::string::npos);
-  EXPECT_NE(words_of("mqtt://127.0.0.1:1/home/studio").find("nobody listens there"), std::string::npos);
+  EXPECT_NE(refusal("mqtt://127.0.0.1:1/home/studio").find("nobody listens there"), std::string::npos);
   const std::string file = folder.file("a.troom");
   Recording recording(broker.url(account), file);
-  const Subscriber ear(broker.port(), "studio.watch", "secretword");
+  const Subscriber subscriber(broker.port(), "studio.watch", "secretword");
   ASSERT_TRUE(comes_true([&] { return broker.log().find("record-") != std::string::npos; }));
   recording.end();
-  EXPECT_EQ(bytes_of(file).find("secretword"), std::string::npos) << "passwords are in no file";
-  EXPECT_NE(bytes_of(file).find("studio"), std::string::npos);
+  EXPECT_EQ(content_of(file).find("secretword"), std::string::npos) << "passwords are never recorded";
+  EXPECT_NE(content_of(file).find("studio"), std::string::npos);
 }
 
 }  // namespace

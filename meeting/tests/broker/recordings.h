@@ -10,6 +10,7 @@
 
 #include "meeting/protocol/messages.h"
 #include "meeting/protocol/pose_frame.h"
+#include "meeting/protocol/recording_reader.h"
 #include "meeting/transport/recorder.h"
 #include "meeting/transport/replay.h"
 #include "subscriber.h"
@@ -20,13 +21,13 @@ namespace telemime::meeting::test_support {
 inline const std::string kWatches = "topic read r/home/studio/#\n";
 inline constexpr std::uint64_t kFrameTime = 33'333;  // us
 
-/// A recording that goes on until it is ended.
+/// Records until end().
 class Recording {
  public:
   Recording(const std::string& where, const std::string& file)
-      : door_(where, /*watch=*/true, ""),
+      : login_(where, /*watch=*/true, ""),
         recorder_(
-            door_, [this] { return stop_.load(); }, [this](const std::string& words) { say(words); }),
+            login_, [this] { return stop_.load(); }, [this](const std::string& text) { report(text); }),
         writer_(new_recording_file(file), {recorder_.log_in().meeting, "today"}),
         thread_([this] { writer_.end(recorder_.record(writer_)); }) {}
   Recording(const Recording&) = delete;
@@ -43,22 +44,22 @@ class Recording {
     return testing_receivers::comes_true([&] { return writer_.messages() >= messages; });
   }
   std::uint64_t messages() const { return writer_.messages(); }
-  bool said(const std::string& words) {
+  bool reported(const std::string& text) {
     return testing_receivers::comes_true([&] {
       const std::lock_guard lock(mutex_);
-      return words_.find(words) != std::string::npos;
+      return reports_.find(text) != std::string::npos;
     });
   }
 
  private:
-  void say(const std::string& words) {
+  void report(const std::string& text) {
     const std::lock_guard lock(mutex_);
-    words_ += words + '\n';
+    reports_ += text + '\n';
   }
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
-  std::string words_;
-  MeetingLogin door_;
+  std::string reports_;
+  MeetingLogin login_;
   MeetingRecorder recorder_;
   RecordingWriter writer_;
   std::thread thread_;
@@ -85,23 +86,7 @@ inline std::vector<std::string> recorded(const std::string& file, const std::str
   return payloads;
 }
 
-inline std::vector<std::string> heard(const Subscriber& ear, const std::string& topic) {
-  std::vector<std::string> payloads;
-  for (const Subscriber::Heard& one : ear.all()) {
-    if (one.topic == topic) {
-      payloads.push_back(one.payload);
-    }
-  }
-  return payloads;
-}
-
-inline PoseFrame frame_of(const std::string& bytes) {
-  const auto frame = decode_pose_frame({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-  EXPECT_TRUE(frame);
-  return frame ? *frame : PoseFrame();
-}
-
-/// A recording of `count` participants q0, q1, ... who are called Q0, Q1, ..., and hold still.
+/// Writes a recording of `count` participants q0, q1, ... with the names Q0, Q1, ..., who do not move.
 inline std::string write_test_recording(const std::string& file, int count, int frames,
                                         std::size_t page = 0) {
   RecordingWriter writer(new_recording_file(file), {{"home", "studio"}, "today"});
@@ -124,17 +109,16 @@ inline std::string write_test_recording(const std::string& file, int count, int 
       frame.session = 7;
       frame.sequence = static_cast<std::uint32_t>(i);
       frame.captured = 1'000'000 + i * kFrameTime;
-      const auto bytes = encode(frame);
-      writer.add(RecordedMessage{
-          i * kFrameTime, {TopicKind::pose, "q" + std::to_string(who), 0}, {bytes.begin(), bytes.end()}});
+      writer.add(
+          RecordedMessage{i * kFrameTime, {TopicKind::pose, "q" + std::to_string(who), 0}, bytes_of(frame)});
     }
   }
   writer.end(frames * kFrameTime);
   return file;
 }
 
-inline ReplayOptions into(const std::string& meeting, const std::string& file,
-                          const std::set<std::string>& only = {}) {
+inline ReplayOptions replay_to(const std::string& meeting, const std::string& file,
+                               const std::set<std::string>& only = {}) {
   ReplayOptions options;
   options.file = file;
   options.to = meeting;
@@ -142,10 +126,10 @@ inline ReplayOptions into(const std::string& meeting, const std::string& file,
   return options;
 }
 
-inline bool has_left(const Subscriber& ear, const std::string& participant) {
+inline bool has_left(const Subscriber& subscriber, const std::string& participant) {
   return testing_receivers::comes_true([&] {
-    const auto state = ear.newest("p/" + participant + "/state");
-    const auto presence = ear.json("p/" + participant + "/presence");
+    const auto state = subscriber.newest("p/" + participant + "/state");
+    const auto presence = subscriber.json("p/" + participant + "/presence");
     return state && state->payload.empty() && presence.is_object() && presence.at("here") == false;
   });
 }

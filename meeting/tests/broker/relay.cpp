@@ -12,7 +12,7 @@ namespace {
 
 using testing_receivers::Fd;
 
-/// What one end has written goes to the other; false at its end.
+/// Forwards from one end to the other; returns false when it was closed.
 bool pass_on(const Fd& from, const Fd& to) {
   if (!from.readable(0)) {
     return true;
@@ -26,7 +26,7 @@ bool pass_on(const Fd& from, const Fd& to) {
 
 Relay::Relay(std::vector<std::uint16_t> brokers)
     : brokers_(std::move(brokers)), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
-  const int small = 2048;  // so that a stall is felt soon
+  const int small = 2048;  // so that a stall shows soon
   ::setsockopt(listener_.get(), SOL_SOCKET, SO_RCVBUF, &small, sizeof(small));
   testing_receivers::bind_to(listener_.get(), 0);
   EXPECT_EQ(::listen(listener_.get(), 8), 0);

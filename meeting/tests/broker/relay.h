@@ -12,24 +12,24 @@
 
 namespace telemime::meeting::test_support {
 
-/// Stands between a sender and its broker, and can break a connection as networks do.
+/// Forwards between a sender and its broker, and can break connections as networks do.
 class Relay {
  public:
   explicit Relay(std::uint16_t broker) : Relay(std::vector{broker}) {}
-  /// Leads each connection to the first of these brokers that takes it, as a load balancer does.
+  /// Forwards each connection to the first of these brokers that accepts it, like a load balancer.
   explicit Relay(std::vector<std::uint16_t> brokers);
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
   ~Relay();
 
   std::uint16_t port() const { return testing_receivers::port_of(listener_.get()); }
-  /// Connections that were made so far.
+  /// Number of connections so far.
   int made() const { return made_; }
-  /// Breaks what the sender sees. The broker's side stays as it is until cut_broker().
+  /// Breaks the sender's side. The broker's side stays open until cut_broker().
   void cut_sender();
-  /// Breaks what the broker sees of all connections that were cut.
+  /// Breaks the broker's side of all connections that were cut.
   void cut_broker();
-  /// From now on nobody reads what the sender writes.
+  /// From now on does not read what the sender writes.
   void stall() { stalled_ = true; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that are replayed.
+// Replaying recordings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "broker.h"
+#include "checks.h"
 #include "feeder.h"
 #include "meeting/transport/senders.h"
 #include "recordings.h"
@@ -19,24 +20,22 @@
 namespace telemime::meeting::test_support {
 namespace {
 
-using testing_receivers::comes_true;
-
-/// Frames in the room are those of the recording, bit for bit but for session, sequence and time; these go on
-/// from frame to frame as they did. `count`: that were sent.
-void expect_same_motion(const std::vector<std::string>& said, const std::vector<std::string>& arrived,
+/// Expects the frames of the recording, bit for bit except for session, sequence and time, with the same time
+/// differences. `count`: number of frames sent.
+void expect_same_motion(const std::vector<std::string>& source, const std::vector<std::string>& arrived,
                         std::uint64_t count) {
   ASSERT_EQ(arrived.size(), count);
   ASSERT_FALSE(arrived.empty());
-  const PoseFrame first_said = frame_of(said.at(0));
+  const PoseFrame first = frame_of(source.at(0));
   std::optional<std::uint64_t> shift;
   for (const std::string& bytes : arrived) {
     const PoseFrame frame = frame_of(bytes);
-    ASSERT_LT(frame.sequence, said.size());
-    const std::string& original = said[frame.sequence];
+    ASSERT_LT(frame.sequence, source.size());
+    const std::string& original = source[frame.sequence];
     EXPECT_EQ(bytes.substr(0, 2), original.substr(0, 2));
     EXPECT_EQ(bytes.substr(16), original.substr(16));
     EXPECT_EQ(frame.session, frame_of(arrived[0]).session);
-    const std::uint64_t now = frame.captured - (frame_of(original).captured - first_said.captured);
+    const std::uint64_t now = frame.captured - (frame_of(original).captured - first.captured);
     shift = shift.value_or(now);
     EXPECT_EQ(now, *shift) << "differences of time are kept";
   }
@@ -48,94 +47,90 @@ std::vector<ReplayedParticipant> replay(const ReplayOptions& options) {
 }
 
 std::string refusal(const ReplayOptions& options) {
-  try {
-    replay(options);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return error_of([&] { replay(options); });
 }
 
-TEST(Replay, WhatIsReplayedIsWhatWasRecorded) {
+TEST(Replay, ReplaysWhatWasRecorded) {
   const ScratchFolder folder;
   const std::string file = folder.file("a.troom");
   {
     const Broker broker;
-    Subscriber ear(broker.port());
-    ear.say("room", R"({"v":1,"epoch":4})");
-    ear.say("p/p02/board/3", R"({"v":1,"epoch":4,"strokes":[]})");
+    Subscriber subscriber(broker.port());
+    subscriber.publish("room", R"({"v":1,"epoch":4})");
+    subscriber.publish("p/p02/board/3", R"({"v":1,"epoch":4,"strokes":[]})");
     const auto ana = make_sender(broker.url() + "?participant=p01&name=Ana&look=robot", kAllSenderKinds);
     const auto bo = make_sender(broker.url() + "?participant=p02&name=Bo&seat=5", kAllSenderKinds);
     Recording recording(broker.url(), file);
-    ASSERT_TRUE(recording.has(4)) << "what the broker keeps comes first";
-    ear.forget();
+    ASSERT_TRUE(recording.has(4)) << "retained messages come first";
+    subscriber.clear();
     const Feeder feeds_ana(*ana);
     const Feeder feeds_bo(*bo);
-    ASSERT_TRUE(comes_true([&] { return ear.frames("p01").size() >= 30 && ear.frames("p02").size() >= 30; }));
-    ear.say("p/p01/chat", R"({"v":1,"id":"77-1","text":"hello"})");
-    ASSERT_TRUE(comes_true([&] { return ear.newest("p/p01/chat").has_value(); }));
+    ASSERT_TRUE(comes_true(
+        [&] { return subscriber.frames("p01").size() >= 30 && subscriber.frames("p02").size() >= 30; }));
+    subscriber.publish("p/p01/chat", R"({"v":1,"id":"77-1","text":"hello"})");
+    ASSERT_TRUE(comes_true([&] { return subscriber.newest("p/p01/chat").has_value(); }));
     ASSERT_TRUE(recording.has(64));
     recording.end();
     const auto poses = recorded(file, "p01", TopicKind::pose);
-    const auto sent = heard(ear, "p/p01/pose");
+    const auto sent = subscriber.payloads("p/p01/pose");
     ASSERT_GE(poses.size(), 30U);
     EXPECT_TRUE(std::search(poses.begin(), poses.end(), sent.begin(), sent.begin() + 25) != poses.end())
-        << "the file holds what was heard";
+        << "the file contains what was received";
   }
   EXPECT_EQ(inspect_recording(file).complaint, "");
   const Broker broker;
-  Subscriber ear(broker.port());
-  ear.say("room", R"({"v":1,"epoch":9})");
-  ASSERT_TRUE(comes_true([&] { return ear.newest("room").has_value(); }));
-  const auto people = replay(into(broker.url(), file));
+  Subscriber subscriber(broker.port());
+  subscriber.publish("room", R"({"v":1,"epoch":9})");
+  ASSERT_TRUE(comes_true([&] { return subscriber.newest("room").has_value(); }));
+  const auto people = replay(replay_to(broker.url(), file));
   ASSERT_EQ(people.size(), 2U);
-  ASSERT_TRUE(has_left(ear, "p01"));
-  ASSERT_TRUE(has_left(ear, "p02"));
+  ASSERT_TRUE(has_left(subscriber, "p01"));
+  ASSERT_TRUE(has_left(subscriber, "p02"));
   for (const ReplayedParticipant& person : people) {
-    const auto said = recorded(file, person.recorded, TopicKind::pose);
+    const auto source = recorded(file, person.recorded, TopicKind::pose);
     EXPECT_EQ(person.participant, person.recorded);
-    EXPECT_EQ(person.status.frames + person.status.dropped, said.size());
-    expect_same_motion(said, heard(ear, "p/" + person.recorded + "/pose"), person.status.frames);
+    EXPECT_EQ(person.status.frames + person.status.dropped, source.size());
+    expect_same_motion(source, subscriber.payloads("p/" + person.recorded + "/pose"), person.status.frames);
   }
-  const auto states = heard(ear, "p/p01/state");
+  const auto states = subscriber.payloads("p/p01/state");
   ASSERT_FALSE(states.empty());
   const auto ana = read_state(states[0]);
   ASSERT_TRUE(ana);
   EXPECT_EQ(ana->name, "Ana");
   EXPECT_EQ(std::get<AvatarByLook>(ana->avatar).look, "robot");
-  EXPECT_EQ(ana->session, frame_of(heard(ear, "p/p01/pose").at(0)).session);
-  EXPECT_EQ(read_state(heard(ear, "p/p02/state").at(0))->seat, 5);
-  EXPECT_EQ(ear.json("p/p02/board/3"), nlohmann::json::parse(R"({"v":1,"epoch":9,"strokes":[]})"));
-  EXPECT_EQ(ear.json("p/p01/chat").at("text"), "hello");
-  EXPECT_EQ(ear.json("room").at("epoch"), 9) << "the room is nobody's";
+  EXPECT_EQ(ana->session, frame_of(subscriber.payloads("p/p01/pose").at(0)).session);
+  EXPECT_EQ(read_state(subscriber.payloads("p/p02/state").at(0))->seat, 5);
+  EXPECT_EQ(subscriber.json("p/p02/board/3"), nlohmann::json::parse(R"({"v":1,"epoch":9,"strokes":[]})"));
+  EXPECT_EQ(subscriber.json("p/p01/chat").at("text"), "hello");
+  EXPECT_EQ(subscriber.json("room").at("epoch"), 9) << "the message of the meeting is not replayed";
 }
 
-TEST(Replay, OnlyThoseWhoAreNamedComeIn) {
+TEST(Replay, OnlyNamedParticipantsJoin) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 3, 5);
   const Broker broker;
-  const Subscriber ear(broker.port());
-  const auto people = replay(into(broker.url(), file, {"Q1", "q2"}));
+  const Subscriber subscriber(broker.port());
+  const auto people = replay(replay_to(broker.url(), file, {"Q1", "q2"}));
   ASSERT_EQ(people.size(), 2U);
   EXPECT_EQ(people[0].recorded, "q1");
   EXPECT_EQ(people[1].recorded, "q2");
-  ASSERT_TRUE(has_left(ear, "q1"));
-  ASSERT_TRUE(has_left(ear, "q2"));
-  EXPECT_EQ(ear.frames("q1").size(), 5U);
-  EXPECT_FALSE(ear.newest("p/q0/presence")) << "nobody else is there";
-  const std::string words = refusal(into(broker.url(), file, {"Zoe"}));
+  ASSERT_TRUE(has_left(subscriber, "q1"));
+  ASSERT_TRUE(has_left(subscriber, "q2"));
+  EXPECT_EQ(subscriber.frames("q1").size(), 5U);
+  EXPECT_FALSE(subscriber.newest("p/q0/presence")) << "nobody else is there";
+  const std::string words = refusal(replay_to(broker.url(), file, {"Zoe"}));
   EXPECT_NE(words.find("\"Zoe\" is not in the recording"), std::string::npos) << words;
   EXPECT_NE(words.find("q0 \"Q0\", q1 \"Q1\""), std::string::npos) << words;
 }
 
-TEST(Replay, ALinkGivesEverybodyASeat) {
+TEST(Replay, LinkGivesEveryoneASeat) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 2, 5);
   const std::string rights = kWatches + "topic readwrite r/home/studio/p/";
   const Broker broker({{"studio.p05", "a", rights + "p05/#\n"},
                        {"studio.p06", "b", rights + "p06/#\n"},
                        {"studio.watch", "c", kWatches}});
-  const Subscriber ear(broker.port(), "studio.watch", "c");
+  const Subscriber subscriber(broker.port(), "studio.watch", "c");
   std::vector<Credentials> keys;
   for (const auto& [who, password] : {std::pair("p06", "b"), std::pair("p05", "a")}) {
     keys.push_back({"mqtt://127.0.0.1:" + std::to_string(broker.port()),
@@ -146,8 +141,8 @@ TEST(Replay, ALinkGivesEverybodyASeat) {
                     {"speak"},
                     ""});
   }
-  ReplayOptions options = into("http://localhost:7080/room#k=invitation", file);
-  options.enter = [&](const LinkLogin& entry) {
+  ReplayOptions options = replay_to("http://localhost:7080/room#k=invitation", file);
+  options.log_in = [&](const LinkLogin& entry) {
     EXPECT_EQ(entry.link, "http://localhost:7080/room#k=invitation");
     EXPECT_FALSE(entry.watch);
     if (keys.empty()) {
@@ -161,40 +156,40 @@ TEST(Replay, ALinkGivesEverybodyASeat) {
   ASSERT_EQ(people.size(), 2U);
   EXPECT_EQ(people[0].participant, "p05");
   EXPECT_EQ(people[1].participant, "p06");
-  ASSERT_TRUE(has_left(ear, "p05"));
-  EXPECT_EQ(ear.frames("p05").size(), 5U);
-  EXPECT_EQ(read_state(heard(ear, "p/p06/state").at(0))->name, "Q1");
+  ASSERT_TRUE(has_left(subscriber, "p05"));
+  EXPECT_EQ(subscriber.frames("p05").size(), 5U);
+  EXPECT_EQ(read_state(subscriber.payloads("p/p06/state").at(0))->name, "Q1");
   EXPECT_NE(refusal(options).find("no seat is free"), std::string::npos);
 }
 
-TEST(Replay, WhoMayNotSpeakForOthersIsRefused) {
+TEST(Replay, AccountWithoutRightsIsRejected) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 2, 5);
   const std::string rights = kWatches + "topic readwrite r/home/studio/p/q0/#\n";
   const Broker broker({{"studio.q0", "a", rights}});
-  const std::string words = refusal(into(broker.url("studio.q0:a@"), file));
+  const std::string words = refusal(replay_to(broker.url("studio.q0:a@"), file));
   EXPECT_NE(words.find("\"q1\" cannot take part"), std::string::npos) << words;
-  EXPECT_NE(words.find("the account may not publish there"), std::string::npos) << words;
-  EXPECT_NE(words.find("needs an account that may write for all"), std::string::npos) << words;
+  EXPECT_NE(words.find("the account may not publish as"), std::string::npos) << words;
+  EXPECT_NE(words.find("needs an account that may publish for all participants"), std::string::npos) << words;
   EXPECT_EQ(words.find(":a@"), std::string::npos) << words;
 }
 
-TEST(Replay, NobodyIsTalkedOver) {
+TEST(Replay, ExistingParticipantIsNotReplaced) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 1, 5);
   const Broker broker;
   const auto sender = make_sender(broker.url() + "?participant=q0", kAllSenderKinds);
   ASSERT_TRUE(comes_true([&] { return sender->status().state == SenderState::sending; }));
-  const std::string words = refusal(into(broker.url(), file));
-  EXPECT_NE(words.find("somebody takes part as \"q0\" there"), std::string::npos) << words;
-  const Subscriber ear(broker.port());
+  const std::string words = refusal(replay_to(broker.url(), file));
+  EXPECT_NE(words.find("another client takes part as \"q0\""), std::string::npos) << words;
+  const Subscriber subscriber(broker.port());
   EXPECT_TRUE(comes_true([&] {
-    const auto presence = ear.json("p/q0/presence");
+    const auto presence = subscriber.json("p/q0/presence");
     return presence.is_object() && presence.at("here") == true;
   })) << "and stays";
 }
 
-TEST(Replay, ABrokerThatDoesNotReadDelaysNothing) {
+TEST(Replay, SlowBrokerDelaysNothing) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 1, 30, 16'000);
   const Broker broker;
@@ -202,10 +197,10 @@ TEST(Replay, ABrokerThatDoesNotReadDelaysNothing) {
   std::atomic<bool> over = false;
   std::vector<ReplayedParticipant> people;
   const ReplayOptions options =
-      into("mqtt://127.0.0.1:" + std::to_string(relay.port()) + "/home/studio", file);
+      replay_to("mqtt://127.0.0.1:" + std::to_string(relay.port()) + "/home/studio", file);
   std::thread thread([&] {
     people = replay_recording(
-        options, [] { return false; }, [&](const std::string&) { relay.stall(); });  // all are in now
+        options, [] { return false; }, [&](const std::string&) { relay.stall(); });  // everyone has joined
     over = true;
   });
   EXPECT_TRUE(comes_true([&] { return over.load(); }));
@@ -214,38 +209,38 @@ TEST(Replay, ABrokerThatDoesNotReadDelaysNothing) {
   EXPECT_GE(people[0].status.dropped, 30 - kQueuedPoses - 1);
 }
 
-TEST(Replay, ABrokerThatComesBackIsToldAllAgain) {
+TEST(Replay, RestartedBrokerGetsEverythingAgain) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 1, 100'000);
   Broker broker;
   std::atomic<bool> stop = false;
   std::thread thread([&] {
     replay_recording(
-        into(broker.url(), file), [&] { return stop.load(); }, [](const std::string&) {});
+        replay_to(broker.url(), file), [&] { return stop.load(); }, [](const std::string&) {});
   });
   {
-    const Subscriber ear(broker.port());
-    ASSERT_TRUE(comes_true([&] { return ear.frames("q0").size() > 3; }));
+    const Subscriber subscriber(broker.port());
+    ASSERT_TRUE(comes_true([&] { return subscriber.frames("q0").size() > 3; }));
     broker.kill();
   }
   broker.start();
-  const Subscriber ear(broker.port());
-  EXPECT_TRUE(comes_true([&] { return ear.frames("q0").size() > 3; }));
-  const auto state = ear.newest("p/q0/state");
+  const Subscriber subscriber(broker.port());
+  EXPECT_TRUE(comes_true([&] { return subscriber.frames("q0").size() > 3; }));
+  const auto state = subscriber.newest("p/q0/state");
   EXPECT_TRUE(state && read_state(state->payload)->name == "Q0");
-  EXPECT_EQ(ear.json("p/q0/presence").at("here"), true);
+  EXPECT_EQ(subscriber.json("p/q0/presence").at("here"), true);
   stop = true;
   thread.join();
-  EXPECT_TRUE(has_left(ear, "q0")) << "also when it is stopped";
+  EXPECT_TRUE(has_left(subscriber, "q0")) << "also when it is stopped";
 }
 
-TEST(Replay, ItMayBeginAgain) {
+TEST(Replay, LoopStartsAgain) {
   const ScratchFolder folder;
   const std::string file = write_test_recording(folder.file("a.troom"), 1, 4);
   const Broker broker;
-  const Subscriber ear(broker.port());
+  const Subscriber subscriber(broker.port());
   std::atomic<bool> stop = false;
-  ReplayOptions options = into(broker.url(), file);
+  ReplayOptions options = replay_to(broker.url(), file);
   options.speed = 2.0;
   options.loop = true;
   std::thread thread([&] {
@@ -255,15 +250,15 @@ TEST(Replay, ItMayBeginAgain) {
   std::map<std::uint16_t, std::size_t> sessions;
   EXPECT_TRUE(comes_true([&] {
     sessions.clear();
-    for (const PoseFrame& frame : ear.frames("q0")) {
+    for (const PoseFrame& frame : subscriber.frames("q0")) {
       ++sessions[frame.session];
     }
     return sessions.size() >= 3;
   })) << "each time with a session of its own";
   stop = true;
   thread.join();
-  EXPECT_TRUE(has_left(ear, "q0"));
-  const auto frames = ear.frames("q0");
+  EXPECT_TRUE(has_left(subscriber, "q0"));
+  const auto frames = subscriber.frames("q0");
   for (std::size_t i = 1; i < frames.size(); ++i) {
     EXPECT_GT(frames[i].captured, frames[i - 1].captured);
     EXPECT_TRUE(frames[i].session == frames[i - 1].session ? frames[i].sequence > frames[i - 1].sequence

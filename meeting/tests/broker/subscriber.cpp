@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "telemime/streaming/testing_receivers.h"
+#include "meeting/protocol/testing.h"
 
 namespace telemime::meeting::test_support {
 namespace {
@@ -46,66 +46,70 @@ void Subscriber::on_connect(mosquitto* client, void* self, int code) {
   mosquitto_subscribe(client, nullptr, (static_cast<Subscriber*>(self)->base_ + "#").c_str(), 1);
 }
 
-// A cluster that has just lost a node may be unable to grant more than QoS 0.
+// A cluster that has just lost a node may not be able to grant more than QoS 0.
 void Subscriber::on_subscribe(mosquitto* client, void* self, int /*id*/, int /*count*/, const int* granted) {
   if (*granted == kRefused) {
     mosquitto_subscribe(client, nullptr, (static_cast<Subscriber*>(self)->base_ + "#").c_str(), 0);
   } else {
-    static_cast<Subscriber*>(self)->listens_ = true;
+    static_cast<Subscriber*>(self)->subscribed_ = true;
   }
 }
 
 void Subscriber::on_message(mosquitto* /*client*/, void* self, const mosquitto_message* message) {
-  auto& ear = *static_cast<Subscriber*>(self);
+  auto& subscriber = *static_cast<Subscriber*>(self);
   const std::string_view topic(message->topic);
-  EXPECT_TRUE(topic.starts_with(ear.base_));
+  EXPECT_TRUE(topic.starts_with(subscriber.base_));
   const auto size = static_cast<std::size_t>(message->payloadlen);
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  const std::lock_guard lock(ear.mutex_);
-  ear.heard_.push_back({std::string(topic.substr(ear.base_.size())),
-                        size == 0 ? "" : std::string(static_cast<const char*>(message->payload), size),
-                        message->retain, now.count()});
+  EXPECT_FALSE(message->retain && topic.ends_with("/pose"));
+  const std::lock_guard lock(subscriber.mutex_);
+  subscriber.received_.push_back(
+      {std::string(topic.substr(subscriber.base_.size())),
+       size == 0 ? "" : std::string(static_cast<const char*>(message->payload), size), message->retain,
+       now.count()});
 }
 
-std::vector<Subscriber::Heard> Subscriber::all() const {
+std::vector<Subscriber::Received> Subscriber::all() const {
   const std::lock_guard lock(mutex_);
-  return heard_;
+  return received_;
 }
 
-std::optional<Subscriber::Heard> Subscriber::newest(const std::string& topic) const {
+std::optional<Subscriber::Received> Subscriber::newest(const std::string& topic) const {
   const std::lock_guard lock(mutex_);
-  const auto found =
-      std::find_if(heard_.rbegin(), heard_.rend(), [&](const Heard& heard) { return heard.topic == topic; });
-  return found == heard_.rend() ? std::nullopt : std::optional(*found);
+  const auto found = std::find_if(received_.rbegin(), received_.rend(),
+                                  [&](const Received& message) { return message.topic == topic; });
+  return found == received_.rend() ? std::nullopt : std::optional(*found);
 }
 
 nlohmann::json Subscriber::json(const std::string& topic) const {
-  const auto heard = newest(topic);
-  return heard && !heard->payload.empty() ? nlohmann::json::parse(heard->payload) : nlohmann::json();
+  const auto message = newest(topic);
+  return message && !message->payload.empty() ? nlohmann::json::parse(message->payload) : nlohmann::json();
+}
+
+std::vector<std::string> Subscriber::payloads(const std::string& topic) const {
+  std::vector<std::string> payloads;
+  for (const Received& message : all()) {
+    if (message.topic == topic) {
+      payloads.push_back(message.payload);
+    }
+  }
+  return payloads;
 }
 
 std::vector<PoseFrame> Subscriber::frames(const std::string& participant) const {
   std::vector<PoseFrame> frames;
-  for (const Heard& heard : all()) {
-    if (heard.topic == "p/" + participant + "/pose") {
-      EXPECT_FALSE(heard.retained);
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(heard.payload.data());
-      const auto frame = decode_pose_frame({bytes, heard.payload.size()});
-      EXPECT_TRUE(frame) << heard.payload.size() << " bytes";
-      if (frame) {
-        frames.push_back(*frame);
-      }
-    }
+  for (const std::string& payload : payloads("p/" + participant + "/pose")) {
+    frames.push_back(frame_of(payload));
   }
   return frames;
 }
 
-void Subscriber::forget() {
+void Subscriber::clear() {
   const std::lock_guard lock(mutex_);
-  heard_.clear();
+  received_.clear();
 }
 
-void Subscriber::say(const std::string& topic, const std::string& payload) {
+void Subscriber::publish(const std::string& topic, const std::string& payload) {
   EXPECT_EQ(mosquitto_publish(client_, nullptr, (base_ + topic).c_str(), static_cast<int>(payload.size()),
                               payload.data(), 1, /*retain=*/true),
             MOSQ_ERR_SUCCESS);

@@ -18,37 +18,38 @@ struct mosquitto_message;
 
 namespace telemime::meeting::test_support {
 
-/// Hears all that is said in the room r/home/studio, and says something: libmosquitto alone, with its own
+/// Receives all messages of the meeting r/home/studio, and can publish. Uses libmosquitto alone, with its
 /// thread.
 class Subscriber {
  public:
-  struct Heard {
-    std::string topic;  ///< behind the base
+  struct Received {
+    std::string topic;  ///< after the base
     std::string payload;
     bool retained;
     double at;  ///< s of the steady clock
   };
-
-  /// `base`: what it hears instead of the room, "r/" for all rooms.
+  /// `base`: the topics to receive; "r/" for all meetings.
   explicit Subscriber(std::uint16_t port, const std::string& user = "", const std::string& password = "",
                       std::string base = "r/home/studio/");
   Subscriber(const Subscriber&) = delete;
   Subscriber& operator=(const Subscriber&) = delete;
   ~Subscriber();
 
-  /// Whether the broker has granted what it asked for. It may hear something before.
-  bool listens() const { return listens_; }
-  std::vector<Heard> all() const;
-  /// The newest of a topic; nothing before the first.
-  std::optional<Heard> newest(const std::string& topic) const;
-  /// The newest that is JSON, null else.
+  /// Whether the broker has granted the subscription. Messages may arrive before.
+  bool subscribed() const { return subscribed_; }
+  std::vector<Received> all() const;
+  /// The payloads of a topic, in order.
+  std::vector<std::string> payloads(const std::string& topic) const;
+  /// The newest message of a topic; nothing before the first.
+  std::optional<Received> newest(const std::string& topic) const;
+  /// The newest message of a topic as JSON; null before the first and when it is empty.
   nlohmann::json json(const std::string& topic) const;
-  /// Pose frames of a participant; those that cannot be read fail the test.
+  /// The pose frames of a participant; an invalid one fails the test.
   std::vector<PoseFrame> frames(const std::string& participant) const;
-  /// Forgets what was heard.
-  void forget();
-  /// Says something, kept by the broker.
-  void say(const std::string& topic, const std::string& payload);
+  /// Forgets what was received.
+  void clear();
+  /// Publishes a retained message.
+  void publish(const std::string& topic, const std::string& payload);
 
  private:
   static void on_connect(mosquitto* client, void* self, int code);
@@ -57,8 +58,8 @@ class Subscriber {
 
   const std::string base_;
   mutable std::mutex mutex_;
-  std::vector<Heard> heard_;
-  std::atomic<bool> listens_ = false;
+  std::vector<Received> received_;
+  std::atomic<bool> subscribed_ = false;
   mosquitto* client_ = nullptr;
 };
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/cluster.py: what it writes. tests/rooms runs it with real nodes."""
+"""scripts/cluster.py: what it writes. tests/broker runs it with real nodes."""
 
 import json
 import re
@@ -16,7 +16,7 @@ sys.path.insert(0, str(SCRIPT.parent))
 import cluster  # noqa: E402
 
 NODES = ["--nodes", "a.example.org,b.example.org,c.example.org"]
-TLS = ["--certificate", "/etc/room/cert.pem", "--key", "/etc/room/key.pem"]
+TLS = ["--certificate", "/etc/meeting/cert.pem", "--key", "/etc/meeting/key.pem"]
 
 
 def make(folder, *words):
@@ -32,7 +32,7 @@ class Cluster(unittest.TestCase):
     def tearDown(self):
         self.root.cleanup()
 
-    def test_three_nodes_that_know_each_other(self):
+    def test_three_nodes_know_each_other(self):
         self.assertEqual(make(self.folder, *NODES, *TLS)[0], 0)
         told = json.loads((self.folder / "cluster.json").read_text())
         self.assertEqual(told["topic"], "r/home/studio")
@@ -42,12 +42,12 @@ class Cluster(unittest.TestCase):
             text = (self.folder / f"node{number}.conf").read_text()
             routes = re.findall(r"@(\w)\.example\.org:6222", text)
             self.assertEqual("".join(routes), others)
-            self.assertEqual(text.count("/etc/room/cert.pem"), 2, "trackers' and browsers' listeners")
+            self.assertEqual(text.count("/etc/meeting/cert.pem"), 2, "trackers' and browsers' listeners")
             for line in ('write_deadline: "2s"', "max_payload: 65536", "stream_replicas: 3"):
                 self.assertIn(line, text)
 
-    def test_each_may_say_what_is_theirs(self):
-        self.assertEqual(make(self.folder, "--loopback", "--tenant", "t", "--room", "m", "--participants", "3")[0], 0)
+    def test_accounts_publish_their_own_topics(self):
+        self.assertEqual(make(self.folder, "--loopback", "--tenant", "t", "--meeting", "m", "--participants", "3")[0], 0)
         text = (self.folder / "accounts.conf").read_text()
         rules = dict(re.findall(r'user: "m\.(\w+)".*?publish: (\[.*?\]|\{.*?\})', text, re.S))
         may = json.loads(rules["p01"])
@@ -61,7 +61,7 @@ class Cluster(unittest.TestCase):
         self.assertEqual(rules["service"], '["r.t.m.>"]')
         self.assertEqual(set(re.findall(r"subscribe: (\[.*?\])", text)), {'["r.t.m", "r.t.m.>", "$MQTT.sub.>"]'})
 
-    def test_no_password_is_where_others_read(self):
+    def test_passwords_are_private(self):
         self.assertEqual(make(self.folder, "--loopback")[0], 0)
         keys = {f: json.loads(f.read_text()) for f in (self.folder / "keys").iterdir()}
         self.assertEqual(len(keys), 10)
@@ -79,14 +79,14 @@ class Cluster(unittest.TestCase):
         for made in (a, b):
             self.assertRegex(made, r"^\$2b\$05\$[./A-Za-z0-9]{53}$")
 
-    def test_what_cannot_be_is_refused_in_words(self):
+    def test_invalid_options_are_rejected(self):
         for words, told in (
             ([], "Give --nodes"),
             (["--loopback", *NODES], "Give --nodes"),
             (["--nodes", "a,b"], "3 different hosts"),
             (["--nodes", "a,b,b"], "3 different hosts"),
             (["--nodes", 'a,b,c" }'], "3 different hosts"),
-            (["--loopback", "--room", 'x" }'], "cannot name a room"),
+            (["--loopback", "--meeting", 'x" }'], "cannot name a meeting"),
             (["--loopback", "--participants", "0"], "1 to 99"),
             ([*NODES, "--certificate", "x"], "needs its --key"),
         ):

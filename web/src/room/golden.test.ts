@@ -30,7 +30,7 @@ interface Case {
 }
 
 // A build copies web/ alone; TELEMIME_GOLDEN then says where the file is.
-const path = process.env.TELEMIME_GOLDEN ?? new URL("../../../data/room-frames/golden.json", import.meta.url);
+const path = process.env.TELEMIME_GOLDEN ?? new URL("../../../meeting/data/frames/golden.json", import.meta.url);
 const golden = JSON.parse(readFileSync(path, "utf8")) as Golden;
 const bytesOf = (hex: string): Uint8Array =>
   Uint8Array.from(hex.match(/../g) ?? [], (digits) => parseInt(digits, 16));

@@ -47,7 +47,7 @@ class RateLimit {
   std::unordered_map<std::string, Left> left_;
 };
 
-/// The body of POST /room/enter (meeting/docs/page.md, "Login").
+/// The body of POST /room/enter (meeting/docs/protocol.md, "Login").
 struct LoginRequest {
   std::optional<std::string> invite;
   std::optional<std::string> rejoin;

@@ -30,7 +30,7 @@ constexpr unsigned kMostParticipants = 1'000'000'000;
               "the secrets of the meeting cannot be read from " + path.string() + ": " + reason, remedy);
 }
 
-/// Whether the text is valid in the fragment of a URL (meeting/docs/page.md).
+/// Whether the text is valid in the fragment of a URL (meeting/docs/protocol.md).
 bool is_secret(const std::string& text) {
   return text.size() >= kShortestSecret && text.size() <= kLongestSecret &&
          text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.~") ==

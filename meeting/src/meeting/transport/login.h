@@ -22,7 +22,7 @@ struct Credentials {
   std::string rejoin;              ///< token for the same seat (the answer's "return")
 };
 
-/// A login by the link of a meeting (meeting/docs/page.md, "Login").
+/// A login by the link of a meeting (meeting/docs/protocol.md, "Login").
 struct LinkLogin {
   std::string link;          ///< http(s)://host[:port]/room#k=...; without "#k=..." if there is a token
   bool watch = false;        ///< an account that can only read is enough
