@@ -15,7 +15,8 @@ namespace telemime {
 std::optional<WebContent> live_file(const std::string& path, const AvatarFolder& avatars,
                                     const Recorder& recorder);
 
-/// The content of a path on the server of a meeting (docs/room-page.md): the meeting's page at "/room" and
+/// The content of a path on the server of a meeting (meeting/docs/protocol.md): the meeting's page at "/room"
+/// and
 /// "/", its files, or an avatar. Nothing if there is none. Does not block.
 std::optional<WebContent> room_file(const std::string& path, const AvatarFolder& avatars);
 
