@@ -61,7 +61,6 @@ void Subscriber::on_message(mosquitto* /*client*/, void* self, const mosquitto_m
   EXPECT_TRUE(topic.starts_with(subscriber.base_));
   const auto size = static_cast<std::size_t>(message->payloadlen);
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  EXPECT_FALSE(message->retain && topic.ends_with("/pose"));
   const std::lock_guard lock(subscriber.mutex_);
   subscriber.received_.push_back(
       {std::string(topic.substr(subscriber.base_.size())),
@@ -98,8 +97,11 @@ std::vector<std::string> Subscriber::payloads(const std::string& topic) const {
 
 std::vector<PoseFrame> Subscriber::frames(const std::string& participant) const {
   std::vector<PoseFrame> frames;
-  for (const std::string& payload : payloads("p/" + participant + "/pose")) {
-    frames.push_back(frame_of(payload));
+  for (const Received& message : all()) {
+    if (message.topic == "p/" + participant + "/pose") {
+      EXPECT_FALSE(message.retained);
+      frames.push_back(frame_of(message.payload));
+    }
   }
   return frames;
 }

@@ -169,8 +169,10 @@ class Request {
       case CURLE_SSL_CONNECT_ERROR:
         return kNoTls;
       case CURLE_PEER_FAILED_VERIFICATION: {
+        // If the certificate is trusted, but not for this host, curl leaves one of the first two.
         const long verified = info(CURLINFO_SSL_VERIFYRESULT);
-        return tls_refusal(verified == X509_V_OK ? X509_V_ERR_HOSTNAME_MISMATCH : verified, url_.host);
+        const bool trusted = verified == X509_V_OK || verified == X509_V_ERR_UNSPECIFIED;
+        return tls_refusal(trusted ? X509_V_ERR_HOSTNAME_MISMATCH : verified, url_.host);
       }
       case CURLE_UNSUPPORTED_PROTOCOL:
       case CURLE_WEIRD_SERVER_REPLY:
