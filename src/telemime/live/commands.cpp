@@ -14,16 +14,16 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLongestUrl = 2000;
-constexpr int kDeepest = 8;  // no message of ours has half of it
+constexpr int kDeepest = 8;  // twice that of any valid message
 
 [[noreturn]] void refuse(const std::string& why) {
-  throw Error(ErrorKind::usage, "this message is not understood: " + why);
+  throw Error(ErrorKind::usage, "invalid message: " + why);
 }
 
 const Json& field(const Json& message, const char* name) {
   const auto found = message.find(name);
   if (found == message.end()) {
-    refuse(std::string("it has no ") + name);
+    refuse(std::string("missing field ") + name);
   }
   return *found;
 }
@@ -61,7 +61,7 @@ Command guide(const Json& message) {
       return Guide{value};
     }
   }
-  refuse("step is none of empty, skip, again");
+  refuse("step is not empty, skip or again");
 }
 
 Command output(const Json& message) {
@@ -75,7 +75,7 @@ Command output(const Json& message) {
 }
 
 Command drawn(const Json& message) {
-  constexpr std::int64_t kMost = std::int64_t{1} << 53;  // that JavaScript counts to
+  constexpr std::int64_t kMost = std::int64_t{1} << 53;  // largest exact integer in JavaScript
   const Json& stamp = field(message, "stamp");
   if (!stamp.is_number() || !std::isfinite(stamp.get<double>())) {
     refuse("stamp is not a number");
@@ -109,10 +109,10 @@ Command parse_command(std::string_view text_of) {
   };
   const Json message = Json::parse(text_of, shallow, /*allow_exceptions=*/false);
   if (too_deep) {
-    refuse("it is nested too deep");
+    refuse("nested too deep");
   }
   if (!message.is_object()) {
-    refuse("it is no JSON object");
+    refuse("not a JSON object");
   }
   const std::string type = text(message, "type");
   for (const auto& [name, parse] : kCommands) {
@@ -120,7 +120,7 @@ Command parse_command(std::string_view text_of) {
       return parse(message);
     }
   }
-  refuse("there is no type of this name");
+  refuse("unknown type");
 }
 
 }  // namespace telemime

@@ -10,7 +10,7 @@
 
 namespace telemime {
 
-/// What a page asks for (docs/live-protocol.md, "From the page").
+/// The commands of a page (docs/live-protocol.md, "From the page").
 struct Guide {
   GuideStep step;
 };
@@ -32,7 +32,7 @@ struct Forget {
 };
 struct Pictures {
   bool on;
-  bool half;  ///< only every second one
+  bool half;  ///< only every second picture
 };
 struct Poses {
   bool on;
@@ -47,8 +47,8 @@ struct Ping {
 using Command = std::variant<Guide, Recalibrate, AddOutput, SwitchOutputOff, RemoveOutput, Record, Forget,
                              Pictures, Poses, Drawn, Ping>;
 
-/// Throws Error(usage) in words for anything that is not such a message: no JSON, unknown type, a field that
-/// is missing or of the wrong type or range.
+/// Parses a message. Throws Error(usage) if it is not valid JSON, has an unknown type, or has a field that is
+/// missing or of the wrong type or range.
 Command parse_command(std::string_view text);
 
 }  // namespace telemime

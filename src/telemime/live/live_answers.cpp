@@ -49,7 +49,7 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const AddOutput
   } catch (const Error& e) {
     const std::string shown = without_password(command.url);
     const std::string words = e.what();
-    // The page puts it beside the address that it is about.
+    // Name the URL, so that the page can show the message next to it.
     return words_message(MessageLevel::error, words.find(shown) == std::string::npos
                                                   ? "the output \"" + shown + "\": " + words
                                                   : words);
@@ -74,7 +74,7 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const RemoveOut
 
 LiveAnswers::Answer LiveAnswers::outputs_changed(bool known, const std::string& url) const {
   if (!known) {
-    return words_message(MessageLevel::error, without_password(url) + " is not among the outputs");
+    return words_message(MessageLevel::error, without_password(url) + " is not in the list of outputs");
   }
   hooks_.changed();
   return std::nullopt;

@@ -17,28 +17,27 @@
 
 namespace telemime {
 
-/// Does what pages ask for. What is kept for later runs follows the pages of this computer alone: whoever
-/// else may reach the page changes this run, not the user's settings. For the server's thread, unless said
-/// otherwise.
+/// Executes the commands of the pages. Only pages on this computer change the saved settings; a page
+/// elsewhere changes this run only. Call it from the server's thread unless stated otherwise.
 class LiveAnswers {
  public:
   struct Hooks {
     std::function<void(std::uint64_t client, int topic, bool on)> topic;  ///< WebServer::set_topic
-    std::function<void()> changed;                        ///< there is a new status to be told
-    std::function<bool(std::uint64_t client)> from_here;  ///< WebServer::from_here
-    std::function<void(const std::string& url)> keep;     ///< KeptOutputs::keep
-    std::function<void(const std::string& url)> forget;   ///< KeptOutputs::forget
+    std::function<void()> changed;                                        ///< the status has changed
+    std::function<bool(std::uint64_t client)> from_here;                  ///< WebServer::from_here
+    std::function<void(const std::string& url)> keep;                     ///< SavedOutputs::keep
+    std::function<void(const std::string& url)> forget;                   ///< SavedOutputs::forget
   };
   LiveAnswers(Recorder& recorder, SenderList& senders, Clock clock, Hooks hooks)
       : recorder_(recorder), senders_(senders), clock_(std::move(clock)), hooks_(std::move(hooks)) {}
 
-  /// From any thread: from now on there is a session, until the server is gone.
+  /// Sets the session, which must outlive the server. Thread-safe.
   void begin(LiveSession& session) { session_ = &session; }
 
-  /// The answer to a message of a page, if there is one.
+  /// Executes a page's message and returns the reply, if there is one.
   std::optional<std::string> operator()(std::uint64_t client, std::string_view text);
 
-  /// From any thread: from the camera to the avatar drawn, as pages measured it.
+  /// Latency from camera to drawn avatar, ms, as measured by the pages. Thread-safe.
   std::optional<LatencyRecord::Summary> latency() const;
 
  private:
@@ -62,7 +61,7 @@ class LiveAnswers {
   Clock clock_;
   Hooks hooks_;
   std::atomic<LiveSession*> session_ = nullptr;
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards latency_
   LatencyRecord latency_;
 };
 

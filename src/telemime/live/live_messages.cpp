@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kWidest = 480;  // px
 constexpr int kQuality = 75;
 
-// Bytes from outside (the name of an input, the words of a system) may be no UTF-8.
+// Replaces invalid UTF-8, which file names and system messages may contain.
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -14,11 +14,12 @@
 
 namespace telemime {
 
-/// Of what the server sends (web_server.h): of all but `words` only the newest waits for a slow page.
-/// The camera's pictures are two topics, by turns, in one place: a page may do with half of them.
+/// Topics of the web server (web_server.h). For a slow page only the newest message of a topic is queued,
+/// except for kWords. Camera pictures alternate between two topics that share a queue, so that a page can
+/// request every second one.
 enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3, kPictureBetween = 4 };
 
-/// The messages of docs/live-protocol.md that are not about a pose, as JSON without line breaks.
+/// The messages of docs/live-protocol.md other than poses, as JSON in one line.
 
 std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
                           const std::vector<std::string>& looks, SenderKinds kinds = sender_kinds());
@@ -26,7 +27,7 @@ std::string hello_message(const std::string& version, const SourceInfo& info, co
 struct LiveStatus {
   LiveState state;
   std::optional<LatencyRecord::Summary> latency;
-  double cpu = 0.0;  ///< cores in use now
+  double cpu = 0.0;  ///< current processor use, in cores
   std::vector<SenderStatus> outputs;
   std::optional<Recording> recording;
   std::vector<Recording> recordings;
@@ -37,7 +38,7 @@ std::string words_message(MessageLevel level, const std::string& words);
 
 std::string pong_message(std::int64_t id, double stamp);
 
-/// The binary message of a picture, at most 480 pixels wide, as a JPEG. `stamp` in ms.
+/// The binary message of a camera picture, a JPEG at most 480 pixels wide. `stamp`: capture time in ms.
 std::string picture_message(const cv::Mat& image, std::int64_t frame, double stamp);
 
 }  // namespace telemime

@@ -13,13 +13,13 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
-#include "telemime/live/kept_outputs.h"
+#include "telemime/live/guide_timeout.h"
 #include "telemime/live/live_answers.h"
 #include "telemime/live/live_files.h"
 #include "telemime/live/live_messages.h"
-#include "telemime/live/output_news.h"
-#include "telemime/live/page_wait.h"
 #include "telemime/live/processor_time.h"
+#include "telemime/live/saved_outputs.h"
+#include "telemime/live/sender_state_reporter.h"
 #include "telemime/streaming/pose_message.h"
 #include "telemime/streaming/url.h"
 
@@ -276,25 +276,25 @@ struct LiveProgram::State {
 
   // Pages have their list of outputs; whoever looks at the console alone has not.
   void tell_outputs() {
-    for (const OutputNews::Words& news : output_news.look(senders.status())) {
+    for (const SenderStateReporter::Report& report : sender_states.update(senders.status())) {
       if (console) {
-        console(news.level, news.words);
+        console(report.level, report.text);
       }
     }
   }
 
   // The empty room is asked for by a page.
   void wait_for_page(LivePhase phase) {
-    switch (page_wait.look(phase == LivePhase::empty_room, server->clients(), clock.now())) {
-      case PageWait::Step::none:
+    switch (guide_timeout.update(phase == LivePhase::empty_room, server->clients(), clock.now())) {
+      case GuideTimeout::Step::none:
         break;
-      case PageWait::Step::ask:
+      case GuideTimeout::Step::ask:
         tell(MessageLevel::warning,
              "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
                  "\n  Without a page the start goes on by itself after " +
-                 std::to_string(std::lround(page_wait.patience())) + " s; --no-guide does not wait.");
+                 std::to_string(std::lround(guide_timeout.seconds())) + " s; --no-guide does not wait.");
         break;
-      case PageWait::Step::go_on:
+      case GuideTimeout::Step::skip:
         tell(MessageLevel::warning,
              "no page is open to guide the start: going on without a picture of the empty room");
         session->guide(GuideStep::skip);
@@ -330,17 +330,17 @@ struct LiveProgram::State {
   double cpu_at_start = processor_seconds();
   std::atomic<bool> serving = false;  // the server is there
   SenderList senders{options.sender_kinds};
-  KeptOutputs kept{options.settings, senders,
-                   [this](MessageLevel level, const std::string& words) { tell(level, words); }};
+  SavedOutputs kept{options.settings, senders,
+                    [this](MessageLevel level, const std::string& words) { tell(level, words); }};
   Recorder recorder;
   AvatarFolder avatars{options.avatars};
   LiveAnswers answers;
   std::atomic<const LiveSession*> ready = nullptr;
   std::atomic<std::int64_t> poses = 0;
   std::atomic<std::int64_t> pictures = 0;
-  std::unique_ptr<PoseMessages> spoken;   // of the search side
-  PageWait page_wait{options.page_wait};  // of the ticker
-  OutputNews output_news;                 // of the ticker
+  std::unique_ptr<PoseMessages> spoken;           // of the search side
+  GuideTimeout guide_timeout{options.page_wait};  // of the ticker
+  SenderStateReporter sender_states;              // of the ticker
   std::atomic<bool> complained = false;
 
   mutable std::mutex mutex;  // of what follows

@@ -26,20 +26,20 @@ constexpr std::size_t kMostOutputs = 64;
 constexpr int kVersion = 1;
 
 [[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw Error(
-      ErrorKind::config, "the settings in " + file.string() + " cannot be used: " + what,
-      "Mend or delete the file. When an output is added or removed on the page, it is written anew, and "
-      "this one is kept beside it, with \".old\" at its name's end.");
+  throw Error(ErrorKind::config, "the settings in " + file.string() + " cannot be used: " + what,
+              "Correct or delete the file. When an output is added or removed on the page, a new file "
+              "replaces it, and "
+              "this one is renamed to end in \".old\".");
 }
 
 [[noreturn]] void unwritable(const fs::path& file, int error_number) {
   throw Error(ErrorKind::output,
-              "the settings cannot be kept in " + file.string() + ": " +
+              "the settings cannot be saved in " + file.string() + ": " +
                   std::generic_category().message(error_number),
-              "The outputs of this run are not known to the next one.");
+              "The outputs of this run will not be listed in the next run.");
 }
 
-// Closes; what was not written to the end is deleted.
+// A new file that is deleted unless it was written completely and moved.
 class NewFile {
  public:
   explicit NewFile(const fs::path& path)
@@ -77,7 +77,7 @@ class NewFile {
   bool whole_ = false;
 };
 
-// Whoever else changes a file in the folder waits. Where the file system has no locks, it is as without.
+// An exclusive lock on a folder; no effect on file systems without locks.
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& folder)
@@ -97,8 +97,7 @@ class FolderLock {
   int descriptor_;
 };
 
-// Where symbolic links lead, also to a file that is not there yet: whoever keeps their settings elsewhere
-// keeps the link.
+// The target of a chain of symbolic links, which need not exist, so that writing does not replace the link.
 fs::path at_end_of_links(fs::path file) {
   constexpr int kMostLinks = 40;
   std::error_code failed;
@@ -108,9 +107,9 @@ fs::path at_end_of_links(fs::path file) {
   return file;
 }
 
-// For a file that cannot be used, but may be wanted again.
+// A name for the backup of an unusable file.
 fs::path free_name_beside(const fs::path& file) {
-  constexpr int kMost = 9;  // then the last one is taken
+  constexpr int kMost = 9;  // after these the last one is overwritten
   fs::path name;
   std::error_code unknown;
   for (int number = 1; number <= kMost; ++number) {
@@ -123,7 +122,7 @@ fs::path free_name_beside(const fs::path& file) {
   return name;
 }
 
-// All that is in the file; an empty object when there is none. Throws as load_settings().
+// The content of the file; an empty object if it does not exist. Throws as load_settings().
 Json read(const fs::path& file) {
   std::error_code failed;
   if (!fs::exists(file, failed) && !failed) {
@@ -139,11 +138,11 @@ Json read(const fs::path& file) {
   if (text.size() > static_cast<std::size_t>(kLongestFile)) {
     damaged(file, "it is longer than " + std::to_string(kLongestFile) + " bytes");
   }
-  // Brackets that go deeper than ours could fill the stack of the parser.
+  // Limits the depth, because the parser is recursive.
   Json json = Json::parse(
       text, [](int depth, Json::parse_event_t, Json&) { return depth < 8; }, /*allow_exceptions=*/false);
   if (!json.is_object() || !json.contains("outputs") || !json["outputs"].is_array()) {
-    damaged(file, "it is not what Telemime writes");
+    damaged(file, "not a settings file of Telemime");
   }
   if (json.value("version", Json()) != kVersion) {
     damaged(file, "it was written by another version of Telemime");
@@ -151,7 +150,7 @@ Json read(const fs::path& file) {
   const Json& urls = json["outputs"];
   if (urls.size() > kMostOutputs ||
       !std::all_of(urls.begin(), urls.end(), [](const Json& url) { return url.is_string(); })) {
-    damaged(file, "its list of outputs is not what Telemime writes");
+    damaged(file, "invalid list of outputs");
   }
   return json;
 }
@@ -178,7 +177,7 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
   Json json;
   try {
     json = read(target);
-  } catch (const Error&) {  // whoever loaded it was told; another version may want it again
+  } catch (const Error&) {  // reported when it was loaded; kept as a backup
     unusable = fs::is_regular_file(target, failed);
     json = Json::object();
   }

@@ -8,23 +8,22 @@
 
 namespace telemime {
 
-/// What the user chose on the page that holds for later runs, too.
+/// The user's settings on the page that later runs reuse.
 struct LiveSettings {
   std::vector<std::string> outputs;  ///< URLs, in the order in which they were added
 };
 
-/// Reads such a file. None are there when there is no file. Throws Error(config) that names the file and what
-/// is wrong with it.
+/// Reads a settings file; defaults if it does not exist. Throws Error(config) with the file's name and the
+/// reason.
 LiveSettings load_settings(const std::filesystem::path& file);
 
-/// Reads, has `change` change it, and writes: what another program did in the meantime is not undone, and two
-/// that do it at the same time wait for each other. A file that cannot be used is begun anew; what it holds
-/// beside the LiveSettings stays. The file, and the folder that it is in, are made for this user alone: the
-/// new one is there whole or the old one stays, at the end of a symbolic link, too. Of more than 64 outputs
-/// the newest are kept. Throws Error(output).
+/// Reads the file, applies `change` and writes it, under a lock, so that concurrent programs do not undo each
+/// other's changes. Unknown fields are preserved; an unusable file is renamed and replaced. The file and a
+/// new folder are readable by this user only. The write is atomic and follows symbolic links. At most the
+/// newest 64 outputs are stored. Throws Error(output).
 void update_settings(const std::filesystem::path& file, const std::function<void(LiveSettings&)>& change);
 
-/// update_settings to these.
+/// Replaces the stored settings.
 void save_settings(const std::filesystem::path& file, const LiveSettings& settings);
 
 }  // namespace telemime

@@ -3,8 +3,8 @@
 
 namespace telemime {
 
-/// How much words for the user matter: `info` can be left unread; after a `warning` something is worse than
-/// it could be; after an `error` something that was asked for does not work.
+/// Severity of a message for the user: `info` is optional reading, `warning` means that results are worse
+/// than they could be, `error` that something requested does not work.
 enum class MessageLevel { info, warning, error };
 
 }  // namespace telemime

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 250;  // frames
 
-// One thing to do for the recorder's thread.
+// A task for the recorder's thread.
 struct Task {
   enum class Kind { person, frame, start, stop, forget } kind = Kind::frame;
   std::shared_ptr<const StreamHeader> header = {};
@@ -29,7 +29,7 @@ struct Task {
   Recording recording = {};
 };
 
-// A recording while it is written.
+// The recording that is being written.
 struct Open {
   Recording recording;
   Resampler resampler;
@@ -66,10 +66,10 @@ struct Recorder::State {
       try {
         carry_out(task);
       } catch (const std::exception& e) {
-        // A full disk: what was written so far is kept.
+        // For instance a full disk: the frames written so far are kept.
         asked = false;
         wanted = false;
-        say(MessageLevel::error, std::string("the recording was ended: ") + e.what());
+        say(MessageLevel::error, std::string("the recording was stopped: ") + e.what());
         close();
       }
     }
@@ -81,16 +81,15 @@ struct Recorder::State {
       case Task::Kind::person:
         header = task.header;
         if (open) {
-          say(MessageLevel::info, "a person is measured anew: recording " +
-                                      std::to_string(open->recording.number) +
-                                      " ends there, and goes on in the next one");
+          say(MessageLevel::info, "recalibrated: recording " + std::to_string(open->recording.number) +
+                                      " ends here and continues in the next one");
         }
         close();
         break;
       case Task::Kind::start:
         wanted = true;
         if (!header) {
-          say(MessageLevel::info, "the recording begins when a person is tracked");
+          say(MessageLevel::info, "the recording starts when a person is tracked");
         }
         break;
       case Task::Kind::stop:
@@ -111,9 +110,9 @@ struct Recorder::State {
   void write(const MotionFrame& frame) {
     if (open && open->resampler.gap_before(frame) > kLongestBridge) {
       const auto gap = std::lround(open->resampler.gap_before(frame));
-      say(MessageLevel::warning, "nothing came for " + std::to_string(gap) + " s: recording " +
+      say(MessageLevel::warning, "no frames for " + std::to_string(gap) + " s: recording " +
                                      std::to_string(open->recording.number) +
-                                     " ends there, and goes on in the next one");
+                                     " ends here and continues in the next one");
       close();
     }
     if (!open) {
@@ -133,7 +132,7 @@ struct Recorder::State {
     }
     if (open->recording.frames >= most_frames) {
       say(MessageLevel::info,
-          "recording " + std::to_string(open->recording.number) + " is full: it goes on in the next one");
+          "recording " + std::to_string(open->recording.number) + " is full and continues in the next one");
       close();
     }
   }
@@ -144,13 +143,13 @@ struct Recorder::State {
     std::error_code failed;
     std::error_code unknown;
     std::filesystem::create_directories(folder, failed);
-    do {  // recordings of earlier runs stay, and of those that run at the same time
+    do {  // never reuses a folder of an earlier or concurrent run
       recording.folder = folder / ("recording-" + std::to_string(next_folder++));
     } while (!std::filesystem::create_directory(recording.folder, failed) &&
              std::filesystem::exists(recording.folder, unknown));
     if (failed) {
       throw Error(ErrorKind::output,
-                  "the folder " + recording.folder.string() + " cannot be made: " + failed.message(),
+                  "the folder " + recording.folder.string() + " cannot be created: " + failed.message(),
                   "Choose another one with --recordings.");
     }
     Open made{recording, Resampler(header->body, header->camera, header->fps), {}};
@@ -164,26 +163,26 @@ struct Recorder::State {
   void close() {
     if (open) {
       end();
-      give_heap_back();  // the files' frames, and what waited for the disk
+      give_heap_back();  // of the files' frames and the queue
     }
   }
 
   void end() {
     const Open last = std::move(*open);
-    open.reset();  // whatever fails from here on, it is over
+    open.reset();  // the recording is over, whatever fails from here on
     Recording recording = last.recording;
     std::int64_t missing = 0;
     {
       const std::lock_guard lock(mutex);
-      missing = std::exchange(lost, 0);  // what is lost while the files end is missing in the next one
+      missing = std::exchange(lost, 0);  // later losses count for the next recording
     }
     for (const auto& file : last.files) {
       try {
         file->close();
       } catch (const Error& e) {
         say(MessageLevel::error, e.what());
-      } catch (const std::exception& e) {  // memory is short: the others may need less
-        say(MessageLevel::error, file->path().string() + " has no end: " + e.what());
+      } catch (const std::exception& e) {  // out of memory: the others may need less
+        say(MessageLevel::error, file->path().string() + " is incomplete: " + e.what());
       }
     }
     for (const auto& file : last.files) {
@@ -202,7 +201,7 @@ struct Recorder::State {
         "recorded " + std::to_string(recording.frames) + " frames in " + recording.folder.string());
     if (missing > 0) {
       say(MessageLevel::warning,
-          std::to_string(missing) + " frames are missing in it: the disk was too slow");
+          std::to_string(missing) + " frames are missing in this recording: the disk was too slow");
     }
   }
 
@@ -219,7 +218,7 @@ struct Recorder::State {
           "the recording in " + recording.folder.string() + " could not be deleted: " + failed.message());
       return;
     }
-    std::filesystem::remove(recording.folder, failed);  // when nothing else was put there
+    std::filesystem::remove(recording.folder, failed);  // fails if it contains other files
   }
 
   void say(MessageLevel level, const std::string& words) const {
@@ -234,16 +233,16 @@ struct Recorder::State {
   std::int64_t most_frames = 0;
   std::span<const OutputFormat> formats;
 
-  // Of the recorder's thread.
+  // Used by the recorder's thread only.
   std::shared_ptr<const StreamHeader> header;
   std::optional<Open> open;
   bool wanted = false;
   int next_number = 1;
   int next_folder = 1;
 
-  std::atomic<bool> asked = false;  // frames are of use
+  std::atomic<bool> asked = false;  // frames are recorded
 
-  mutable std::mutex mutex;  // of what follows
+  mutable std::mutex mutex;  // guards the members below
   std::condition_variable changed;
   std::deque<Task> tasks;
   bool stop = false;
@@ -332,7 +331,7 @@ bool Recorder::forget(int number) {
   task.recording = std::move(*found);
   state_->ended.erase(found);
   lock.unlock();
-  state_->push(std::move(task));  // a slow disk is not to hold up who asks
+  state_->push(std::move(task));  // asynchronous, because the disk may be slow
   return true;
 }
 

@@ -20,30 +20,30 @@ struct RecordedFile {
   std::uintmax_t bytes = 0;
 };
 
-/// A recording that has ended, or the one that goes on.
+/// A finished recording, or the one in progress.
 struct Recording {
   int number = 0;  ///< from 1
   double seconds = 0.0;
   std::int64_t frames = 0;
   std::filesystem::path folder;
-  std::vector<RecordedFile> files;  ///< of an ended one
+  std::vector<RecordedFile> files;  ///< of a finished recording
 };
 
 /// Two hours at 30 frames a second.
 inline constexpr std::int64_t kMostRecordedFrames = 216'000;
 
-/// Records live motion into files, one folder for each recording, in every format and at a constant rate
-/// (resampler.h). After a gap of more than kLongestBridge it goes on in the next recording. Writes in a
-/// thread of its own: a slow disk costs frames of the recording, after 10 s, and never the tracker's time; a
-/// full one ends the recording, whose files then hold what was written. Everything from any thread; nothing
-/// throws but the constructor.
+/// Records live motion in every format at a constant rate (resampler.h), one folder per recording. After a
+/// gap of more than kLongestBridge it continues in a new recording. A separate thread writes: a slow disk
+/// loses frames of the recording after 10 s but never delays the tracker; a full disk ends the recording,
+/// whose files keep the frames written so far. Thread-safe; only the constructor throws.
 class Recorder {
  public:
   using Message = std::function<void(MessageLevel, const std::string&)>;
 
-  /// `folder` is made with the first recording. `message` gets what the user should know, from the recorder's
-  /// thread. A recording of `most_frames` goes on in the next one: some formats keep 230 bytes a frame in
-  /// memory until its end (measured with all: 62 MB for an hour at 25 a second, twice that while it ends).
+  /// `folder` is created with the first recording. `message` receives messages for the user, from the
+  /// recorder's thread. After `most_frames` frames a recording continues in a new one, because some formats
+  /// hold 230 bytes per frame in memory until the end (all formats: 62 MB for an hour at 25 frames a second,
+  /// twice that at the end).
   Recorder(std::filesystem::path folder, OutputOptions options, Message message,
            std::int64_t most_frames = kMostRecordedFrames,
            std::span<const OutputFormat> formats = kOutputFormats);
@@ -51,24 +51,24 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
   ~Recorder();  ///< close()
 
-  /// Ends the recording and writes its files to the end; nothing is recorded and no message comes any more.
-  /// Not from several threads at once.
+  /// Ends the recording and completes its files. Afterwards nothing is recorded and no message is sent. Not
+  /// thread-safe.
   void close();
 
-  /// The person whose frames follow. A recording that goes on is ended and another one begun: a file is of
-  /// one body.
+  /// Sets the person of the following frames. A recording in progress ends and a new one begins, because a
+  /// file describes one body.
   void person(const StreamHeader& header);
   void write(const MotionFrame& frame);
 
   void start();
   void stop();
 
-  /// With number 0 while one was started and waits for a person's first frame.
+  /// The recording in progress; its number is 0 until the first frame of a person.
   std::optional<Recording> current() const;
   std::vector<Recording> ended() const;
-  /// Of an ended recording; nothing where there is no such file.
+  /// The path of a file of a finished recording; nothing if there is no such file.
   std::optional<std::filesystem::path> file(int number, const std::string& name) const;
-  /// Deletes an ended recording's files, soon; false when there is none of that number.
+  /// Deletes the files of a finished recording asynchronously; false if there is no such recording.
   bool forget(int number);
 
  private:

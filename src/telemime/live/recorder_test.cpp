@@ -136,8 +136,7 @@ TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
   EXPECT_EQ(r->ended()[0].frames, 201) << "a gap of some seconds is filled";
   EXPECT_EQ(r->ended()[1].frames, 2);
   const std::lock_guard lock(mutex_);
-  EXPECT_NE(warnings_.find("nothing came for 99992 s: recording 1 ends there"), std::string::npos)
-      << warnings_;
+  EXPECT_NE(warnings_.find("no frames for 99992 s: recording 1 ends here"), std::string::npos) << warnings_;
 }
 
 TEST_F(Records, AnotherBodyGoesOnInTheNext) {
@@ -152,7 +151,7 @@ TEST_F(Records, AnotherBodyGoesOnInTheNext) {
   EXPECT_EQ(r->ended()[0].frames, 20);
   EXPECT_EQ(r->ended()[1].frames, 10);
   const std::lock_guard lock(mutex_);
-  EXPECT_NE(infos_.find("measured anew: recording 1 ends there"), std::string::npos) << infos_;
+  EXPECT_NE(infos_.find("recalibrated: recording 1 ends here"), std::string::npos) << infos_;
   EXPECT_EQ(infos_.find("recording 2 ends there"), std::string::npos) << infos_;
 }
 
@@ -183,7 +182,7 @@ TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {
     EXPECT_EQ(keys(recording.folder / "motion.glb"), 5U);
     EXPECT_EQ(text_of(recording.folder / "motion.odd").substr(0, 11), "head\nframe\n");
   }
-  EXPECT_NE(errors().find("motion.odd has no end"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("motion.odd is incomplete"), std::string::npos) << errors();
 }
 
 TEST_F(Records, FoldersOfOthersAreLeftAlone) {
@@ -240,7 +239,7 @@ TEST_F(Records, AFullDiskIsAnErrorInWordsAndWhatWasWrittenIsKept) {
   std::signal(SIGXFSZ, handler);
   ASSERT_TRUE(ended);
 
-  EXPECT_NE(errors().find("the recording was ended: cannot write"), std::string::npos) << errors();
+  EXPECT_NE(errors().find("the recording was stopped: cannot write"), std::string::npos) << errors();
   EXPECT_NE(errors().find("pose.jsonl"), std::string::npos) << errors();
   EXPECT_FALSE(r->current());
   const Recording recording = r->ended().front();

@@ -11,7 +11,7 @@ namespace telemime {
 namespace {
 
 constexpr double kLongestGap = 0.5;  // s
-constexpr double kSlack = 1e-6;      // s, of rounded times
+constexpr double kSlack = 1e-6;      // s, for rounding errors
 
 Pose blend(const Pose& a, const Pose& b, double share) {
   const JointRotations from = rotations_of(a);
@@ -52,7 +52,7 @@ std::vector<MotionFrame> Resampler::push(const MotionFrame& frame) {
   }
   if (gap_before(frame) > kLongestBridge) {
     throw Error(ErrorKind::usage, "a gap of " + std::to_string(gap_before(frame)) + " s is not filled",
-                "Begin anew after it.");
+                "Start a new file after it.");
   }
   std::vector<MotionFrame> frames;
   while (start_ + static_cast<double>(count_) / fps_ <= frame.time + kSlack) {

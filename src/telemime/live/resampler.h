@@ -10,22 +10,22 @@
 
 namespace telemime {
 
-/// The longest gap between two frames that is filled, s.
+/// The longest gap between two frames that is filled, in s.
 inline constexpr double kLongestBridge = 10.0;
 
-/// Makes frames that came when they came into frames at a constant rate, as files of motion need them:
-/// between two tracked frames at most half a second apart the joints turn evenly; in longer gaps the person
-/// is lost. A gap of more than kLongestBridge is not filled: what follows it belongs into another file.
+/// Resamples motion frames to a constant rate, as motion files require. Between two tracked frames at most
+/// 0.5 s apart the joint rotations are interpolated; in longer gaps the person is lost. A gap of more than
+/// kLongestBridge is not filled: start a new file after it.
 class Resampler {
  public:
   /// `fps` > 0; `camera` is that of MotionFrame::pixels.
   Resampler(const Body& body, const Camera& camera, double fps) : body_(body), camera_(camera), fps_(fps) {}
 
-  /// How long before this frame the last one was, s; 0 of the first one.
+  /// Time since the previous frame, s; 0 for the first frame.
   double gap_before(const MotionFrame& frame) const { return last_ ? frame.time - last_->time : 0.0; }
 
-  /// Frames in the order of time. Returns those of the constant rate up to it, frame and time from 0 at the
-  /// first one. Throws Error(usage) for one after a gap that is not filled.
+  /// Adds a frame; times must increase. Returns the resampled frames up to its time, whose number and time
+  /// start at 0. Throws Error(usage) after a gap longer than kLongestBridge.
   std::vector<MotionFrame> push(const MotionFrame& frame);
 
  private:
@@ -36,7 +36,7 @@ class Resampler {
   double fps_;
   std::optional<MotionFrame> last_;
   double start_ = 0.0;
-  std::int64_t count_ = 0;  ///< handed out
+  std::int64_t count_ = 0;  ///< number of frames returned
 };
 
 }  // namespace telemime

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMost = 16;
 
-// A page may name an output by what it got from us, also one that could never be sent to.
+// Nothing for an invalid URL: a page may name a saved output that this version does not support.
 std::optional<std::string> meaning_if_any(const std::string& url, SenderKinds kinds) {
   try {
     return meaning_of(url, kinds);
@@ -29,7 +29,7 @@ SenderList::Entry* SenderList::find(const std::string& meaning) {
   return found == entries_.end() ? nullptr : &*found;
 }
 
-void SenderList::require_room() const {
+void SenderList::require_space() const {
   if (entries_.size() >= kMost) {
     throw Error(ErrorKind::usage, "there are " + std::to_string(kMost) + " outputs already",
                 "Remove one first.");
@@ -39,13 +39,14 @@ void SenderList::require_room() const {
 std::string SenderList::url_of_new(const std::string& given, const std::string& meaning) {
   const Entry* const entry = find(meaning);
   if (entry == nullptr) {
-    require_room();
+    require_space();
     return given;
   }
   const std::string known = without_password(entry->url);
   if (entry->sender) {
     const std::string shown = without_password(given);
-    throw Error(ErrorKind::usage, shown + " is sent to already" + (known == shown ? "" : ", as " + known));
+    throw Error(ErrorKind::usage,
+                shown + " is in the list already" + (known == shown ? "" : ", as " + known));
   }
   return given == known ? entry->url : given;
 }
@@ -57,10 +58,10 @@ void SenderList::add(const std::string& given) {
     const std::lock_guard lock(mutex_);
     url = url_of_new(given, meaning);
   }
-  // Outside the lock: it reads files (ca=, key=), and frames do not wait for a slow disk.
+  // Outside the lock, because it reads files (ca=, key=) and must not delay frames.
   const std::shared_ptr<Sender> sender = make_sender(url, kinds_);
   const std::lock_guard lock(mutex_);
-  url_of_new(given, meaning);  // another page may have been faster
+  url_of_new(given, meaning);  // another page may have added it meanwhile
   if (header_) {
     sender->begin(*header_);
   }
@@ -72,14 +73,14 @@ void SenderList::offer(const std::string& url) {
   const std::string meaning = meaning_of(url, kinds_);
   const std::lock_guard lock(mutex_);
   if (find(meaning) == nullptr) {
-    require_room();
+    require_space();
     entries_.push_back({url, meaning, nullptr});
   }
 }
 
 bool SenderList::switch_off(const std::string& url) {
   const auto meaning = meaning_if_any(url, kinds_);
-  std::shared_ptr<Sender> gone;  // ends outside the lock: it joins a thread
+  std::shared_ptr<Sender> gone;  // destroyed after the lock is released, because it joins a thread
   const std::lock_guard lock(mutex_);
   Entry* const entry = meaning ? find(*meaning) : nullptr;
   if (entry == nullptr) {
@@ -131,7 +132,7 @@ std::vector<SenderStatus> SenderList::status() const {
       SenderStatus& off = all.emplace_back();
       off.url = without_password(entry.url);
       off.state = SenderState::off;
-      off.words = "nothing is sent there until it is switched on";
+      off.words = "off; nothing is sent";
     }
   }
   return all;

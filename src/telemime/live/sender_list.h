@@ -11,39 +11,38 @@
 
 namespace telemime {
 
-/// The outputs over the network: those that are sent to, and those that are off, which nothing is sent to.
-/// Two URLs that mean the same (meaning_of) are one output. Passwords in URLs are used and told to nobody:
-/// status() leaves them out. From any thread.
+/// The network outputs of a live run, at most 16, each on or off. URLs that mean the same (meaning_of) are
+/// one output. status() omits the passwords in URLs. Thread-safe.
 class SenderList {
  public:
   explicit SenderList(SenderKinds kinds = sender_kinds()) : kinds_(kinds) {}
   SenderKinds kinds() const { return kinds_; }
 
-  /// Sends there from now on. Throws Error(usage) when the URL cannot be used, is sent to already, or would
-  /// be one too many (16). One that is off is known with the password that it was added with.
+  /// Adds an output, or switches one on; a URL without its password then uses the known password. Throws
+  /// Error(usage) if the URL is invalid, if the output is on already, or if the list is full.
   void add(const std::string& given);
-  /// An output of an earlier run: off. One that is listed already stays as it is. Throws as add() does.
+  /// Adds an output of an earlier run, off. One that is already listed is not changed. Throws as add() does.
   void offer(const std::string& url);
-  /// Nothing is sent there any more; it stays in the list. False when there is none.
+  /// Stops sending; the output stays in the list. False if it is not listed.
   bool switch_off(const std::string& url);
-  /// Neither sent to nor listed. False when there is none.
+  /// Stops sending and removes the output from the list. False if it is not listed.
   bool remove(const std::string& url);
 
   void person(const StreamHeader& header);
-  /// As Sender::send.
+  /// Sends a frame to every output that is on, as Sender::send.
   void send(const MotionFrame& frame, double taken);
   std::vector<SenderStatus> status() const;
 
  private:
   struct Entry {
-    std::string url;  ///< with its password
+    std::string url;  ///< including the password
     std::string meaning;
-    std::shared_ptr<Sender> sender;  ///< none: off
+    std::shared_ptr<Sender> sender;  ///< null if it is off
   };
   Entry* find(const std::string& meaning);
-  void require_room() const;
-  /// Where an output that is to be added sends: a page knows outputs without their passwords. Throws when it
-  /// cannot be added. The lock is held.
+  void require_space() const;
+  /// The URL to send to, including a password that the page does not know. Throws if the output cannot be
+  /// added. The caller holds the lock.
   std::string url_of_new(const std::string& given, const std::string& meaning);
 
   const SenderKinds kinds_;

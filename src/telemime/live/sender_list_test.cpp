@@ -25,7 +25,7 @@ std::string refusal(SenderList& list, const std::string& url) {
   return "";
 }
 
-TEST(SenderList, UrlsThatMeanTheSameAreOneOutput) {
+TEST(SenderList, EquivalentUrlsAreOneOutput) {
   SenderList list;
   list.add("vmc://localhost");
   EXPECT_NE(refusal(list, "vmc://localhost:39539").find("already, as vmc://localhost"), std::string::npos);
@@ -37,7 +37,7 @@ TEST(SenderList, UrlsThatMeanTheSameAreOneOutput) {
   EXPECT_TRUE(list.status().empty());
 }
 
-TEST(SenderList, NothingIsSentToWhatIsOff) {
+TEST(SenderList, NothingIsSentToAnOutputThatIsOff) {
   UdpReceiver receiver;
   const StreamHeader header = testing_motion::header();
   const std::vector<MotionFrame> frames = testing_motion::gesture(header, 2);
@@ -62,7 +62,7 @@ TEST(SenderList, NothingIsSentToWhatIsOff) {
   EXPECT_FALSE(receiver.receive(0));
 }
 
-TEST(SenderList, OfferingIsNoSwitchingOff) {
+TEST(SenderList, OfferDoesNotSwitchOff) {
   SenderList list;
   list.add("vmc://a");
   list.offer("vmc://b");
@@ -74,7 +74,7 @@ TEST(SenderList, OfferingIsNoSwitchingOff) {
   EXPECT_THROW(list.offer("carrier-pigeon://coop"), Error);
 }
 
-TEST(SenderList, HasRoomForSixteen) {
+TEST(SenderList, HoldsSixteenOutputs) {
   SenderList list;
   for (int i = 0; i < 16; ++i) {
     list.offer("vmc://h" + std::to_string(i));

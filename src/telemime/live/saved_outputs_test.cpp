@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/kept_outputs.h"
+#include "telemime/live/saved_outputs.h"
 
 #include <gtest/gtest.h>
 
@@ -14,93 +14,93 @@ namespace {
 
 // One run of the program, as far as its outputs go.
 struct OneRun {
-  explicit OneRun(const std::filesystem::path& file, bool resume = false) : kept(file, senders, tell()) {
-    kept.offer(resume);
+  explicit OneRun(const std::filesystem::path& file, bool resume = false) : saved(file, senders, report()) {
+    saved.offer(resume);
   }
-  KeptOutputs::Tell tell() {
+  SavedOutputs::Report report() {
     return [this](MessageLevel level, const std::string& words) {
-      heard += words + "\n";
+      reported += words + "\n";
       worst = std::max(worst, level);
     };
   }
   void add(const std::string& url) {
     senders.add(url);
-    kept.keep(url);
-    kept.save();
+    saved.keep(url);
+    saved.save();
   }
   void remove(const std::string& url) {
     senders.remove(url);
-    kept.forget(url);
-    kept.save();
+    saved.forget(url);
+    saved.save();
   }
   SenderState state(std::size_t output) const { return senders.status().at(output).state; }
 
-  std::string heard;
+  std::string reported;
   MessageLevel worst = MessageLevel::info;
   SenderList senders;
-  KeptOutputs kept;
+  SavedOutputs saved;
 };
 
-class Kept : public ::testing::Test {
+class Saved : public ::testing::Test {
  protected:
   ScratchFolder folder_;
   std::filesystem::path file_ = folder_.path() / "telemime" / "live.json";
 };
 
-TEST_F(Kept, AnOutputIsOfferedAgainAndNotSentTo) {
+TEST_F(Saved, OutputOfAnEarlierRunIsListedOff) {
   {
     OneRun first(file_);
-    EXPECT_EQ(first.heard, "");
+    EXPECT_EQ(first.reported, "");
     first.add("vmc://localhost:39539");
   }
   OneRun second(file_);
   ASSERT_EQ(second.senders.status().size(), 1U);
   EXPECT_EQ(second.state(0), SenderState::off);
-  EXPECT_NE(second.heard.find("vmc://localhost:39539"), std::string::npos) << second.heard;
-  EXPECT_NE(second.heard.find("--resume-outputs"), std::string::npos) << second.heard;
+  EXPECT_NE(second.reported.find("vmc://localhost:39539"), std::string::npos) << second.reported;
+  EXPECT_NE(second.reported.find("--resume-outputs"), std::string::npos) << second.reported;
   second.remove("vmc://localhost");
-  EXPECT_TRUE(OneRun(file_).senders.status().empty()) << "what was removed is not offered again";
+  EXPECT_TRUE(OneRun(file_).senders.status().empty()) << "a removed output is not listed again";
 }
 
-TEST_F(Kept, IsSentToAgainWhenThisRunAsksForIt) {
+TEST_F(Saved, ResumeSendsAgain) {
   OneRun(file_).add("vmc://localhost:39539");
   const OneRun again(file_, /*resume=*/true);
   EXPECT_NE(again.state(0), SenderState::off);
-  EXPECT_NE(again.heard.find("sending again"), std::string::npos) << again.heard;
+  EXPECT_NE(again.reported.find("sending again"), std::string::npos) << again.reported;
 }
 
-TEST_F(Kept, WithoutAFileNothingIsKept) {
+TEST_F(Saved, WithoutAFileNothingIsSaved) {
   OneRun run("");
   run.add("vmc://localhost");
-  EXPECT_EQ(run.heard, "");
+  EXPECT_EQ(run.reported, "");
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(Kept, NothingIsWrittenWhenNothingWasAdded) {
+TEST_F(Saved, NoChangeWritesNothing) {
   OneRun run(file_);
-  run.kept.save();
+  run.saved.save();
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(Kept, ADamagedFileIsToldAndTheRunGoesOn) {
+TEST_F(Saved, DamagedFileIsReported) {
   std::filesystem::create_directories(file_.parent_path());
   std::ofstream(file_) << "{{{";
   OneRun run(file_);
   EXPECT_EQ(run.worst, MessageLevel::warning);
-  EXPECT_NE(run.heard.find(file_.string()), std::string::npos) << run.heard;
+  EXPECT_NE(run.reported.find(file_.string()), std::string::npos) << run.reported;
   run.add("vmc://localhost");
   EXPECT_EQ(load_settings(file_).outputs.size(), 1U);
 }
 
-TEST_F(Kept, OneThatIsNoOutputAnyMoreDoesNotKeepTheOthersAway) {
+TEST_F(Saved, UnknownOutputDoesNotBlockTheOthers) {
   save_settings(file_, {{"carrier-pigeon://coop", "vmc://localhost", "vmc://localhost?bundle=7"}});
   const OneRun run(file_, /*resume=*/true);
   EXPECT_EQ(run.worst, MessageLevel::warning);
-  EXPECT_NE(run.heard.find("carrier-pigeon"), std::string::npos) << run.heard;
+  EXPECT_NE(run.reported.find("carrier-pigeon"), std::string::npos) << run.reported;
   EXPECT_NE(run.state(0), SenderState::off);
 }
 
-TEST_F(Kept, TwoRunsAtOnceDoNotUndoEachOthersChanges) {
+TEST_F(Saved, ConcurrentRunsPreserveChanges) {
   save_settings(file_, {{"vmc://old", "carrier-pigeon://coop"}});
   OneRun one(file_);
   OneRun other(file_);
@@ -114,7 +114,7 @@ TEST_F(Kept, TwoRunsAtOnceDoNotUndoEachOthersChanges) {
   EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"carrier-pigeon://coop", "vmc://one"}));
 }
 
-TEST_F(Kept, MoreThanCanBeOfferedStay) {
+TEST_F(Saved, MoreThanTheLimitArePreserved) {
   LiveSettings many;
   for (int i = 0; i < 20; ++i) {
     many.outputs.push_back("vmc://h" + std::to_string(i));
@@ -129,33 +129,33 @@ TEST_F(Kept, MoreThanCanBeOfferedStay) {
   EXPECT_EQ(load_settings(file_).outputs, many.outputs);
 }
 
-TEST_F(Kept, WhatCouldNotBeWrittenIsWrittenWithTheNextChange) {
+TEST_F(Saved, FailedWriteIsRepeatedAtTheNextChange) {
   std::ofstream(folder_.file("telemime")) << "a file where the folder should be";
   OneRun run(file_);
   run.add("vmc://one");
   EXPECT_EQ(run.worst, MessageLevel::warning);
-  run.heard.clear();
-  run.kept.save();
-  EXPECT_EQ(run.heard, "") << "it is not told again and again";
+  run.reported.clear();
+  run.saved.save();
+  EXPECT_EQ(run.reported, "") << "it is reported once";
   std::filesystem::remove(folder_.file("telemime"));
   run.add("vmc://two");
   EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"vmc://one", "vmc://two"}));
 }
 
-TEST_F(Kept, APasswordIsNot) {
+TEST_F(Saved, PasswordIsNotSaved) {
   OneRun run(file_);
-  run.kept.keep("other://anna:secret@host/x");
-  run.kept.save();
+  run.saved.keep("other://anna:secret@host/x");
+  run.saved.save();
   ASSERT_EQ(load_settings(file_).outputs.size(), 1U);
   EXPECT_EQ(load_settings(file_).outputs[0].find("secret"), std::string::npos);
 }
 
-TEST_F(Kept, WhatCannotBeWrittenIsTold) {
+TEST_F(Saved, FailedWriteIsReported) {
   std::ofstream(folder_.file("telemime")) << "a file where the folder should be";
   OneRun run(file_);
   run.add("vmc://localhost");
   EXPECT_EQ(run.worst, MessageLevel::warning);
-  EXPECT_NE(run.state(0), SenderState::off) << "it is sent to all the same";
+  EXPECT_NE(run.state(0), SenderState::off) << "it sends nevertheless";
 }
 
 }  // namespace

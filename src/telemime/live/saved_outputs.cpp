@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/kept_outputs.h"
+#include "telemime/live/saved_outputs.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace telemime {
 namespace {
 
-// The file may hold what this version cannot send to.
+// The normalised URL; the URL itself if this version does not support it.
 std::string meaning_or_text(const std::string& url, SenderKinds kinds) {
   try {
     return meaning_of(url, kinds);
@@ -23,10 +23,10 @@ std::string meaning_or_text(const std::string& url, SenderKinds kinds) {
 
 }  // namespace
 
-KeptOutputs::KeptOutputs(std::filesystem::path file, SenderList& senders, Tell tell)
-    : file_(std::move(file)), senders_(senders), tell_(std::move(tell)) {}
+SavedOutputs::SavedOutputs(std::filesystem::path file, SenderList& senders, Report report)
+    : file_(std::move(file)), senders_(senders), report_(std::move(report)) {}
 
-void KeptOutputs::offer(bool resume) {
+void SavedOutputs::offer(bool resume) {
   if (file_.empty()) {
     return;
   }
@@ -35,7 +35,7 @@ void KeptOutputs::offer(bool resume) {
       offer(url, resume);
     }
   } catch (const Error& e) {
-    tell_(MessageLevel::warning, e.what());
+    report_(MessageLevel::warning, e.what());
   }
   std::string off;
   for (const SenderStatus& output : senders_.status()) {
@@ -44,12 +44,12 @@ void KeptOutputs::offer(bool resume) {
     }
   }
   if (!off.empty()) {
-    tell_(MessageLevel::info, "outputs of earlier runs, off now: " + off +
-                                  "\n  Switch them on on the page, or start with --resume-outputs.");
+    report_(MessageLevel::info, "outputs of earlier runs, off now: " + off +
+                                    "\n  Switch them on on the page, or start with --resume-outputs.");
   }
 }
 
-void KeptOutputs::offer(const std::string& url, bool resume) {
+void SavedOutputs::offer(const std::string& url, bool resume) {
   try {
     senders_.offer(url);
     const std::string shown = without_password(url);
@@ -59,22 +59,22 @@ void KeptOutputs::offer(const std::string& url, bool resume) {
     });
     if (resume && off) {
       senders_.add(url);
-      tell_(MessageLevel::info, "sending again, as in an earlier run: " + shown);
+      report_(MessageLevel::info, "sending again to an output of an earlier run: " + shown);
     }
   } catch (const Error& e) {
-    tell_(MessageLevel::warning, std::string("an output of an earlier run cannot be used: ") + e.what());
+    report_(MessageLevel::warning, std::string("an output of an earlier run cannot be used: ") + e.what());
   }
 }
 
-void KeptOutputs::keep(const std::string& url) {
-  note({without_password(url), true});
+void SavedOutputs::keep(const std::string& url) {
+  record({without_password(url), true});
 }
 
-void KeptOutputs::forget(const std::string& url) {
-  note({url, false});
+void SavedOutputs::forget(const std::string& url) {
+  record({url, false});
 }
 
-void KeptOutputs::note(Change change) {
+void SavedOutputs::record(Change change) {
   if (file_.empty()) {
     return;
   }
@@ -84,7 +84,7 @@ void KeptOutputs::note(Change change) {
   due_ = true;
 }
 
-void KeptOutputs::save() {
+void SavedOutputs::save() {
   std::vector<Change> changes;
   {
     const std::lock_guard lock(mutex_);
@@ -109,16 +109,16 @@ void KeptOutputs::save() {
       }
     });
   } catch (const Error& e) {
-    take_back(std::move(changes));
-    tell_(MessageLevel::warning, e.what());
+    restore(std::move(changes));
+    report_(MessageLevel::warning, e.what());
   } catch (...) {
-    take_back(std::move(changes));
+    restore(std::move(changes));
     throw;
   }
 }
 
-// They are saved with the next change.
-void KeptOutputs::take_back(std::vector<Change> changes) {
+// Puts the changes back, so that they are written with the next one.
+void SavedOutputs::restore(std::vector<Change> changes) {
   const std::lock_guard lock(mutex_);
   for (const Change& newer : changes_) {
     std::erase_if(changes, [&](const Change& before) { return before.url == newer.url; });

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passwords of outputs go to the broker, and to nothing that is shown or kept.
+// Passwords of outputs are sent to the broker, and neither shown nor saved.
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
+#include "meeting/transport/all.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
-#include "telemime/live/kept_outputs.h"
+#include "telemime/live/saved_outputs.h"
 #include "telemime/live/sender_list.h"
 
 namespace telemime {
@@ -16,15 +17,15 @@ namespace {
 const std::string kUrl = "mqtt://studio.p01:secret@127.0.0.1:9/home/studio";
 const std::string kShown = "mqtt://studio.p01@127.0.0.1:9/home/studio";
 
-TEST(OutputPasswords, AreKnownToTheListAlone) {
-  SenderList list;
+TEST(OutputPasswords, AreUsedButNotShown) {
+  SenderList list(kAllSenderKinds);
   list.add(kUrl);
   EXPECT_EQ(list.status().at(0).url, kShown);
   try {
     list.add(kUrl);
     ADD_FAILURE();
   } catch (const Error& e) {
-    EXPECT_EQ(std::string(e.what()), kShown + " is sent to already");
+    EXPECT_EQ(std::string(e.what()), kShown + " is in the list already");
   }
   ASSERT_TRUE(list.switch_off(kShown)) << "a page names it as it was shown";
   EXPECT_EQ(list.status().at(0).url, kShown);
@@ -35,15 +36,15 @@ TEST(OutputPasswords, AreKnownToTheListAlone) {
   EXPECT_THROW(list.add(kShown), Error) << "and forgotten with the output";
 }
 
-TEST(OutputPasswords, SecretsOfRoomsLinksAreSuch) {
+TEST(OutputPasswords, SecretsOfLinksArePasswords) {
   const std::string link = "http://127.0.0.1:9/room?name=Ana#k=secret";
   const std::string shown = "http://127.0.0.1:9/room?name=Ana";
   const ScratchFolder folder;
-  SenderList list;
-  KeptOutputs kept(folder.path() / "live.json", list, nullptr);
+  SenderList list(kAllSenderKinds);
+  SavedOutputs saved(folder.path() / "live.json", list, nullptr);
   list.add(link);
-  kept.keep(link);
-  kept.save();
+  saved.keep(link);
+  saved.save();
   EXPECT_EQ(list.status().at(0).url, shown);
   std::ifstream in(folder.path() / "live.json");
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -60,41 +61,44 @@ TEST(OutputPasswords, SecretsOfRoomsLinksAreSuch) {
   }
 }
 
-TEST(OutputPasswords, AreNotKeptForLaterRuns) {
+TEST(OutputPasswords, AreNotSaved) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "live.json";
   {
-    SenderList list;
-    KeptOutputs kept(file, list, nullptr);
-    kept.keep(kUrl);
-    kept.save();
+    SenderList list(kAllSenderKinds);
+    SavedOutputs saved(file, list, nullptr);
+    saved.keep(kUrl);
+    saved.save();
   }
   std::ifstream in(file);
   const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   EXPECT_NE(text.find(kShown), std::string::npos) << text;
   EXPECT_EQ(text.find("secret"), std::string::npos) << text;
 
-  std::string heard;
-  SenderList list;
-  KeptOutputs kept(file, list, [&heard](MessageLevel, const std::string& words) { heard += words + "\n"; });
-  kept.offer(/*resume=*/true);
-  EXPECT_NE(heard.find("Passwords are not kept"), std::string::npos) << heard;
+  std::string reported;
+  SenderList list(kAllSenderKinds);
+  SavedOutputs saved(file, list,
+                     [&reported](MessageLevel, const std::string& words) { reported += words + "\n"; });
+  saved.offer(/*resume=*/true);
+  EXPECT_NE(reported.find("Passwords are not kept"), std::string::npos) << reported;
   ASSERT_EQ(list.status().size(), 1U);
   EXPECT_EQ(list.status()[0].state, SenderState::off);
   EXPECT_NO_THROW(list.add(kUrl));
   EXPECT_EQ(list.status().size(), 1U) << "the same output, now with its password";
 }
 
-TEST(OutputPasswords, OfAFileThatSomebodyEditedAreNotShown) {
+TEST(OutputPasswords, InAnEditedFileAreNotShown) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "live.json";
   std::ofstream(file) << R"({"version":1,"outputs":[")" << kUrl << R"("]})";
-  std::string heard;
-  SenderList list;
-  KeptOutputs kept(file, list, [&heard](MessageLevel, const std::string& words) { heard += words + "\n"; });
-  kept.offer(/*resume=*/true);
-  EXPECT_NE(heard.find("sending again, as in an earlier run: " + kShown), std::string::npos) << heard;
-  EXPECT_EQ(heard.find("secret"), std::string::npos) << heard;
+  std::string reported;
+  SenderList list(kAllSenderKinds);
+  SavedOutputs saved(file, list,
+                     [&reported](MessageLevel, const std::string& words) { reported += words + "\n"; });
+  saved.offer(/*resume=*/true);
+  EXPECT_NE(reported.find("sending again to an output of an earlier run: " + kShown), std::string::npos)
+      << reported;
+  EXPECT_EQ(reported.find("secret"), std::string::npos) << reported;
 }
 
 }  // namespace
