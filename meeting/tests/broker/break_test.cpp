@@ -115,8 +115,8 @@ TEST(SlowMeeting, BrokerThatDoesNotReadIsReported) {
   relay.stall();
   ASSERT_TRUE(comes_true([&] { return sender->status().state == SenderState::failed; }))
       << "neither by its silence nor by what it does not read";
-  const std::string words = sender->status().words;
-  EXPECT_TRUE(words.starts_with("it does not") || words.starts_with("it stopped answering")) << words;
+  const std::string text = sender->status().words;
+  EXPECT_TRUE(text.starts_with("it does not") || text.starts_with("it stopped answering")) << text;
 }
 
 TEST(BrokenMeeting, ClearedMessagesArePublishedAgain) {

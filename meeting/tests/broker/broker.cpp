@@ -30,10 +30,10 @@ bool has_ended(pid_t process) {
 
 }  // namespace
 
-pid_t start_program(const std::vector<std::string>& words, const std::string& output) {
+pid_t start_program(const std::vector<std::string>& text, const std::string& output) {
   std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (const std::string& word : words) {
+  arguments.reserve(text.size() + 1);
+  for (const std::string& word : text) {
     arguments.push_back(const_cast<char*>(word.c_str()));
   }
   arguments.push_back(nullptr);
@@ -57,12 +57,12 @@ void kill_process(pid_t& process) {
   }
 }
 
-void run(const std::vector<std::string>& words) {
+void run(const std::vector<std::string>& text) {
   const ScratchFolder folder;
-  const pid_t process = start_program(words, folder.file("output"));
+  const pid_t process = start_program(text, folder.file("output"));
   int status = -1;
   ASSERT_EQ(::waitpid(process, &status, 0), process);
-  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << words[0] << content_of(folder.file("output"));
+  ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << text[0] << content_of(folder.file("output"));
 }
 
 Broker::Broker(const std::vector<Account>& accounts) {

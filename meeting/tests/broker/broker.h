@@ -54,12 +54,12 @@ class Broker {
 };
 
 /// Starts a program whose output goes to a file. It ends with the calling thread.
-pid_t start_program(const std::vector<std::string>& words, const std::string& output);
+pid_t start_program(const std::vector<std::string>& text, const std::string& output);
 
 /// Kills a process and waits for its end; sets the id to -1.
 void kill_process(pid_t& process);
 
 /// Runs a program to its end; fails the test unless its exit code is 0.
-void run(const std::vector<std::string>& words);
+void run(const std::vector<std::string>& text);
 
 }  // namespace telemime::meeting::test_support

@@ -13,9 +13,9 @@ namespace {
 
 const std::string kTracker = "10.77.0.2";
 
-void ip(std::vector<std::string> words) {
-  words.insert(words.begin(), TELEMIME_IP);
-  run(words);
+void ip(std::vector<std::string> text) {
+  text.insert(text.begin(), TELEMIME_IP);
+  run(text);
 }
 
 }  // namespace

@@ -118,9 +118,9 @@ TEST(Replay, OnlyNamedParticipantsJoin) {
   ASSERT_TRUE(has_left(subscriber, "q2"));
   EXPECT_EQ(subscriber.frames("q1").size(), 5U);
   EXPECT_FALSE(subscriber.newest("p/q0/presence")) << "nobody else is there";
-  const std::string words = refusal(replay_to(broker.url(), file, {"Zoe"}));
-  EXPECT_NE(words.find("\"Zoe\" is not in the recording"), std::string::npos) << words;
-  EXPECT_NE(words.find("q0 \"Q0\", q1 \"Q1\""), std::string::npos) << words;
+  const std::string text = refusal(replay_to(broker.url(), file, {"Zoe"}));
+  EXPECT_NE(text.find("\"Zoe\" is not in the recording"), std::string::npos) << text;
+  EXPECT_NE(text.find("q0 \"Q0\", q1 \"Q1\""), std::string::npos) << text;
 }
 
 TEST(Replay, LinkGivesEveryoneASeat) {
@@ -167,11 +167,11 @@ TEST(Replay, AccountWithoutRightsIsRejected) {
   const std::string file = write_test_recording(folder.file("a.troom"), 2, 5);
   const std::string rights = kWatches + "topic readwrite r/home/studio/p/q0/#\n";
   const Broker broker({{"studio.q0", "a", rights}});
-  const std::string words = refusal(replay_to(broker.url("studio.q0:a@"), file));
-  EXPECT_NE(words.find("\"q1\" cannot take part"), std::string::npos) << words;
-  EXPECT_NE(words.find("the account may not publish as"), std::string::npos) << words;
-  EXPECT_NE(words.find("needs an account that may publish for all participants"), std::string::npos) << words;
-  EXPECT_EQ(words.find(":a@"), std::string::npos) << words;
+  const std::string text = refusal(replay_to(broker.url("studio.q0:a@"), file));
+  EXPECT_NE(text.find("\"q1\" cannot take part"), std::string::npos) << text;
+  EXPECT_NE(text.find("the account may not publish as"), std::string::npos) << text;
+  EXPECT_NE(text.find("needs an account that may publish for all participants"), std::string::npos) << text;
+  EXPECT_EQ(text.find(":a@"), std::string::npos) << text;
 }
 
 TEST(Replay, ExistingParticipantIsNotReplaced) {
@@ -180,8 +180,8 @@ TEST(Replay, ExistingParticipantIsNotReplaced) {
   const Broker broker;
   const auto sender = make_sender(broker.url() + "?participant=q0", kAllSenderKinds);
   ASSERT_TRUE(comes_true([&] { return sender->status().state == SenderState::sending; }));
-  const std::string words = refusal(replay_to(broker.url(), file));
-  EXPECT_NE(words.find("another client takes part as \"q0\""), std::string::npos) << words;
+  const std::string text = refusal(replay_to(broker.url(), file));
+  EXPECT_NE(text.find("another client takes part as \"q0\""), std::string::npos) << text;
   const Subscriber subscriber(broker.port());
   EXPECT_TRUE(comes_true([&] {
     const auto presence = subscriber.json("p/q0/presence");

@@ -60,14 +60,14 @@ extern "C" time_t time(time_t* out) noexcept {
   return now.tv_sec;
 }
 
-int main(int count, char** words) {
+int main(int count, char** text) {
   if (count != 2) {
     std::cerr << "rooms_tracker URL\n";
     return 2;
   }
   ::signal(SIGUSR1, an_hour_ahead);
   ::signal(SIGUSR2, an_hour_back);
-  const auto sender = telemime::make_sender(words[1], telemime::meeting::kAllSenderKinds);
+  const auto sender = telemime::make_sender(text[1], telemime::meeting::kAllSenderKinds);
   const telemime::meeting::test_support::Feeder feeder(*sender);
   for (double before = wall_minus_steady();;) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

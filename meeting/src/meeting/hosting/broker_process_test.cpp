@@ -24,9 +24,9 @@ class BrokerProcesses : public ::testing::Test {
     const std::filesystem::path program = folder_.path() / "program";
     std::ofstream(program) << script;
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
-    process_ = std::make_unique<BrokerProcess>(program, notes_, [this](const std::string& words) {
+    process_ = std::make_unique<BrokerProcess>(program, notes_, [this](const std::string& text) {
       const std::lock_guard lock(mutex_);
-      reports_.push_back(words);
+      reports_.push_back(text);
     });
   }
   std::vector<std::string> reports() const {

@@ -60,10 +60,10 @@ TEST_F(Secrets, FileThatOthersCanReadIsRejected) {
   const MeetingSecrets secrets = SecretsFile(file_).load();
   for (const mode_t mode : {0640U, 0604U, 0644U, 0620U, 0610U}) {
     ASSERT_EQ(::chmod(file_.c_str(), mode), 0);
-    const std::string words = refusal(file_);
-    EXPECT_NE(words.find("other users of this computer can read it"), std::string::npos) << words;
-    EXPECT_NE(words.find("chmod 600"), std::string::npos) << words;
-    EXPECT_EQ(words.find(secrets.speak), std::string::npos);
+    const std::string text = refusal(file_);
+    EXPECT_NE(text.find("other users of this computer can read it"), std::string::npos) << text;
+    EXPECT_NE(text.find("chmod 600"), std::string::npos) << text;
+    EXPECT_EQ(text.find(secrets.speak), std::string::npos);
   }
   ASSERT_EQ(::chmod(file_.c_str(), 0600), 0);
   EXPECT_EQ(refusal(file_), "");

@@ -35,12 +35,12 @@ TEST(MeetingInfo, ChangesEverythingButTheChairs) {
   const MeetingInfo own{"Blue", 8, 2, {"p01"}, false};
   EXPECT_FALSE(after_change(own, own));
   EXPECT_FALSE(after_change(own, std::nullopt)) << "rubbish, or cleared";
-  MeetingInfo told{"Red", 4, 3, {"p09"}, true};
-  const auto after = after_change(own, told);
+  MeetingInfo received{"Red", 4, 3, {"p09"}, true};
+  const auto after = after_change(own, received);
   ASSERT_TRUE(after);
   EXPECT_EQ(*after, (MeetingInfo{"Red", 4, 3, {"p01"}, true}));
-  told.epoch = 1;
-  EXPECT_FALSE(after_change(own, told)) << "older";
+  received.epoch = 1;
+  EXPECT_FALSE(after_change(own, received)) << "older";
 }
 
 }  // namespace

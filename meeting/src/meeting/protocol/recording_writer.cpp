@@ -148,8 +148,8 @@ void RecordingWriter::add(Record record) {
 void RecordingWriter::end(std::uint64_t at) {
   add(RecordingEnd{at});
   finish();
-  if (const auto words = failure()) {
-    throw Error(ErrorKind::output, *words);
+  if (const auto text = failure()) {
+    throw Error(ErrorKind::output, *text);
   }
   write_({});
   write_ = nullptr;  // closes the file

@@ -165,16 +165,16 @@ TEST(RecordingWriter, FullDiskIsReportedAndKeepsTheStart) {
   for (std::uint64_t i = 0; i < 5000 && !writer.failure(); ++i) {
     writer.add(message(i, TopicKind::pose, 111));
   }
-  std::string words;
+  std::string text;
   try {
     writer.end(6000);
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::output);
-    words = e.what();
+    text = e.what();
   }
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, handler);
-  EXPECT_NE(words.find(file + " cannot be written"), std::string::npos) << words;
+  EXPECT_NE(text.find(file + " cannot be written"), std::string::npos) << text;
   EXPECT_LE(std::filesystem::file_size(file), 20'000U);
   EXPECT_EQ(std::filesystem::file_size(file), writer.bytes()) << "whole records only";
   EXPECT_FALSE(records_of(file).empty());

@@ -247,12 +247,12 @@ void ReplayParticipant::on_message(const MqttMessage& message) {
 // The broker may have noticed only now that an older connection of ours ended, or our messages may be
 // cleared.
 void ReplayParticipant::on_own_presence(const std::string& payload) {
-  const auto heard = read_presence(payload);
-  const bool ours = heard && heard->session == open_session_;
+  const auto received = read_presence(payload);
+  const bool ours = received && received->session == open_session_;
   if (!confirmed_) {
     confirmed_ = ours;
-    other_ = heard && heard->here && !ours ? std::optional(heard->session) : other_;
-  } else if (published_here_ && !(heard && heard->here)) {
+    other_ = received && received->here && !ours ? std::optional(received->session) : other_;
+  } else if (published_here_ && !(received && received->here)) {
     connection_.publish_retained(presence(true));
     const std::lock_guard lock(mutex_);
     pending_.new_state = pending_.new_state || !pending_.state.empty();

@@ -60,9 +60,9 @@ TEST_F(BrokerKeys, OtherFilesAreRejectedWithoutAQuote) {
         std::string("{\"user\":\"u\",\"password\":\"secret\xff\"}"),
         R"({"user":"u","password":"secret","x":")" + std::string(5000, 'x') + "\"}",
         R"({"user":"u","password":")" + std::string(300, 'x') + "\"}"}) {
-    const std::string words = refusal(file(content));
-    EXPECT_NE(words.find("key.json"), std::string::npos) << content;
-    EXPECT_EQ(words.find("secret"), std::string::npos) << words;
+    const std::string text = refusal(file(content));
+    EXPECT_NE(text.find("key.json"), std::string::npos) << content;
+    EXPECT_EQ(text.find("secret"), std::string::npos) << text;
   }
   EXPECT_NE(refusal(folder_.file("none")).find("none"), std::string::npos);
   EXPECT_NE(refusal(folder_.path().string()), "");
@@ -111,9 +111,9 @@ std::unique_ptr<Sender> sender_to(std::uint16_t port, const std::string& scheme 
                      kAllSenderKinds);
 }
 
-bool fails_with(const Sender& sender, const std::string& words) {
+bool fails_with(const Sender& sender, const std::string& text) {
   const bool came = comes_true([&] {
-    return sender.status().state == SenderState::failed && sender.status().words == words + "; trying again";
+    return sender.status().state == SenderState::failed && sender.status().words == text + "; trying again";
   });
   EXPECT_TRUE(came) << sender.status().words;
   return came;
@@ -144,12 +144,12 @@ TEST(MqttSender, EarlyEndIsReported) {
 }
 
 TEST(MqttSender, RejectionsHaveAReason) {
-  const auto answer = [](char code, const std::string& user, const std::string& words) {
+  const auto answer = [](char code, const std::string& user, const std::string& text) {
     TcpListener listener;
     const auto sender = sender_to(listener.port(), "mqtt", user);
     TcpPeer peer = listener.accept();
     peer.send(std::string("\x20\x02\x00", 3) + code);
-    EXPECT_TRUE(fails_with(*sender, words));
+    EXPECT_TRUE(fails_with(*sender, text));
   };
   answer(1, "", "it does not speak MQTT 3.1.1");
   answer(2, "", "it rejects the client id");
@@ -189,8 +189,8 @@ TEST(MqttSender, OptionsAreChecked) {
   const auto refusal = [](const std::string& url) {
     return error_of([&] { make_sender(url, kAllSenderKinds); }, ErrorKind::usage);
   };
-  const auto expect_error = [&](const std::string& url, const std::string& words) {
-    EXPECT_NE(refusal(url).find(words), std::string::npos) << url << ": " << refusal(url);
+  const auto expect_error = [&](const std::string& url, const std::string& text) {
+    EXPECT_NE(refusal(url).find(text), std::string::npos) << url << ": " << refusal(url);
   };
   expect_error("mqtt://localhost", "mqtt://localhost:1883/home/studio");
   expect_error("mqtt://localhost/home", "mqtt://localhost:1883/home/studio");

@@ -64,8 +64,8 @@ TEST_F(Certificates, FilesWithoutAnyAreRejected) {
   std::string broken = authority("two");
   broken.replace(broken.size() / 2, 8, "!!!!!!!!");
   for (const std::string& content : {std::string(), std::string("no certificate"), broken, good + broken}) {
-    const std::string words = refusal(file(content));
-    EXPECT_NE(words.find("ca.pem"), std::string::npos) << content;
+    const std::string text = refusal(file(content));
+    EXPECT_NE(text.find("ca.pem"), std::string::npos) << content;
   }
 }
 
