@@ -6,8 +6,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto read = [](std::string_view text) {
     telemime::Config config;
-    telemime::parse_config(config, text, "fuzz");
-    config.validate();
+    update(config, telemime::parse_settings(text, "fuzz"));
   };
   return telemime::fuzz_one(data, size, read, telemime::ErrorKind::config);
 }

@@ -41,15 +41,16 @@ void run(const AvatarArguments& arguments) {
 void add_avatar_command(CLI::App& app) {
   const auto arguments = std::make_shared<AvatarArguments>();
   CLI::App* const command =
-      app.add_subcommand("avatar", "Write one of telemime's own avatars as a VRM 1.0 file");
+      app.add_subcommand("avatar", "Write one of the bundled avatars as a VRM 1.0 file");
   std::string names;
   for (const AvatarLook& look : kAvatarLooks) {
     names += (names.empty() ? "" : ", ") + std::string(look.name);
   }
-  command->add_option("--look", arguments->look, names)->capture_default_str();
-  command->add_option("--out", arguments->out, "file to write; LOOK.vrm when not given");
-  command->add_option("--height", arguments->height, "of the person, m")->capture_default_str();
-  command->add_flag("--list", arguments->list, "say what looks there are");
+  command->add_option("--look", arguments->look, "One of " + names + ".")->capture_default_str();
+  command->add_option("--out", arguments->out, "File to write; LOOK.vrm by default.");
+  command->add_option("--height", arguments->height, "Height of the person in metres.")
+      ->capture_default_str();
+  command->add_flag("--list", arguments->list, "List the avatars.");
   command->callback([arguments] { run(*arguments); });
 }
 

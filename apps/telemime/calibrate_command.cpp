@@ -40,9 +40,9 @@ void run(const CalibrateArguments& arguments) {
 void add_calibrate_command(CLI::App& app) {
   const auto arguments = std::make_shared<CalibrateArguments>();
   CLI::App* command =
-      app.add_subcommand("calibrate", "Fit the body to a person and keep it for track --calibration");
+      app.add_subcommand("calibrate", "Fit the body to a person and save it for `track --calibration`");
   add_track_options(*command, arguments->options);
-  command->add_option("--out", arguments->out, "file to write")->default_val("calibration.json");
+  command->add_option("--out", arguments->out, "File to write.")->default_val("calibration.json");
   command->callback([arguments] { run(*arguments); });
 }
 

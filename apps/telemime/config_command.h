@@ -5,7 +5,7 @@
 
 namespace telemime {
 
-/// Adds `telemime config`: prints every setting with its default.
+/// Adds `telemime config`: prints the effective settings, or explains them.
 void add_config_command(CLI::App& app);
 
 }  // namespace telemime

@@ -59,18 +59,17 @@ void run_evaluate(const EvaluateArguments& arguments) {
 
 void add_evaluate_command(CLI::App& app) {
   const auto arguments = std::make_shared<EvaluateArguments>();
-  CLI::App* const command =
-      app.add_subcommand("evaluate", "Compare a pose.jsonl with the true joint positions");
-  command->add_option("POSE", arguments->pose, "pose.jsonl of a run")->required();
-  command->add_option("--truth", arguments->truth, "truth.json of the same clip")->required();
-  command->add_option("--json", arguments->json, "also write all measures to this file");
+  CLI::App* const command = app.add_subcommand("evaluate", "Compare tracked poses with true joint positions");
+  command->add_option("POSE", arguments->pose, "pose.jsonl of a run.")->required();
+  command->add_option("--truth", arguments->truth, "truth.json of the same clip.")->required();
+  command->add_option("--json", arguments->json, "Also write all measures to this file.");
   command
       ->add_option("--max-f", arguments->options.max_region_score,
-                   "a frame with F above this is counted as mistracked")
+                   "Largest F of a frame that counts as tracked.")
       ->capture_default_str();
   command
       ->add_option("--max-dc", arguments->options.max_contour_score,
-                   "a frame with D_C above this (pixels of the working image) is counted as mistracked")
+                   "Largest D_C of a frame that counts as tracked (pixels of the working image).")
       ->capture_default_str();
   command->callback([arguments] { run_evaluate(*arguments); });
 }

@@ -44,7 +44,6 @@ struct LiveCommand {
   bool unguided = false;
   bool open = false;
   bool no_settings = false;
-  bool paced = false;
   bool loop = false;
   double seconds = 0.0;
 };
@@ -155,11 +154,12 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
   }
   command.live.request = make_request(command.track);
   const TrackOptions& track = command.track;
-  command.live.request.keep_pace = !track.particles && !track.iterations && !track.budget_ms;
+  const SettingValues given = given_settings(track);
+  command.live.request.keep_pace =
+      !given.contains("particles") && !given.contains("budget") && !given.contains("registration.iterations");
   const std::string& input = command.live.request.input;
-  if ((command.loop || command.paced) && !is_file(input)) {
-    throw Error(ErrorKind::usage, shown_url(input) + " is no file: it cannot be paced or looped",
-                "Leave --paced and --loop out.");
+  if (command.loop && !is_file(input)) {
+    throw Error(ErrorKind::usage, shown_url(input) + " is no file: it cannot be repeated", "Omit --loop.");
   }
   command.live.version = TELEMIME_VERSION;
   command.live.avatars = avatar_folder();
@@ -200,34 +200,37 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
 void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   const auto options = std::make_shared<LiveCommand>();
   CLI::App* command =
-      app.add_subcommand("live", "From the webcam to an avatar, on a page and in other programs");
+      app.add_subcommand("live", "Track the webcam and drive an avatar on a page and in other programs");
   add_track_options(*command, options->track);
   command->get_option("INPUT")->required(false)->default_str("0")->description(
-      "camera index or device, stream URL, file, or demo: the bundled clip [0]");
-  command->remove_option(command->get_option("--frames"));
+      "Camera index or device, stream URL, file, or `demo`: the bundled clip.");
+  for (const char* name : {"--frames", "--offline"}) {
+    command->remove_option(command->get_option(name));
+  }
   command->get_option("--quiet")->description(
-      "print only the page's address, the numbers at the end, warnings and errors");
+      "Print only the address of the page, warnings, errors and the statistics at the end.");
   options->track.request.input = "0";
   LiveRequest& live = options->live;
 #ifdef TELEMIME_MEETING
   live.sender_kinds = meeting::kAllSenderKinds;
 #endif
-  command->add_option("--calibration", options->track.request.calibration, "file of `telemime calibrate`");
-  command->add_flag("--no-guide", options->unguided, "do not wait for the empty room at the start");
-  command->add_flag("--open", options->open, "open the page in the desktop's browser");
-  command->add_flag("--paced", options->paced, "a file behaves like a camera (files always do here)");
-  command->add_flag("--loop", options->loop, "a file begins again when it has ended");
-  command->add_option("--send", live.send,
-                      "also send the motion there, any number of URLs: vmc://localhost:39539, ...");
+  command->add_option("--calibration", options->track.request.calibration,
+                      "File that `telemime calibrate` wrote.");
+  command->add_flag("--no-guide", options->unguided, "Start without asking the person to leave the image.");
+  command->add_flag("--open", options->open, "Open the page in the default browser.");
+  command->add_flag("--loop", options->loop, "Repeat a file from its start when it ends.");
+  command->add_option("--send", live.send, "URLs to send the motion to, for instance vmc://localhost:39539.");
   command->add_flag("--resume-outputs", live.resume_outputs,
-                    "send again to the outputs that were added on the page in earlier runs");
-  command->add_flag("--no-settings", options->no_settings, "know nothing of earlier runs, and keep nothing");
-  command->add_option("--port", live.web.port, "of the page [7070]");
+                    "Send to the outputs that were added on the page in earlier runs.");
+  command->add_flag("--no-settings", options->no_settings,
+                    "Neither read nor write the settings of earlier runs.");
+  command->add_option("--port", live.web.port, "Port of the page [7070].");
   command->add_option("--address", live.web.address,
-                      "where the page is served [127.0.0.1: only this machine]");
-  command->add_option("--allow-host", live.web.hosts, "another name under which the page may be opened");
-  command->add_option("--recordings", live.recordings, "folder of recordings [telemime-recordings]");
-  command->add_option("--seconds", options->seconds, "end after so many seconds [0: never]");
+                      "Address at which the page is served [127.0.0.1: this computer only].");
+  command->add_option("--allow-host", live.web.hosts,
+                      "Another host name under which the page can be opened.");
+  command->add_option("--recordings", live.recordings, "Folder of the recordings [telemime-recordings].");
+  command->add_option("--seconds", options->seconds, "Stop after this number of seconds [0: never].");
   command->callback([options, left_behind] { run(*options, left_behind); });
 }
 

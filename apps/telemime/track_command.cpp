@@ -90,19 +90,18 @@ void run(const TrackOptions& options) {
 
 void add_track_command(CLI::App& app) {
   const auto options = std::make_shared<TrackOptions>();
-  CLI::App* command = app.add_subcommand("track", "Track a person: 3-D motion out of a video or a camera");
+  CLI::App* command = app.add_subcommand("track", "Track the upper body of a person in a video, in 3-D");
   add_track_options(*command, *options);
-  command->add_option("--out", options->request.out, "folder of the results")->default_val("telemime-out");
-  command->add_option("--calibration", options->request.calibration, "file of `telemime calibrate`");
+  command->add_option("--out", options->request.out, "Folder of the results.")->default_val("telemime-out");
+  command->add_option("--calibration", options->request.calibration, "File that `telemime calibrate` wrote.");
   command
-      ->add_option("--formats", options->request.formats, "only these: jsonl csv bvh bap glb vrma trc [all]")
+      ->add_option("--formats", options->request.formats,
+                   "Write only these of jsonl, csv, bvh, bap, glb, vrma and trc.")
       ->delimiter(',');
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
-                      "signs and units of motion.bap: iso, greta, vreng-3.1, vreng-3.2 [iso]");
-  command->add_flag("--offline", options->offline,
-                    "look at a file's frames back in time, too: slower, and surer of depth");
-  command->add_flag("--no-overlay{false}", options->request.overlay, "write no overlay video");
-  command->add_flag("--show", options->show, "a window with overlay, top view and residuals");
+                      "Signs and units of motion.bap: iso, greta, vreng-3.1 or vreng-3.2.");
+  command->add_flag("--no-overlay{false}", options->request.overlay, "Write no overlay video.");
+  command->add_flag("--show", options->show, "Show overlay, top view and residuals in a window.");
   command->callback([options] { run(*options); });
 }
 

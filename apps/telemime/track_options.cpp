@@ -1,108 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "track_options.h"
 
-#include <charconv>
-
 #include "telemime/core/errors.h"
-#include "telemime/likelihood/all.h"
-#include "telemime/tracking/heuristics/all.h"
 
 namespace telemime {
 namespace {
 
-std::optional<int> whole_number(std::string_view text) {
-  int value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
+using Json = nlohmann::json;
 
-void set_size(ImageConfig& image, const std::string& size) {
-  const auto cross = size.find('x');
-  const auto width = whole_number(std::string_view(size).substr(0, cross));
-  const auto height =
-      cross == std::string::npos ? std::nullopt : whole_number(std::string_view(size).substr(cross + 1));
-  if (!width || !height) {
-    throw Error(ErrorKind::usage, "--size " + size + " is not WIDTHxHEIGHT", "For instance --size 320x240.");
-  }
-  image.width = *width;
-  image.height = *height;
-}
-
-void set_method(Config& config, const std::string& method) {
-  if (method.empty()) {
-    return;
-  }
-  if (method == "heuristics" || method == "condensation") {
-    config.tracking.method = method;
-    return;
-  }
-  for (const Method step : {Method::two_step, Method::regions, Method::edges}) {
-    if (method == to_string(step)) {
-      config.tracking.method = "two-step";
-      config.registration.method = step;
-      return;
-    }
-  }
-  throw Error(ErrorKind::usage, "unknown method '" + method + "'",
-              "Use heuristics, condensation, two-step, regions or edges.");
+// A number, true, false or null; anything else is a text.
+Json value_from(const std::string& text) {
+  Json value = Json::parse(text, nullptr, false);
+  return value.is_discarded() || value.is_structured() ? Json(text) : value;
 }
 
 }  // namespace
 
+void add_setting_options(CLI::App& command, TrackOptions& o) {
+  Config defaults;
+  for (const Setting& s : settings_of(defaults).rows) {
+    if (s.name.find('.') != std::string::npos) {
+      continue;
+    }
+    const std::string option = "--" + s.name;
+    if (std::holds_alternative<bool*>(s.variable)) {
+      command.add_flag_function(
+          option, [&o, name = s.name](std::int64_t) { o.settings[name] = true; }, s.meaning);
+      continue;
+    }
+    const Json value = value_of(s);
+    const std::string text = value.is_string() ? value.get<std::string>()
+                             : value.is_null() ? ""
+                                               : value.dump();
+    const auto store = [&o, name = s.name](const std::string& given) {
+      o.settings[name] = value_from(given);
+    };
+    command
+        .add_option_function<std::string>(
+            option, store, s.meaning + (s.choices.empty() ? "" : " One of " + range_of(s) + "."))
+        ->type_name(s.choices.empty() ? s.unit.empty() ? "VALUE" : "(" + s.unit + ")" : "NAME")
+        ->default_str(text);
+  }
+  command.add_option("--config", o.config_file, "JSON file of settings; `telemime config` prints one.");
+  command
+      .add_option("--set", o.assignments,
+                  "Any setting that `telemime config --explain` lists, as NAME=VALUE; may be repeated.")
+      ->allow_extra_args(false);
+}
+
 void add_track_options(CLI::App& command, TrackOptions& o) {
   TrackRequest& r = o.request;
   command
-      .add_option("INPUT", r.input, "video file, image folder or pattern, stream URL, camera index or device")
+      .add_option("INPUT", r.input,
+                  "Video file, folder or pattern of images, stream URL, camera index or device.")
       ->required();
-  command.add_option("--background", r.background, "clip of the same scene without the person");
-  command.add_option("--camera", r.camera, "OpenCV camera calibration (YAML, XML or JSON)");
-  command.add_option("--fov", o.field_of_view,
-                     "horizontal field of view in degrees when there is no --camera [60]");
-  command.add_option("--height", o.height, "the person's height in metres: sets the absolute scale");
-  command.add_option("--size", o.size,
-                     "working image, WIDTHxHEIGHT [320x240]; as many pixels in the input's shape");
-  command.add_option("--method", o.method,
-                     "heuristics, condensation, two-step, regions or edges [heuristics]");
-  command.add_option("--particles", o.particles, "evaluations a frame of heuristics and condensation [2000]");
-  command.add_option("--heuristics", o.heuristics,
-                     "with commas, of " + heuristic_names() + " [" + FilterConfig().heuristics + "]");
-  command.add_option("--iterations", o.iterations, "cost evaluations a frame of the other methods [2000]");
-  command.add_option(
-      "--budget", o.budget_ms,
-      "search time a frame in ms, instead of --particles or --iterations (see `telemime-lab tune`)");
-  command.add_option("--threads", o.threads, "for the search of heuristics and condensation [all]");
-  command.add_option("--limits", o.limits, "joint limits: reference, anatomical or a JSON file [anatomical]");
-  command.add_option("--backend", o.backend, "what evaluates poses: " + backend_names() + " [simd]");
-  command.add_option("--smoothing", o.smoothing, "none, recursive or one-euro [one-euro]");
-  command.add_option("--config", o.config_file, "JSON file of settings (`telemime config` prints one)");
-  command.add_option("--seed", o.seed, "of every random draw [1]");
-  command.add_option("--frames", r.most_frames, "stop after so many frames");
-  command.add_flag("--quiet", o.quiet, "print only errors");
+  command.add_option("--background", r.background, "Clip of the same scene without the person.");
+  command.add_option("--camera", r.camera, "OpenCV camera calibration (YAML, XML or JSON).");
+  add_setting_options(command, o);
+  command.add_option("--frames", r.most_frames, "Stop after this number of frames.");
+  command.add_flag("--quiet", o.quiet, "Print errors only.");
+}
+
+SettingValues given_settings(const TrackOptions& o) {
+  SettingValues values = o.settings;
+  for (const std::string& assignment : o.assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorKind::usage, "--set " + assignment + " is not NAME=VALUE",
+                  "For instance --set image.width=160.");
+    }
+    values[assignment.substr(0, equals)] = value_from(assignment.substr(equals + 1));
+  }
+  return values;
 }
 
 TrackRequest make_request(const TrackOptions& o) {
   TrackRequest request = o.request;
-  Config& config = request.config;
-  if (!o.config_file.empty()) {
-    update_from_file(config, o.config_file);
+  SettingValues values = o.config_file.empty() ? SettingValues() : read_settings(o.config_file);
+  update(request.config, values);
+  for (const auto& [name, value] : given_settings(o)) {
+    values[name] = value;
   }
-  config.field_of_view = o.field_of_view.value_or(config.field_of_view);
-  config.calibration.stature = o.height ? o.height : config.calibration.stature;
-  if (!o.size.empty()) {
-    set_size(config.image, o.size);
+  // Again from the defaults, so that a quality given here does not replace what the file sets.
+  request.config = Config();
+  try {
+    update(request.config, values);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, error.what());
   }
-  set_method(config, o.method);
-  config.filter.particles = o.particles.value_or(config.filter.particles);
-  config.filter.heuristics = o.heuristics.value_or(config.filter.heuristics);
-  config.threads = o.threads.value_or(config.threads);
-  config.registration.iterations = o.iterations.value_or(config.registration.iterations);
-  config.budget_ms = o.budget_ms ? o.budget_ms : config.budget_ms;
-  config.limits = o.limits.empty() ? config.limits : o.limits;
-  config.backend = o.backend.empty() ? config.backend : o.backend;
-  config.seed = o.seed.value_or(config.seed);
-  config.smoothing.name = o.smoothing.empty() ? config.smoothing.name : o.smoothing;
-  config.look_back = config.look_back || o.offline;
-  config.validate();
   return request;
 }
 

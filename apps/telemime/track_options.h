@@ -2,41 +2,35 @@
 #pragma once
 
 #include <CLI/App.hpp>
-#include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "telemime/offline/run.h"
 
 namespace telemime {
 
-/// The options that `track` and `calibrate` share, as the user wrote them.
+/// The options that `track`, `calibrate` and `live` share, as the user wrote them.
 struct TrackOptions {
   TrackRequest request;
   std::string config_file;
-  std::optional<double> field_of_view;
-  std::optional<double> height;
-  std::string size;
-  std::string method;
-  std::optional<int> particles;
-  std::optional<std::string> heuristics;
-  std::optional<int> threads;
-  std::optional<int> iterations;
-  std::optional<double> budget_ms;
-  std::string limits;
-  std::string backend;
-  std::optional<std::uint64_t> seed;
-  std::string smoothing;
+  SettingValues settings;                ///< of the public options
+  std::vector<std::string> assignments;  ///< NAME=VALUE of --set
   bool show = false;
   bool quiet = false;
-  bool offline = false;
 };
+
+/// Adds the options of the settings: one for each public setting, made from the table, --config and --set;
+/// `options` must outlive the parsing.
+void add_setting_options(CLI::App& command, TrackOptions& options);
 
 /// Adds INPUT and all options of tracking to a subcommand; `options` must outlive the parsing.
 void add_track_options(CLI::App& command, TrackOptions& options);
 
-/// The request that the options ask for: file first, then the command line. Throws Error(usage),
-/// Error(config).
+/// The values of the public options and of --set. Throws Error(usage).
+SettingValues given_settings(const TrackOptions& options);
+
+/// The request that the options ask for: configuration file first, then the command line. Throws
+/// Error(config) for the file and Error(usage) for the command line.
 TrackRequest make_request(const TrackOptions& options);
 
 }  // namespace telemime

@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 }
 
 Ended track(const std::string& input, const Folder& folder, std::vector<std::string> more = {}) {
-  more.insert(more.begin(),
-              {"track", input, "--out", folder / "out", "--size", "160x120", "--iterations", "100"});
+  more.insert(more.begin(), {"track", input, "--out", folder / "out", "--set", "image.width=160", "--set",
+                             "image.height=120", "--set", "registration.iterations=100"});
   return run(more);
 }
 
@@ -49,11 +49,16 @@ TEST(Program, RefusesUnknownWords) {
   EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--frobnicate"}), kExitUsage, {"--frobnicate"}));
   EXPECT_TRUE(
       fails_with(track(person_clip(), folder, {"--method", "guess"}), kExitUsage, {"guess", "two-step"}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--seed", "many"}), kExitUsage, {"--seed"}));
-  for (const char* size : {"160", "x", "160x", "axb", "160x120x3"}) {
-    EXPECT_TRUE(
-        fails_with(run({"track", person_clip(), "--out", folder / "o", std::string("--size=") + size}),
-                   kExitUsage, {size}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--seed", "many"}), kExitUsage, {"seed"}));
+  const std::pair<const char*, const char*> settings[] = {
+      {"image.width", "NAME=VALUE"},
+      {"=", "no setting ''"},
+      {"image.width=wide", "'image.width' cannot be \"wide\""},
+      {"image.width=3", "40 to 1920"},
+      {"image.widht=160", "'image.width'"}};
+  for (const auto& [setting, words] : settings) {
+    EXPECT_TRUE(fails_with(run({"track", person_clip(), "--out", folder / "out", "--set", setting}),
+                           kExitUsage, {words}));
   }
   EXPECT_FALSE(fs::exists(folder / "out")) << "nothing is made for a refused command";
 }
@@ -66,10 +71,11 @@ TEST(Program, RefusesSettingsByName) {
   };
   EXPECT_TRUE(fails_with(with_config("{\"registration\": {\"edge_factor\": NaN}}"), kExitConfig,
                          {"config.json", "NaN"}));
-  EXPECT_TRUE(fails_with(with_config("{\"image\": {\"widht\": 160}}"), kExitConfig, {"image/widht"}));
+  EXPECT_TRUE(
+      fails_with(with_config("{\"image\": {\"widht\": 160}}"), kExitConfig, {"image.widht", "image.width"}));
   EXPECT_TRUE(fails_with(with_config("{\"seed\": \"one\"}"), kExitConfig, {"seed"}));
   EXPECT_TRUE(fails_with(with_config("[]"), kExitConfig, {"object"}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--offline", "--method", "two-step"}), kExitConfig,
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--offline", "--method", "two-step"}), kExitUsage,
                          {"offline", "heuristics"}));
   EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--config", folder / "none.json"}), kExitConfig,
                          {"none.json"}));
@@ -78,12 +84,11 @@ TEST(Program, RefusesSettingsByName) {
   EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--limits", "elastic"}), kExitConfig, {"elastic"}));
   EXPECT_TRUE(
       fails_with(track(person_clip(), folder, {"--limits", folder.path().string()}), kExitConfig, {}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--smoothing", "butter"}), kExitConfig, {"butter"}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--height", "17"}), kExitConfig, {"height"}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--fov", "0"}), kExitConfig, {"field_of_view"}));
-  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--fov", "nan"}), kExitConfig, {"field_of_view"}));
-  EXPECT_TRUE(fails_with(run({"track", person_clip(), "--out", folder / "out", "--iterations", "0"}),
-                         kExitConfig, {"iterations"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--smoothing", "butter"}), kExitUsage, {"butter"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--height", "17"}), kExitUsage, {"height"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--fov", "0"}), kExitUsage, {"fov"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--fov", "nan"}), kExitUsage, {"fov"}));
+  EXPECT_TRUE(fails_with(track(person_clip(), folder, {"--particles", "0"}), kExitUsage, {"particles"}));
   EXPECT_TRUE(
       fails_with(track(person_clip(), folder, {"--camera", folder / "none.yml"}), kExitConfig, {"none.yml"}));
   EXPECT_TRUE(

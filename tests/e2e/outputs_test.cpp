@@ -23,8 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> command(const std::string& input, const std::string& out) {
-  return {"track",  input,     "--background", wall_clip(), "--out",       out,
-          "--size", "160x120", "--iterations", "150",       "--no-overlay"};
+  return {"track",        input,
+          "--background", wall_clip(),
+          "--out",        out,
+          "--set",        "image.width=160",
+          "--set",        "image.height=120",
+          "--set",        "registration.iterations=150",
+          "--no-overlay"};
 }
 
 // The lines of a pose.jsonl without what depends on the clock.

@@ -24,7 +24,7 @@ struct LearnArguments {
 void run_learn(const LearnArguments& arguments) {
   Config config;
   if (!arguments.config.empty()) {
-    update_from_file(config, arguments.config);
+    update(config, read_settings(arguments.config));
   }
   prepare_file(arguments.out);
   std::vector<std::filesystem::path> clips(arguments.folders.begin(), arguments.folders.end());

@@ -32,12 +32,12 @@ struct BackgroundEnergy {
   bool doubtful = false;  ///< the model may contain parts of the person, so holes in them are unreliable
 };
 
-/// How a cast shadow may look.
+/// Appearance of a cast shadow. The table of settings (settings_of(ImageConfig&)) gives the meaning of each.
 struct ShadowRange {
-  float darkest = 0.55F;    ///< smallest ratio of luminance still taken for a shadow, in (0, 1)
-  float typical = 0.15F;    ///< mean darkening, on the scale of logarithms
-  float chroma = 0.035F;    ///< deviation of u and v in a shadow (bounced light is coloured)
-  float prior_cost = 1.0F;  ///< -2 ln of the share of shaded pixels
+  float darkest = 0.55F;
+  float typical = 0.15F;
+  float chroma = 0.035F;
+  float prior_cost = 1.0F;
 };
 
 /// Energies of all pixels. The gain (estimate_gain) must have been subtracted from `image`. Invalid pixels

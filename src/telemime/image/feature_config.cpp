@@ -4,16 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telemime/core/errors.h"
-
 namespace telemime {
 namespace {
-
-void require(bool holds, const std::string& cause, const std::string& remedy) {
-  if (!holds) {
-    throw Error(ErrorKind::config, cause, remedy);
-  }
-}
 
 /// Whether the clothes have stripes or prints: two colours of different chroma with more than 10 % each.
 bool patterned(const ColourMixture& clothes) {
@@ -56,21 +48,63 @@ ImageConfig fitted_to(ImageConfig config, const Camera& camera) {
   return config;
 }
 
-void ImageConfig::validate() const {
-  require(width >= kNarrowest && height >= kLowest && width <= kLargest && height <= kLargest,
-          "the working size " + std::to_string(width) + "x" + std::to_string(height) + " is out of range",
-          "use 40x30 to 1920x1920, for instance 160x120");
-  require(face_width >= 80, "face_width is too small for the face detector", "use 320");
-  require(head.detect_every >= 1 && head.search_every >= 1, "head.detect_every and search_every count frames",
-          "use 1 or more");
-  require(head_shape_rate >= 0 && head_shape_rate <= 1, "head_shape_rate must lie in 0 to 1", "use 0.2");
-  require(edges.alpha > 0 && edges.alpha <= 10, "edges.alpha is out of range",
-          "use 0 to 10, for instance 1.2");
-  require(edges.low >= 0 && edges.low <= edges.high, "edges.low is above edges.high", "use 3 and 8");
-  require(edges.distance_cap > 0, "edges.distance_cap must be positive", "use 10");
-  require(shadow.darkest > 0 && shadow.darkest < 1, "shadow.darkest must lie between 0 and 1", "use 0.55");
-  require(background_rate >= 0 && background_rate <= 1, "background_rate must lie in 0 to 1", "use 0.01");
-  require(motion_every >= 0, "motion_every must not be negative", "use 10, or 0 for never");
+SettingTable settings_of(ImageConfig& c) {
+  SettingTable table;
+  table.rows = {
+      number("image.width", &c.width, {kNarrowest, kLargest}, "px",
+             "Width of the working image; an input of another shape gets as many pixels."),
+      number("image.height", &c.height, {kLowest, kLargest}, "px", "Height of the working image."),
+      number("image.face_width", &c.face_width, {80, 4096}, "px",
+             "Largest width of the image in which the face detector searches."),
+      text("image.cascades", c.cascades, {},
+           "Folder of OpenCV's face cascades; empty: searched in the usual places."),
+      number("image.background_rate", &c.background_rate, {0, 1}, "",
+             "Share of each frame that visible background is updated with."),
+      number("image.motion_every", &c.motion_every, {0, 100000}, "frames",
+             "Interval of the checks for camera motion; 0: no checks."),
+      number("image.head.detect_every", &c.head.detect_every, {1, 1000}, "frames",
+             "Interval of face detections while the face is tracked."),
+      number("image.head.search_every", &c.head.search_every, {1, 1000}, "frames",
+             "Interval of face detections while no face is tracked."),
+      number("image.head.lost_match", &c.head.lost_match, {-1, 1}, "",
+             "Correlation below which the tracked face is not at its predicted place."),
+      number("image.head.lost_after", &c.head.lost_after, {0, 100000}, "frames",
+             "Time without a reliable position after which the face is lost."),
+      number("image.head.smallest_face", &c.head.smallest_face, {0, 1}, "",
+             "Smallest face that is detected, as a share of the image height."),
+      number("image.head.shape_rate", &c.head_shape_rate, {0, 1}, "",
+             "Share of each frame that the outline of the head is updated with."),
+      number("image.shadow.darkest", &c.shadow.darkest, {0.01, 0.99}, "",
+             "Smallest ratio of luminance that counts as a shadow."),
+      number("image.shadow.typical", &c.shadow.typical, {0.001, 10}, "",
+             "Mean darkening in a shadow (natural logarithm)."),
+      number("image.shadow.chroma", &c.shadow.chroma, {0, 10}, "",
+             "Standard deviation of the chroma in a shadow."),
+      number("image.shadow.prior_cost", &c.shadow.prior_cost, {0, 1000}, "",
+             "-2 ln of the share of pixels in a shadow."),
+      number("image.segmentation.unknown_cost", &c.segmentation.unknown_cost, {0, 1000}, "",
+             "-2 ln of the density of colours of the person that were not learned."),
+      number("image.segmentation.unknown_background_cost", &c.segmentation.unknown_background_cost, {0, 1000},
+             "", "-2 ln of the density of background that was not seen yet."),
+      number("image.segmentation.person_cost", &c.segmentation.person_cost, {-1000, 1000}, "",
+             "-2 ln of the prior odds of person to background."),
+      number("image.segmentation.vote_limit", &c.segmentation.vote_limit, {0, 1000}, "",
+             "Largest vote of a pixel in the 3x3 vote on person or background."),
+      number("image.segmentation.head_bonus", &c.segmentation.head_bonus, {0, 1000}, "",
+             "Vote for the person inside the ellipse of the head."),
+      number("image.segmentation.least_part", &c.segmentation.least_part, {0, 1}, "",
+             "Smallest part of a silhouette, as a share of the image."),
+      number("image.edges.alpha", &c.edges.alpha, {0.01, 10}, "",
+             "Parameter of the Deriche filter; smaller smooths more."),
+      number("image.edges.low", &c.edges.low, {0, 255}, "grey levels/px",
+             "Lower threshold of the hysteresis."),
+      number("image.edges.high", &c.edges.high, {0, 255}, "grey levels/px",
+             "Upper threshold of the hysteresis."),
+      number("image.edges.distance_cap", &c.edges.distance_cap, {0.1, 1000}, "px",
+             "Largest distance to an edge, at 160 columns; grows with the width."),
+  };
+  table.rules = {{c.edges.low <= c.edges.high, "image.edges.low must not be above image.edges.high"}};
+  return table;
 }
 
 std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "telemime/core/camera.h"
+#include "telemime/core/settings.h"
 #include "telemime/image/background_model.h"
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/person_colours.h"
@@ -13,28 +13,30 @@
 
 namespace telemime {
 
+/// Edges of the working image. The table of settings (settings_of) gives the meaning, unit and range of each.
 struct EdgeConfig {
-  double alpha = 1.2;          ///< of the Deriche filter, at any working size
-  double low = 3.0;            ///< grey levels per pixel
-  double high = 8.0;           ///< grey levels per pixel
-  double distance_cap = 10.0;  ///< pixels at 160 columns; grows with the working width
+  double alpha = 1.2;
+  double low = 3.0;
+  double high = 8.0;
+  double distance_cap = 10.0;
 };
 
+/// Settings of the image module; the table (settings_of) gives the meaning, unit and range of each.
 struct ImageConfig {
-  int width = 160;                 ///< of the working image, pixels; see fitted_to
-  int height = 120;                ///< pixels
-  std::filesystem::path cascades;  ///< folder of OpenCV's face cascades; empty: searched
-  int face_width = 320;            ///< the face detector looks at images of at most this width
+  int width = 160;
+  int height = 120;
+  std::string cascades;
+  int face_width = 320;
   HeadTrackerConfig head;
-  double head_shape_rate = 0.2;  ///< share of each frame in the head's outline, [0, 1]
+  double head_shape_rate = 0.2;
   ShadowRange shadow;
   SegmentationConfig segmentation;
   EdgeConfig edges;
-  float background_rate = 0.01F;  ///< share of each frame that uncovered background takes over, [0, 1]
-  int motion_every = 10;          ///< frames between looks at whether the camera moves; 0: never
-  /// Throws Error(config) that names the value and its range.
-  void validate() const;
+  float background_rate = 0.01F;
+  int motion_every = 10;
 };
+
+SettingTable settings_of(ImageConfig& config);
 
 /// The configuration for images of `camera`: its focal length, and a working image of about the configured
 /// number of pixels with square pixels (within 1 %). Heads are recognised by their shape, which an image of

@@ -32,7 +32,7 @@ bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
 }  // namespace
 
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
-    : config_((config.validate(), config)), head_(config.head, config.cascades) {}
+    : config_((check_settings(config), config)), head_(config.head, config.cascades) {}
 
 FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
@@ -183,7 +183,7 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   if (!calibration_.background.empty() &&
       calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
     throw Error(ErrorKind::config, "the background was learned at another working size",
-                "calibrate again, with the same --size and a camera of the same shape");
+                "calibrate again, with the same working size and a camera of the same shape");
   }
   background_mask_.release();
   silhouette_.release();

@@ -59,15 +59,15 @@ double agreement(const std::vector<FrameFeatures>& seen, const nlohmann::json& t
 
 TEST(ImageConfig, RefusesInvalidValues) {
   ImageConfig config;
-  EXPECT_NO_THROW(config.validate());
+  EXPECT_NO_THROW(check_settings(config));
   config.width = 3;
-  EXPECT_THROW(config.validate(), Error);
+  EXPECT_THROW(check_settings(config), Error);
   config = {};
   config.edges.low = 20;
-  EXPECT_THROW(config.validate(), Error);
+  EXPECT_THROW(check_settings(config), Error);
   config = {};
   config.shadow.darkest = 1.5F;
-  EXPECT_THROW(config.validate(), Error);
+  EXPECT_THROW(check_settings(config), Error);
 }
 
 TEST(ImageConfig, WorkingImageKeepsPixelCountAndIsSquare) {
@@ -128,7 +128,7 @@ TEST(ImageConfig, SquarePixelsStayAndOddShapesStayValid) {
   }
   for (const auto& [width, height] : {std::pair(8000, 20), {20, 8000}}) {
     const Camera camera = camera_from_field_of_view(width, height, 60.0);
-    EXPECT_NO_THROW(fitted_to(config, camera).validate()) << width;
+    EXPECT_NO_THROW(check_settings(fitted_to(config, camera))) << width;
   }
 }
 

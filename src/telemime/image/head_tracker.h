@@ -16,12 +16,13 @@ struct TrackedFace {
   double match = 1.0;     ///< correlation with the face image of the last update, [-1, 1]
 };
 
+/// The table of settings (settings_of(ImageConfig&)) gives the meaning, unit and range of each.
 struct HeadTrackerConfig {
-  int detect_every = 5;         ///< frames between looks of the detector while the track is good
-  int search_every = 3;         ///< frames between searches of the whole image while there is no track
-  double lost_match = 0.45;     ///< below this correlation the face is not where it was
-  int lost_after = 12;          ///< frames without a sure position until the track is given up
-  double smallest_face = 0.07;  ///< of the image's height
+  int detect_every = 5;
+  int search_every = 3;
+  double lost_match = 0.45;
+  int lost_after = 12;
+  double smallest_face = 0.07;
 };
 
 /// Tracks one face: by a face detector every few frames, by correlation of the face image in between.

@@ -10,14 +10,16 @@
 
 namespace telemime {
 
+/// The table of settings (settings_of(ImageConfig&)) gives the meaning, unit and range of each.
 struct SegmentationConfig {
-  float unknown_cost = 3.0F;             ///< -2 ln density of a person's pixel of no learned colour
-  float unknown_background_cost = 2.0F;  ///< -2 ln density of a scene pixel that was never seen
-  float person_cost = 1.5F;              ///< -2 ln of the prior odds of person against scene
-  float vote_limit = 14.0F;              ///< one pixel's say in the 3x3 vote on person or background
-  float head_bonus = 8.0F;               ///< in favour of the person inside the head's ellipse
-  double least_part = 0.0015;            ///< of the image: smaller pieces of silhouette are dropped
-  float focal_length = 0.866F;           ///< in widths of the image; of a field of view of 60 degrees
+  float unknown_cost = 3.0F;
+  float unknown_background_cost = 2.0F;
+  float person_cost = 1.5F;
+  float vote_limit = 14.0F;
+  float head_bonus = 8.0F;
+  double least_part = 0.0015;
+  float focal_length =
+      0.866F;  ///< in image widths, set by fitted_to; by default of a field of view of 60 degrees
 };
 
 /// Labels and silhouette of one frame, as in FrameFeatures.

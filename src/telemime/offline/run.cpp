@@ -40,7 +40,7 @@ class Run {
       offline_ = std::make_unique<OfflineTracker>(tracker.config(), tracker.limits());
     }
     const TrackingConfig& tracking = tracker.config().tracking;
-    if (!info.live && tracking.fill_back > 0 && tracking.method != "two-step") {
+    if (!info.live && tracking.fill_back > 0 && uses_filter(tracker.config())) {
       gaps_ = std::make_unique<GapFiller>(tracker);
     }
   }

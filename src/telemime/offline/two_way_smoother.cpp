@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/offline/two_way_smoother.h"
 
-#include "telemime/core/errors.h"
-
 namespace telemime {
 TwoWaySmoother::TwoWaySmoother(const SmoothingOptions& options, const Body& body, const Camera& camera)
-    : options_(options), body_(body), camera_(camera), forward_(make_smoother(options, body, camera)) {
-  if (options.look_ahead < 0 || options.look_ahead > kLongestLookAhead) {
-    throw Error(ErrorKind::config, "smoothing looks ahead between 0 and " +
-                                       std::to_string(kLongestLookAhead) + " frames, not " +
-                                       std::to_string(options.look_ahead));
-  }
-}
+    : options_(options), body_(body), camera_(camera), forward_(make_smoother(options, body, camera)) {}
 
 void TwoWaySmoother::push(const MotionFrame& frame) {
   waiting_.push_back((*forward_)(frame));

@@ -8,10 +8,11 @@
 
 namespace telemime {
 
+/// Settings of search_arm; part of the table of CalibrationConfig.
 struct ArmSearchConfig {
-  int samples = 400;  ///< random arms that are evaluated
-  int kept = 4;       ///< number of best arms that are refined
-  int refine = 60;    ///< evaluations of each refinement
+  int samples = 400;
+  int kept = 4;
+  int refine = 60;
 };
 
 /// A random arm inside the limits and outside the body. Directions of upper arm and forearm are drawn so that

@@ -73,35 +73,56 @@ std::string arm_problem(const Model& model, const Pose& pose, const Camera& came
 
 }  // namespace
 
-void CalibrationConfig::validate() const {
-  const auto require = [](bool good, const std::string& what) {
-    if (!good) {
-      throw Error(ErrorKind::config, "calibration: " + what);
-    }
+SettingTable settings_of(CalibrationConfig& c) {
+  SettingTable table;
+  table.rows = {
+      number("height", &c.stature, {0.8, 2.5}, "m",
+             "Height of the person, which sets the absolute scale; null: an average head sets it."),
+      number("calibration.nearest", &c.nearest, {0.1, 50}, "m", "Smallest distance of a person."),
+      number("calibration.farthest", &c.farthest, {0.1, 50}, "m", "Largest distance of a person."),
+      number("calibration.arm_samples", &c.arms.samples, {0, 1000000}, "",
+             "Random arms that are evaluated in the first frame."),
+      number("calibration.arm_kept", &c.arms.kept, {1, 1000000}, "", "Best random arms that are refined."),
+      number("calibration.arm_refine", &c.arms.refine, {1, 1000000}, "evaluations",
+             "Effort of each of these refinements."),
+      number("calibration.rounds", &c.rounds, {1, 20}, "",
+             "Rounds of pose alignment and shape adjustment in the first frame."),
+      number("calibration.pose_iterations", &c.pose_iterations, {10, 1000000}, "evaluations",
+             "Effort of each pose alignment."),
+      number("calibration.shape_iterations", &c.shape.iterations, {10, 1000000}, "evaluations",
+             "Effort of fitting six numbers of the shape; more numbers get more in proportion."),
+      number("calibration.fronto_parallel", &c.fronto_parallel, {0, 1e6}, "",
+             "Weight of the assumption that the arms are parallel to the image."),
+      number("calibration.worst_region", &c.worst_region, {0.01, 1}, "F",
+             "Largest F of a first frame from which the arms are measured."),
+      number("calibration.length_spread", &c.shape.length_spread, {1e-6, 10}, "",
+             "Standard deviation of the logarithm of segment lengths over people."),
+      number("calibration.girth_spread", &c.shape.girth_spread, {1e-6, 10}, "",
+             "Standard deviation of the logarithm of segment widths and heights over people."),
+      number("calibration.ratio_spread", &c.shape.ratio_spread, {1e-6, 10}, "",
+             "Standard deviation of the logarithm of upper arm over forearm length over people."),
+      number("calibration.prior_weight", &c.shape.prior_weight, {0, 1e6}, "",
+             "Weight of average proportions in the fit to the first frame."),
+      number("calibration.contour_weight", &c.shape.contour_weight, {0, 1e6}, "",
+             "Weight of D_C beside F in all fits of the shape."),
+      number("calibration.look_ahead", &c.look_ahead, {0, 1000}, "frames",
+             "Part of a file from which the keyframes are chosen; 0: the shape is fitted to the first good "
+             "frame only."),
+      number("calibration.keyframes", &c.refine.keyframes, {1, 100}, "frames",
+             "Number of keyframes beside the first frame; the first alone counts if fewer than 3 are found."),
+      number("calibration.refine_rounds", &c.refine.rounds, {0, 20}, "",
+             "Rounds over all lengths and girths, each with half the step of the one before."),
+      number("calibration.refine_iterations", &c.refine.pose_iterations, {10, 10000}, "evaluations",
+             "Effort for each arm of each keyframe and each length."),
+      number("calibration.refine_shapes", &c.refine.shapes, {0, 10000}, "",
+             "Girths and sleeves that are evaluated in each round."),
+      number("calibration.refine_prior_weight", &c.refine.prior_weight, {0, 1e6}, "",
+             "Weight of average proportions in the fit to the keyframes."),
+      number("calibration.refine_natural_weight", &c.refine.natural_weight, {0, 1e6}, "",
+             "Weight of natural poses in the fit to the keyframes."),
   };
-  require(!stature || (*stature > 0.8 && *stature < 2.5), "the height must be between 0.8 and 2.5 m");
-  require(nearest > 0.1 && nearest < farthest && farthest < 50.0,
-          "0.1 < nearest < farthest < 50 m is needed");
-  require(rounds >= 1 && rounds <= 20, "rounds must be between 1 and 20");
-  require(pose_iterations >= 10 && pose_iterations <= 1000000,
-          "pose_iterations must be between 10 and 1000000");
-  require(arms.samples >= 0 && arms.kept >= 1 && arms.refine >= 1,
-          "arms: samples >= 0, kept >= 1, refine >= 1");
-  require(shape.iterations >= 10, "shape.iterations must be at least 10");
-  require(shape.length_spread > 0.0 && shape.girth_spread > 0.0 && shape.ratio_spread > 0.0,
-          "shape spreads must be positive");
-  require(shape.prior_weight >= 0.0 && shape.contour_weight >= 0.0,
-          "shape.prior_weight and shape.contour_weight must not be negative");
-  require(look_ahead >= 0 && look_ahead <= 1000, "look_ahead must be between 0 and 1000 frames");
-  require(refine.keyframes >= 1 && refine.keyframes <= 100, "keyframes must be between 1 and 100");
-  require(refine.pose_iterations >= 10 && refine.pose_iterations <= 10000,
-          "refine_iterations must be between 10 and 10000");
-  require(refine.rounds >= 0 && refine.rounds <= 20, "refine_rounds must be between 0 and 20");
-  require(refine.prior_weight >= 0.0 && refine.natural_weight >= 0.0 && refine.contour_weight >= 0.0,
-          "refine_prior_weight, refine_natural_weight and refine_contour_weight must not be negative");
-  require(refine.shapes >= 0 && refine.shapes <= 10000, "refine_shapes must be between 0 and 10000");
-  require(fronto_parallel >= 0.0, "fronto_parallel must not be negative");
-  require(worst_region > 0.0 && worst_region <= 1.0, "worst_region must be above 0, at most 1");
+  table.rules = {{c.nearest < c.farthest, "calibration.nearest must be below calibration.farthest"}};
+  return table;
 }
 
 Pose place_at_head(const Body& body, const HeadRegion& head, const Camera& camera) {

@@ -5,27 +5,29 @@
 #include <string>
 
 #include "telemime/core/random.h"
+#include "telemime/core/settings.h"
 #include "telemime/search/arm_search.h"
 #include "telemime/search/shape_refine.h"
 #include "telemime/search/two_step.h"
 
 namespace telemime {
 
+/// Settings of the calibration; the table (settings_of) gives the meaning, unit and range of each.
 struct CalibrationConfig {
-  std::optional<double> stature;  ///< m; none: scale from an average head height
-  double nearest = 0.35;          ///< m, D_min of the thesis
-  double farthest = 5.0;          ///< m, D_max
+  std::optional<double> stature;  ///< m; none: an average head sets the scale
+  double nearest = 0.35;
+  double farthest = 5.0;
   ArmSearchConfig arms;
   ShapeFitConfig shape;
   ShapeRefineConfig refine;
-  int look_ahead = 150;           ///< frames of a file from which the shape is fitted; 0: the first one only
-  int rounds = 2;                 ///< rounds of pose alignment and shape adjustment
-  int pose_iterations = 800;      ///< evaluations of each pose alignment
-  double fronto_parallel = 0.03;  ///< weight of the assumption that the arms are parallel to the image
-  double worst_region = 0.45;     ///< F above which the fit is refused; 0.85 of it without a face
-
-  void validate() const;
+  int look_ahead = 150;
+  int rounds = 2;
+  int pose_iterations = 800;
+  double fronto_parallel = 0.03;
+  double worst_region = 0.45;
 };
+
+SettingTable settings_of(CalibrationConfig& config);
 
 struct Calibration {
   Shape shape;

@@ -40,7 +40,7 @@ TEST(Calibration, HeadOfHalfTheSizeIsTwiceAsFar) {
 }
 
 TEST(Calibration, ConfigRefusesValuesByName) {
-  EXPECT_NO_THROW(CalibrationConfig{}.validate());
+  EXPECT_NO_THROW(check_settings(CalibrationConfig{}));
   using Fault = std::pair<std::string, std::function<void(CalibrationConfig&)>>;
   const Fault faults[] = {
       {"height", [](auto& c) { c.stature = 0.2; }},
@@ -49,10 +49,10 @@ TEST(Calibration, ConfigRefusesValuesByName) {
       {"nearest", [](auto& c) { c.nearest = 6.0; }},
       {"rounds", [](auto& c) { c.rounds = 0; }},
       {"pose_iterations", [](auto& c) { c.pose_iterations = 1; }},
-      {"samples", [](auto& c) { c.arms.samples = -1; }},
-      {"kept", [](auto& c) { c.arms.kept = 0; }},
-      {"iterations", [](auto& c) { c.shape.iterations = 0; }},
-      {"spread", [](auto& c) { c.shape.length_spread = 0.0; }},
+      {"arm_samples", [](auto& c) { c.arms.samples = -1; }},
+      {"arm_kept", [](auto& c) { c.arms.kept = 0; }},
+      {"shape_iterations", [](auto& c) { c.shape.iterations = 0; }},
+      {"length_spread", [](auto& c) { c.shape.length_spread = 0.0; }},
       {"worst_region", [](auto& c) { c.worst_region = 1.5; }},
       {"fronto_parallel", [](auto& c) { c.fronto_parallel = -1.0; }},
       {"look_ahead", [](auto& c) { c.look_ahead = -1; }},
@@ -69,7 +69,7 @@ TEST(Calibration, ConfigRefusesValuesByName) {
     CalibrationConfig config;
     spoil(config);
     try {
-      config.validate();
+      check_settings(config);
       ADD_FAILURE() << name << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::config);

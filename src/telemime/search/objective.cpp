@@ -46,6 +46,24 @@ double depth_of_arms(const Kinematics& k) {
 
 }  // namespace
 
+SettingTable settings_of(ObjectiveWeights& w, const std::string& group) {
+  const auto weight = [&group](std::string_view name, double& value, const std::string& meaning) {
+    return number(group + "." + std::string(name), &value, {0, 1e6}, "", meaning);
+  };
+  SettingTable table;
+  for (std::size_t i = 0; i < kCues.size(); ++i) {
+    table.rows.push_back(weight(kCues[i].name, w.cues[i], "Weight of the cue's cost."));
+  }
+  table.append(
+      {{weight("invalid", w.invalid, "Weight of each metre of interpenetration."),
+        weight("natural", w.natural, "Weight of natural poses."),
+        weight("temporal", w.temporal,
+               "Weight of the squared distance (over 0.15 m) of elbows and wrists from their prediction."),
+        weight("trunk", w.trunk, "Weight of the squared change (over 0.03 m and 0.1 rad) of the trunk.")},
+       {}});
+  return table;
+}
+
 double distance_from_predicted(const Kinematics& k, const JointPositions& predicted) {
   constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
   double sum = 0.0;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "telemime/body/limits.h"
+#include "telemime/core/settings.h"
 #include "telemime/likelihood/backend.h"
 
 namespace telemime {
@@ -20,19 +21,21 @@ constexpr CueValues step_weights(double Cue::*step) {
 }
 CueValues step_weights(const CueTable& cues, double Cue::*step);
 
-/// Weights of the terms that a search minimises: the cues' costs and what is known without the image.
+/// Weights of the terms that a search minimises: the cues' costs (over Cue::scale) and what is known without
+/// the image. The table (settings_of) gives the meaning of each.
 struct ObjectiveWeights {
-  CueValues cues = step_weights(&Cue::region_step);  ///< of each cue's cost over Cue::scale
-  double invalid = 4.0;                              ///< per metre of interpenetration
-  double natural = 0.0;                              ///< of natural_cost
-  /// Of distance_from_predicted: the squared distance (in 0.15 m) of elbows and wrists from their prediction.
+  CueValues cues = step_weights(&Cue::region_step);
+  double invalid = 4.0;
+  double natural = 0.0;
   double temporal = 0.0;
-  /// Of the squared difference (in 0.03 m and 0.1 rad) between the trunk and its prediction.
   double trunk = 0.0;
-  /// Of the squared depth (in 0.1 m) of elbows and wrists relative to their shoulder: calibration assumes
-  /// that the person holds the arms parallel to the image plane (thesis 3.3).
+  /// Of the squared depth (in 0.1 m) of elbows and wrists relative to their shoulder: the assumption of the
+  /// calibration that the arms are parallel to the image plane (thesis 3.3). Only calibration sets it.
   double fronto_parallel = 0.0;
 };
+
+/// The settings of one step of the search; `group` is the first part of their names.
+SettingTable settings_of(ObjectiveWeights& weights, const std::string& group);
 
 /// Cost of a pose that people rarely take: 0 at rest, about 1 at the edge of comfort. Hands before the chest
 /// cost less than behind it, low elbows less than high ones; neck, wrists and trunk cost least near the

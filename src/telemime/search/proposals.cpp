@@ -121,18 +121,24 @@ ProposalConfig ProposalConfig::within(int most) const {
   return no_proposals();
 }
 
-void ProposalConfig::validate() const {
-  const auto require = [](bool good, const std::string& what) {
-    if (!good) {
-      throw Error(ErrorKind::config, "registration: proposals." + what);
-    }
-  };
-  require(directions >= 0 && directions <= 10000, "directions must be between 0 and 10000");
-  require(arms >= 0 && arms <= 10000, "arms must be between 0 and 10000");
-  require(kept >= 1 && kept <= 100, "kept must be between 1 and 100");
-  require(turns >= 0 && turns <= 10000, "turns must be between 0 and 10000");
-  require(refine >= 0 && refine <= 10000, "refine must be between 0 and 10000");
-  require(margin >= 0.0 && margin <= 10.0, "margin must be between 0 and 10");
+SettingTable settings_of(ProposalConfig& c) {
+  const std::string group = "registration.proposals.";
+  return {
+      {number(group + "directions", &c.directions, {0, 10000}, "",
+              "Directions of the forearm about the elbow that are proposed for each arm."),
+       number(group + "arms", &c.arms, {0, 10000}, "", "Random whole arms that are proposed for each arm."),
+       flag(group + "flips", c.flips, "Propose the mirror images of each arm in depth."),
+       flag(group + "upright", c.upright, "Propose the trunk half as bent and turned once in a frame."),
+       number(
+           group + "kept", &c.kept, {1, 100}, "",
+           "Best proposals that are refined; their wrists are 15 cm from the present one and 10 cm apart."),
+       number(group + "turns", &c.turns, {0, 10000}, "evaluations",
+              "Effort to turn the forearm of each of these."),
+       number(group + "refine", &c.refine, {0, 10000}, "evaluations",
+              "Effort to refine the best of these; the present arm gets half of it."),
+       number(group + "margin", &c.margin, {0, 10}, "",
+              "Difference of the costs above which the proposal replaces the present arm.")},
+      {}};
 }
 
 Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWeights& weights,

@@ -6,17 +6,16 @@
 
 namespace telemime {
 
-/// Proposals: other poses of an arm or of the trunk that are evaluated in each frame, so that a lost arm is
-/// found again.
+/// Settings of the proposals: other poses of an arm or of the trunk that are evaluated in each frame, so that
+/// a lost arm is found again. The table (settings_of) gives the meaning of each.
 struct ProposalConfig {
-  int directions = 38;  ///< directions of the forearm with the elbow as it is; 0: none
-  int arms = 10;        ///< random arms; 0: none
-  bool flips = true;    ///< whether mirror images of the arm in depth are proposed
-  bool upright = true;  ///< whether a trunk half as bent and turned is proposed, before the arms
-  int kept = 4;         ///< number of best proposals, apart from each other, that are searched further
-  int turns = 10;       ///< evaluations with which each of those turns its forearm
-  int refine = 80;      ///< evaluations for the whole arm of the best one; half as many for the present arm
-  /// Least improvement of the cost, so that two arms that fit equally well do not alternate.
+  int directions = 38;
+  int arms = 10;
+  bool flips = true;
+  bool upright = true;
+  int kept = 4;
+  int turns = 10;
+  int refine = 80;
   double margin = 0.006;
 
   bool any_arms() const { return directions > 0 || arms > 0 || flips; }
@@ -25,9 +24,9 @@ struct ProposalConfig {
   /// The same, reduced in proportion to at most this many evaluations per arm; no proposals when that is too
   /// few.
   ProposalConfig within(int evaluations) const;
-  /// Throws Error(config) that says what to change.
-  void validate() const;
 };
+
+SettingTable settings_of(ProposalConfig& config);
 
 /// A configuration without proposals.
 ProposalConfig no_proposals();

@@ -34,13 +34,13 @@ TEST(Proposals, NoneStayNone) {
 TEST(Proposals, RefuseValuesByName) {
   const auto refused = [](const ProposalConfig& config, const std::string& word) {
     try {
-      config.validate();
+      check_settings(config);
       return false;
     } catch (const Error& error) {
       return error.kind() == ErrorKind::config && std::string(error.what()).find(word) != std::string::npos;
     }
   };
-  EXPECT_NO_THROW(ProposalConfig{}.validate());
+  EXPECT_NO_THROW(check_settings(ProposalConfig{}));
   for (int ProposalConfig::*number :
        {&ProposalConfig::directions, &ProposalConfig::arms, &ProposalConfig::kept, &ProposalConfig::turns,
         &ProposalConfig::refine}) {
@@ -54,7 +54,7 @@ TEST(Proposals, RefuseValuesByName) {
   ProposalConfig most;
   most.directions = most.arms = most.turns = most.refine = 10000;
   most.kept = 100;
-  EXPECT_NO_THROW(most.validate());
+  EXPECT_NO_THROW(check_settings(most));
   EXPECT_GT(most.evaluations(), 0) << "no overflow";
   for (const double margin : {-0.1, std::numeric_limits<double>::quiet_NaN()}) {
     ProposalConfig config;

@@ -81,17 +81,20 @@ void flatten_arm(const Body& body, const JointLimits& limits, Side side, double 
                  arm_through(body, pose, side, new_elbow, new_elbow + fore * body.forearm_length[i], limits));
 }
 
-Group arms_group(const std::vector<Side>& sides, const JointLimits& limits) {
+constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
+
+// Left and right limbs have the same scales.
+Group arms_group(const JointLimits& limits) {
   Group group;
   group.steps = {0.05, 0.10, 0.05, 0.10, 0.05, 0.10, 0.15};
   group.reach = {0.3, 0.6, 0.3, 0.6, 0.3, 0.5, 2.0};
-  for (std::size_t i = 0; i < 2 * sides.size(); ++i) {
+  for (std::size_t i = 0; i < 2 * kSides.size(); ++i) {
     group.steps.push_back(0.06);
     group.reach.push_back(0.6);
   }
-  group.apply = [sides, &limits](const Candidate& from, const Eigen::VectorXd& x) {
+  group.apply = [&limits](const Candidate& from, const Eigen::VectorXd& x) {
     Candidate to = from;
-    for (const Side side : sides) {
+    for (const Side side : kSides) {
       const bool left = side == Side::left;
       scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], x[0], x[1], x[1]);
       scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], x[2], x[3], x[3]);
@@ -99,9 +102,9 @@ Group arms_group(const std::vector<Side>& sides, const JointLimits& limits) {
     }
     to.shape.sleeve = std::clamp(from.shape.sleeve + x[6], 0.0, 2.0);
     const Body body = make_body(to.shape);
-    for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t i = 0; i < kSides.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(7 + 2 * i);
-      flatten_arm(body, limits, sides[i], x[at], x[at + 1], to.pose);
+      flatten_arm(body, limits, kSides[i], x[at], x[at + 1], to.pose);
     }
     return to;
   };
@@ -127,13 +130,7 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
 
 ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
                    const JointLimits& limits, const ShapeFitConfig& config) {
-  std::vector<Group> groups = {trunk_group(), head_group()};
-  if (config.share_sides) {
-    groups.push_back(arms_group({Side::left, Side::right}, limits));
-  } else {
-    groups.push_back(arms_group({Side::left}, limits));
-    groups.push_back(arms_group({Side::right}, limits));
-  }
+  const std::array<Group, 3> groups = {trunk_group(), head_group(), arms_group(limits)};
   Candidate best = {shape, pose};
   CueValues weights = step_weights(backend.cues(), &Cue::edge_step);
   weights[cue::kContour] = config.contour_weight;

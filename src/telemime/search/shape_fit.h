@@ -5,14 +5,14 @@
 
 namespace telemime {
 
+/// Settings of fit_shape; part of the table of CalibrationConfig.
 struct ShapeFitConfig {
-  int iterations = 300;     ///< evaluations for a group of six numbers; proportionally more for larger groups
-  bool share_sides = true;  ///< whether left and right limbs have the same scales
-  double length_spread = 0.06;   ///< standard deviation, over people, of the logarithm of lengths
-  double girth_spread = 0.15;    ///< the same for heights and widths
-  double ratio_spread = 0.07;    ///< the same for upper arm length over forearm length
-  double prior_weight = 0.004;   ///< weight of shape_prior
-  double contour_weight = 0.15;  ///< weight of D_C beside F
+  int iterations = 300;
+  double length_spread = 0.06;
+  double girth_spread = 0.15;
+  double ratio_spread = 0.07;
+  double prior_weight = 0.004;
+  double contour_weight = 0.15;
 };
 
 struct ShapeFit {

@@ -145,7 +145,7 @@ class Refiner {
                                     int iterations) const {
     ObjectiveWeights weights{.cues = step_weights(objective.cues(), &Cue::edge_step),
                              .natural = config_.natural_weight};
-    weights.cues[cue::kContour] = config_.contour_weight;
+    weights.cues[cue::kContour] = spreads_.contour_weight;
     std::pair<Pose, double> best = {starts[0], objective(starts[0], weights)};
     if (const double other = objective(starts[1], weights); other < best.second) {
       best = {starts[1], other};

@@ -10,15 +10,14 @@
 
 namespace telemime {
 
-/// Settings of refine_shape.
+/// Settings of refine_shape; part of the table of CalibrationConfig.
 struct ShapeRefineConfig {
-  int keyframes = 8;             ///< frames to which the shape is fitted at once
-  int rounds = 2;                ///< rounds over all lengths, each with half the step of the one before
-  int pose_iterations = 100;     ///< evaluations per arm, keyframe and length
-  int shapes = 60;               ///< girths and sleeves that are evaluated in each round
-  double contour_weight = 0.15;  ///< weight of D_C beside F
-  double natural_weight = 0.02;  ///< weight of natural_cost in each keyframe
-  double prior_weight = 0.002;   ///< weight of the squared deviations (in spreads) from average arms
+  int keyframes = 8;
+  int rounds = 2;
+  int pose_iterations = 100;
+  int shapes = 60;
+  double natural_weight = 0.02;
+  double prior_weight = 0.002;
 };
 
 /// A frame and the pose that was estimated in it.

@@ -129,26 +129,30 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-void RegistrationConfig::validate() const {
-  const auto require = [](bool good, const std::string& what) {
-    if (!good) {
-      throw Error(ErrorKind::config, "registration: " + what);
-    }
+SettingTable settings_of(RegistrationConfig& c) {
+  SettingTable table;
+  table.rows = {
+      number("registration.iterations", &c.iterations, {1, 1000000}, "evaluations",
+             "Effort of a frame with the methods two-step, regions and edges."),
+      number("registration.region_share", &c.region_share, {0, 1}, "",
+             "Share of the effort for the region step; the rest is for the edge step."),
+      number("registration.simplex_factor", &c.simplex_factor, {0.001, 20}, "",
+             "Size of the first simplex over the typical motion between two frames."),
+      number("registration.edge_factor", &c.edge_factor, {0.001, 20}, "",
+             "Smallest size of the first simplex of the edge step, in the same unit."),
+      flag("registration.blocks", c.blocks,
+           "Search trunk, left arm and right arm in turn; false: one simplex over all 23 numbers."),
+      number("registration.rounds", &c.rounds, {1, 10}, "", "Rounds over trunk and arms in each step."),
+      number("registration.tolerance", &c.tolerance, {0, 0.999}, "",
+             "Relative difference of the costs in a simplex at which it has converged."),
+      number("registration.proposal_share", &c.proposal_share, {0, 1}, "",
+             "Largest share of the region step for proposals; where it is too small for both arms, one at "
+             "random has its turn."),
   };
-  require(iterations >= 1 && iterations <= 1000000, "iterations must be between 1 and 1000000");
-  require(region_share >= 0.0 && region_share <= 1.0, "region_share must be between 0 and 1");
-  require(simplex_factor > 0.0 && simplex_factor <= 20.0, "simplex_factor must be above 0, at most 20");
-  require(edge_factor > 0.0 && edge_factor <= 20.0, "edge_factor must be above 0, at most 20");
-  require(rounds >= 1 && rounds <= 10, "rounds must be between 1 and 10");
-  proposals.validate();
-  require(proposal_share >= 0.0 && proposal_share <= 1.0, "proposal_share must be between 0 and 1");
-  require(tolerance >= 0.0 && tolerance < 1.0, "tolerance must be at least 0 and below 1");
-  for (const ObjectiveWeights* w : {&region, &edge}) {
-    require(std::all_of(w->cues.begin(), w->cues.end(), [](double weight) { return weight >= 0.0; }) &&
-                w->invalid >= 0.0 && w->natural >= 0.0 && w->temporal >= 0.0 && w->trunk >= 0.0 &&
-                w->fronto_parallel >= 0.0,
-            "weights must not be negative");
-  }
+  table.append(settings_of(c.proposals));
+  table.append(settings_of(c.region, "registration.region_step"));
+  table.append(settings_of(c.edge, "registration.edge_step"));
+  return table;
 }
 
 RegistrationConfig for_time_step(RegistrationConfig config, double frames) {

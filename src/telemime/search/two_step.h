@@ -13,21 +13,14 @@ namespace telemime {
 
 enum class Method { regions, edges, two_step };
 
+/// Settings of the local search; the table (settings_of) gives the meaning, unit and range of each.
 struct RegistrationConfig {
-  Method method = Method::two_step;
-  /// Cost evaluations per frame, for both steps together.
+  Method method = Method::two_step;  ///< not in the table: Config::tracking.method sets it
   int iterations = 2000;
-  /// Share (0 to 1) of them that the region step of two_step gets.
   double region_share = 0.6;
-  /// Size of the initial simplex, in typical frame-to-frame changes of each number (thesis Fig. 2-22).
   double simplex_factor = 1.5;
-  /// Least size of the edge step's first simplex, in the same unit: that of the region step may have
-  /// collapsed.
   double edge_factor = 0.4;
-  /// true: trunk, left arm and right arm are searched in turn; false: one simplex over all 23 numbers
-  /// (thesis).
   bool blocks = true;
-  /// Rounds over the blocks within a step.
   int rounds = 2;
   /// Objective of the region step.
   ObjectiveWeights region{.cues = step_weights(&Cue::region_step),
@@ -43,14 +36,10 @@ struct RegistrationConfig {
                         .trunk = 0.002};
   double tolerance = 1e-4;
   ProposalConfig proposals;
-  /// Largest share (0 to 1) of the region step's evaluations that proposals may use. A smaller share reduces
-  /// the proposals of both arms; below what one arm needs in full, only one arm, chosen at random, gets
-  /// proposals.
   double proposal_share = 0.65;
-
-  /// Throws Error(config) that says what to change.
-  void validate() const;
 };
+
+SettingTable settings_of(RegistrationConfig& config);
 
 /// The same for frames that are `frames` times 1/25 s apart: simplexes grow and predictions weigh less. 1
 /// changes nothing.

@@ -27,9 +27,9 @@ TEST(RegistrationConfig, MethodsHaveNames) {
 }
 
 TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
-  EXPECT_NO_THROW(RegistrationConfig{}.validate());
+  EXPECT_NO_THROW(check_settings(RegistrationConfig{}));
   const RegistrationConfig reference = reference_registration();
-  EXPECT_NO_THROW(reference.validate());
+  EXPECT_NO_THROW(check_settings(reference));
   // One simplex, F alone, then D_C alone, and no term that the thesis does not have.
   EXPECT_FALSE(reference.blocks);
   EXPECT_FALSE(reference.proposals.any_arms());
@@ -56,15 +56,15 @@ TEST(RegistrationConfig, RefusesValuesByName) {
       {"proposals", [](auto& c) { c.proposals.directions = -1; }},
       {"proposal_share", [=](auto& c) { c.proposal_share = nan; }},
       {"tolerance", [](auto& c) { c.tolerance = -1e-9; }},
-      {"weights", [](auto& c) { c.region.cues[cue::kRegion] = -1.0; }},
-      {"weights", [=](auto& c) { c.edge.cues[cue::kContour] = nan; }},
-      {"weights", [](auto& c) { c.edge.fronto_parallel = -1.0; }},
+      {"region_step.region", [](auto& c) { c.region.cues[cue::kRegion] = -1.0; }},
+      {"edge_step.contour", [=](auto& c) { c.edge.cues[cue::kContour] = nan; }},
+      {"edge_step.trunk", [](auto& c) { c.edge.trunk = -1.0; }},
   };
   for (const auto& [name, spoil] : faults) {
     RegistrationConfig config;
     spoil(config);
     try {
-      config.validate();
+      check_settings(config);
       ADD_FAILURE() << name << " was accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::config);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "telemime/core/settings.h"
 #include "telemime/image/features.h"
 #include "telemime/search/calibration.h"
 #include "telemime/search/two_step.h"
@@ -17,67 +18,74 @@
 
 namespace telemime {
 
-/// When a person counts as found, and when as lost.
+/// Settings of losing and finding a person; the table (settings_of) gives the meaning, unit and range of
+/// each.
 struct TrackingConfig {
-  /// heuristics and condensation: the particle filter with FilterConfig's heuristics and with none; two-step:
-  /// the search of RegistrationConfig alone.
   std::string method = "heuristics";
-  double lost_region = 0.62;   ///< F above this for `patience` frames: lost
-  double found_region = 0.55;  ///< F at or below this after a search: found
-  int patience = 8;            ///< frames of 1/25 s
-  int retry_every = 3;         ///< frames of 1/25 s between searches for a person while lost
-  /// Frames to wait for a first frame in which the shape can be fitted (thesis 3.3); then the average body
-  /// starts; in a file, the frames that the look-ahead picks may still fit it.
+  double lost_region = 0.62;
+  double found_region = 0.55;
+  int patience = 8;
+  int retry_every = 3;
   int calibration_patience = 10;
-  /// Of a file: frames lost before somebody is found that may be followed back from there (GapFiller); 0:
-  /// none.
   int fill_back = 75;
-  double velocity = 0.5;  ///< share of the last frame's motion of the arms that is expected again
+  double velocity = 0.5;
 };
 
-/// The whole configuration; every default stands in the struct of its own room.
+/// The whole configuration. A setting whose name has no dot is one of the twelve public ones, which are
+/// options of the program, too; all others are for experts.
 struct Config {
+  std::string quality = "balanced";
   std::uint64_t seed = 1;
-  std::string limits = "anatomical";  ///< reference, anatomical or a file
-  double field_of_view = 60.0;        ///< degrees, horizontal; used when there is no camera file
-  std::string backend = "simd";       ///< what evaluates poses: a name of kBackends
-  int threads = 0;                    ///< for the search; 0: as many as the machine has
-  std::optional<double>
-      budget_ms;  ///< time for the search in each frame: replaces registration.iterations (tune)
+  std::string limits = "anatomical";
+  double field_of_view = 60.0;
+  std::string backend = "simd";
+  int threads = 0;
+  std::optional<double> budget_ms;
   ImageConfig image;
   CalibrationConfig calibration;
   RegistrationConfig registration;
   FilterConfig filter;
   TrackingConfig tracking;
   SmoothingOptions smoothing;
-  bool look_back = false;  ///< `track --offline`: decide with the frames that come after, too
+  bool look_back = false;
   TrajectoryConfig offline;
   CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file
 
-  /// The working image has as many pixels as one of 320x240 by default, in the input's shape (fitted_to).
+  /// The working image has 320x240 pixels, or as many in the shape of the input (fitted_to).
   Config();
-  /// Throws Error(config) with what to change.
-  void validate() const;
+  /// Throws Error(config) that names the setting and its range.
+  void validate() const { check_settings(*this); }
 };
 
 /// Adds a cue of the program's own with its default weights. Throws Error(usage) as CueTable::add does.
 void add_cue(Config& config, const Cue& cue);
 
-/// The particle filter that tracking.method asks for: with condensation the thesis's, without heuristics,
-/// with the particles, model, diffusion and estimate that are set.
-FilterConfig filter_of(const Config& config);
+/// The table of all settings, the public ones first.
+SettingTable settings_of(Config& config);
 
-/// The effective configuration, as written beside the results.
-nlohmann::json to_json(const Config& config);
+/// Does `tracking.method` use the particle filter?
+bool uses_filter(const Config& config);
 
-/// Replaces the values that `json` holds. Throws Error(config) that names an unknown key, a wrong type or a
-/// number that is not finite; `config` is unchanged then.
-void update_from_json(Config& config, const nlohmann::json& json);
+/// The configuration with what its method implies: `condensation` takes the particle filter of the thesis
+/// without heuristics, and keeps particles, model, diffusion and estimate; `regions` and `edges` do one step
+/// of the search.
+Config resolved(Config config);
 
-/// The same from the text of a file; `name` is for messages. Throws Error(config).
-void parse_config(Config& config, std::string_view text, const std::filesystem::path& name);
+/// The effective configuration, as it is written beside the results.
+nlohmann::json to_json(Config config);
 
-/// The same from a file. Throws Error(config).
-void update_from_file(Config& config, const std::filesystem::path& file);
+/// Sets the values by the names of their settings; `quality` first, since it presets others. Throws
+/// Error(config) that names an unknown setting, a value of a wrong type or one out of its range; `config` is
+/// unchanged then.
+void update(Config& config, const SettingValues& values);
+
+/// The values of a configuration file: JSON with comments; groups are objects. Throws Error(config).
+SettingValues read_settings(const std::filesystem::path& file);
+
+/// The same from the text of a file; `name` is for messages.
+SettingValues parse_settings(std::string_view text, const std::filesystem::path& name);
+
+/// The presets as a Markdown table: one row for each setting that `quality` changes.
+std::string explain_quality();
 
 }  // namespace telemime

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <set>
 
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
@@ -15,7 +18,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The message of the Error(config) that this gives.
+// The message of the Error(config) that this throws.
 template <typename Action>
 std::string refusal(Action action) {
   try {
@@ -27,61 +30,41 @@ std::string refusal(Action action) {
   return "it was accepted";
 }
 
-std::string refusal_of(const Json& json) {
+std::string refusal_of(const SettingValues& values) {
   Config config;
-  std::string words = refusal([&] { update_from_json(config, json); });
+  std::string words = refusal([&] { update(config, values); });
   EXPECT_EQ(to_json(config), to_json(Config{})) << "unchanged after a refusal";
   return words;
+}
+
+std::string refusal_of_json(const Json& json) {
+  return refusal_of(flatten(json));
 }
 
 bool names(const std::string& words, const std::string& what) {
   return words.find(what) != std::string::npos;
 }
 
-// {"a": {"b": value}} for "/a/b".
-Json nested(const std::string& pointer, const Json& value) {
-  Json json;
-  json[Json::json_pointer(pointer)] = value;
-  return json;
+SettingValues defaults() {
+  return flatten(to_json(Config{}));
 }
 
-// Another valid value of the same kind.
-Json other_value(const std::string& pointer, const Json& value) {
-  if (pointer == "/limits") {
-    return "reference";
-  }
-  if (pointer == "/backend") {
-    return "scalar";
-  }
-  if (pointer == "/registration/method") {
-    return "regions";
-  }
-  if (pointer == "/tracking/method") {
-    return "condensation";
-  }
-  if (pointer == "/filter/heuristics") {
+// Another valid value of the same setting.
+Json other_value(const Setting& setting) {
+  const Json value = value_of(setting);
+  if (setting.name == "filter.heuristics") {
     return "wd,hpm";
   }
-  if (pointer == "/filter/estimate") {
-    return "mean";
+  if (value.is_string()) {
+    return setting.choices.empty()            ? "other.json"
+           : setting.choices.front() == value ? setting.choices.back()
+                                              : setting.choices.front();
   }
-  if (pointer == "/filter/model") {
-    return "numbers.json";
-  }
-  if (pointer == "/smoothing/name") {
-    return "recursive";
-  }
-  if (pointer == "/calibration/stature") {
-    return 1.85;
-  }
-  if (pointer == "/budget_ms") {
-    return 12.5;
+  if (value.is_null()) {
+    return setting.high;
   }
   if (value.is_boolean()) {
     return !value.get<bool>();
-  }
-  if (value.is_number_unsigned()) {
-    return value.get<std::uint64_t>() + 1;
   }
   if (value.is_number_integer()) {
     return value.get<int>() + 1;
@@ -97,49 +80,85 @@ TEST(Config, WrittenAndReadAgainIsTheSame) {
   Config config;
   config.seed = 77;
   config.budget_ms = 9.5;
-  config.registration.method = Method::edges;
+  config.tracking.method = "edges";
   config.calibration.stature = 1.62;
   Config again;
-  update_from_json(again, to_json(config));
+  update(again, flatten(to_json(config)));
   EXPECT_EQ(to_json(again), to_json(config));
   EXPECT_EQ(again.seed, 77U);
-  EXPECT_EQ(again.registration.method, Method::edges);
   EXPECT_EQ(again.calibration.stature, 1.62);
-  update_from_json(again, Json{{"budget_ms", nullptr}});
+  update(again, {{"budget", nullptr}});
   EXPECT_FALSE(again.budget_ms);
 }
 
 TEST(Config, EverySettingCanBeReadAlone) {
-  const Json defaults = to_json(Config{});
-  int settings = 0;
-  const Json leaves = defaults.flatten();
-  for (const auto& [pointer, value] : leaves.items()) {
-    ++settings;
-    const Json changed = other_value(pointer, value);
-    ASSERT_NE(changed, value) << pointer;
-    Config config;
-    ASSERT_NO_THROW(update_from_json(config, nested(pointer, changed))) << pointer << " " << changed;
-    Json expected = defaults;
-    expected[Json::json_pointer(pointer)] = changed;
-    const Json now = to_json(config);
-    if (changed.is_number_float()) {
-      EXPECT_NEAR(now[Json::json_pointer(pointer)].get<double>(), changed.get<double>(), 1e-6) << pointer;
-      expected[Json::json_pointer(pointer)] = now[Json::json_pointer(pointer)];
+  Config shown;
+  for (const Setting& setting : settings_of(shown).rows) {
+    if (setting.name == "quality") {
+      continue;  // it sets others
     }
-    EXPECT_EQ(now, expected) << pointer;
+    const Json changed = other_value(setting);
+    ASSERT_NE(changed, value_of(setting)) << setting.name;
+    Config config;
+    ASSERT_NO_THROW(update(config, {{setting.name, changed}})) << setting.name << " " << changed;
+    SettingValues expected = defaults();
+    SettingValues now = flatten(to_json(config));
+    if (changed.is_number_float()) {
+      EXPECT_NEAR(now[setting.name].get<double>(), changed.get<double>(), 1e-6) << setting.name;
+    } else {
+      EXPECT_EQ(now[setting.name], changed) << setting.name;
+    }
+    expected[setting.name] = now[setting.name];
+    EXPECT_EQ(now, expected) << setting.name;
   }
-  EXPECT_GE(settings, 50);
+  EXPECT_GE(defaults().size(), 50U);
 }
 
-TEST(Config, CondensationIsTheThesissFilterWithWhatIsSet) {
+TEST(Config, TwelveSettingsArePublic) {
   Config config;
-  EXPECT_EQ(filter_of(config).heuristics, config.filter.heuristics);
+  const SettingTable table = settings_of(config);
+  const auto is_public = [](const Setting& s) { return s.name.find('.') == std::string::npos; };
+  EXPECT_EQ(std::count_if(table.rows.begin(), table.rows.end(), is_public), 12);
+  EXPECT_TRUE(std::is_partitioned(table.rows.begin(), table.rows.end(), is_public))
+      << "the public ones first";
+  std::set<std::string> seen;
+  for (const Setting& s : table.rows) {
+    EXPECT_TRUE(seen.insert(s.name).second) << s.name << " twice";
+    EXPECT_TRUE(s.meaning.ends_with('.')) << s.name;
+  }
+}
+
+TEST(Config, TheDocumentHoldsTheWholeTable) {
+  std::ifstream file(std::filesystem::path(TELEMIME_SOURCE_DIR) / "docs/configuration.md");
+  const std::string page(std::istreambuf_iterator<char>(file), {});
+  Config config;
+  EXPECT_TRUE(names(page, explain(settings_of(config))))
+      << "docs/configuration.md must hold the output of `telemime config --explain`";
+  EXPECT_TRUE(names(page, explain_quality())) << explain_quality();
+}
+
+TEST(Config, QualityPresetsWhatIsNotGiven) {
+  Config config;
+  update(config, {{"quality", "balanced"}});
+  EXPECT_EQ(to_json(config), to_json(Config{})) << "balanced is the default";
+  update(config, {{"quality", "fast"}, {"particles", 123}});
+  EXPECT_EQ(config.filter.particles, 123);
+  EXPECT_LT(config.registration.iterations, Config{}.registration.iterations);
+  update(config, {{"quality", "best"}});
+  EXPECT_GT(config.filter.particles, Config{}.filter.particles);
+  update(config, {{"quality", "balanced"}});
+  EXPECT_EQ(to_json(config), to_json(Config{})) << "nothing of the others is left";
+}
+
+TEST(Config, CondensationIsTheFilterOfTheThesis) {
+  Config config;
+  EXPECT_EQ(to_json(resolved(config)), to_json(config));
   config.tracking.method = "condensation";
   config.filter.particles = 321;
   config.filter.diffusion = 2.0;
   config.filter.estimate = "mean";
   config.filter.model = "numbers.json";
-  const FilterConfig filter = filter_of(config);
+  const FilterConfig filter = resolved(config).filter;
   EXPECT_EQ(filter.heuristics, "");
   EXPECT_EQ(filter.trust, 1.0);
   EXPECT_EQ(filter.particles, 321);
@@ -148,40 +167,44 @@ TEST(Config, CondensationIsTheThesissFilterWithWhatIsSet) {
   EXPECT_EQ(filter.model, "numbers.json");
 }
 
+TEST(Config, MethodChoosesTheStepsOfTheSearch) {
+  Config config;
+  for (const Method method : {Method::regions, Method::edges, Method::two_step}) {
+    config.tracking.method = to_string(method);
+    EXPECT_FALSE(uses_filter(config));
+    EXPECT_EQ(resolved(config).registration.method, method);
+  }
+}
+
 TEST(Config, WrongTypeIsRefusedWithTheKeysName) {
-  const Json leaves = to_json(Config{}).flatten();
-  for (const auto& [pointer, value] : leaves.items()) {
-    const std::string name = pointer.substr(1);
-    for (const Json& wrong : {Json::array(), Json({1, 2}), Json{{"deeper", 1}}}) {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, wrong)), name)) << pointer << " " << wrong;
+  for (const auto& [name, value] : defaults()) {
+    for (const Json& wrong : {Json::array(), Json({1, 2})}) {
+      EXPECT_TRUE(names(refusal_of({{name, wrong}}), "'" + name + "'")) << name << " " << wrong;
     }
-    if (value.is_string()) {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, 3)), name)) << pointer;
-    } else {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, "words")), name)) << pointer;
-    }
+    EXPECT_TRUE(names(refusal_of({{name + ".deeper", 1}}), "'" + name + ".deeper'")) << name;
+    EXPECT_TRUE(names(refusal_of({{name, value.is_string() ? Json(3) : Json("words")}}), "'" + name + "'"));
     if (value.is_number()) {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, true)), name)) << pointer;
-      EXPECT_TRUE(names(refusal_of(nested(pointer, nullptr)), name)) << pointer;
+      EXPECT_TRUE(names(refusal_of({{name, true}}), "'" + name + "'"));
+      EXPECT_TRUE(names(refusal_of({{name, nullptr}}), "'" + name + "'"));
     }
     if (value.is_number_integer()) {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, 1.5)), name)) << pointer;
-      EXPECT_TRUE(names(refusal_of(nested(pointer, -1e15)), name)) << pointer;
+      EXPECT_TRUE(names(refusal_of({{name, 1.5}}), "'" + name + "'"));
+      EXPECT_TRUE(names(refusal_of({{name, -1e15}}), "'" + name + "'"));
+      EXPECT_TRUE(names(refusal_of({{name, -10'000'000'000}}), "'" + name + "'"));
     }
   }
 }
 
-TEST(Config, NumbersThatAreNotFiniteAreRefusedWithTheKeysName) {
+TEST(Config, NumbersThatAreNotFiniteAreRefused) {
   int numbers = 0;
-  const Json leaves = to_json(Config{}).flatten();
-  for (const auto& [pointer, value] : leaves.items()) {
+  for (const auto& [name, value] : defaults()) {
     if (!value.is_number_float()) {
       continue;
     }
     ++numbers;
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-      EXPECT_TRUE(names(refusal_of(nested(pointer, bad)), pointer.substr(1))) << pointer;
+      EXPECT_TRUE(names(refusal_of({{name, bad}}), "'" + name + "'"));
     }
   }
   EXPECT_GE(numbers, 20);
@@ -190,63 +213,76 @@ TEST(Config, NumbersThatAreNotFiniteAreRefusedWithTheKeysName) {
 TEST(Config, UnknownKeysAreRefusedByName) {
   const std::pair<Json, std::string> unknown[] = {
       {{{"sede", 1}}, "sede"},
-      {{{"registration", {{"iteration", 5}}}}, "registration/iteration"},
+      {{{"registration", {{"iteration", 5}}}}, "registration.iteration"},
       {{{"registration", 5}}, "registration"},
       {{{"image/width", 160}}, "image/width"},
       {{{"nothing", Json::object()}}, "nothing"},
-      {{{"image", {{"edges", {{"beta", 1}}}}}}, "image/edges/beta"},
+      {{{"image", {{"edges", {{"beta", 1}}}}}}, "image.edges.beta"},
       {{{"seed", 5}, {"zzz", nullptr}}, "zzz"},
   };
   for (const auto& [json, name] : unknown) {
-    EXPECT_TRUE(names(refusal_of(json), "'" + name)) << json << ": " << refusal_of(json);
+    EXPECT_TRUE(names(refusal_of_json(json), "'" + name + "'")) << json << ": " << refusal_of_json(json);
   }
   Config config;
-  EXPECT_NO_THROW(update_from_json(config, {{"image", Json::object()}, {"registration", Json::object()}}));
+  EXPECT_NO_THROW(update(config, flatten({{"image", Json::object()}, {"registration", Json::object()}})));
 }
 
-TEST(Config, TheFuzzersSeedIsAWholeConfigurationOfToday) {
+TEST(Config, OldAndMisspeltNamesGetTheNearestOne) {
+  const std::pair<std::string, std::string> names_of[] = {
+      {"sede", "seed"},
+      {"filter.particles", "particles"},
+      {"registration.iteration", "registration.iterations"},
+      {"offline.stretch", "trajectory.stretch"},
+      {"smoothing.look_ahead", "smoother.look_ahead"}};
+  for (const auto& [old, now] : names_of) {
+    EXPECT_TRUE(names(refusal_of({{old, 1}}), "'" + now + "'")) << refusal_of({{old, 1}});
+  }
+}
+
+TEST(Config, TheFuzzersSeedIsAWholeConfiguration) {
   // A seed that is refused at its first key would leave the reader behind it untried.
   Config config;
-  update_from_file(config, std::filesystem::path(TELEMIME_SOURCE_DIR) / "fuzz/corpus/config/default.json");
+  update(config,
+         read_settings(std::filesystem::path(TELEMIME_SOURCE_DIR) / "fuzz/corpus/config/default.json"));
   EXPECT_EQ(to_json(config), to_json(Config{}));
 }
 
 TEST(Config, WhatIsNoObjectIsRefused) {
   for (const Json& json : {Json(), Json(3), Json::array({1}), Json("seed")}) {
-    EXPECT_TRUE(names(refusal_of(json), "object")) << json;
+    EXPECT_TRUE(names(refusal([&] { flatten(json); }), "object")) << json;
   }
 }
 
 TEST(Config, ValuesOutOfRangeAreRefusedByName) {
-  const std::pair<std::string, Json> faults[] = {{"/camera/field_of_view", 0.0},
-                                                 {"/camera/field_of_view", 180.0},
-                                                 {"/backend", "abacus"},
-                                                 {"/budget_ms", 0.0},
-                                                 {"/tracking/lost_region", 0.0},
-                                                 {"/tracking/found_region", 1.5},
-                                                 {"/tracking/patience", 0},
-                                                 {"/tracking/velocity", -0.1},
-                                                 {"/registration/iterations", 0},
-                                                 {"/registration/method", "guess"},
-                                                 {"/registration/proposal_share", 1.1},
-                                                 {"/registration/proposals/kept", 0},
-                                                 {"/registration/proposals/refine", 10001},
-                                                 {"/registration/proposals/margin", -0.1},
-                                                 {"/tracking/method", "guess"},
-                                                 {"/filter/particles", 0},
-                                                 {"/filter/heuristics", "magic"},
-                                                 {"/filter/estimate", "median"},
-                                                 {"/filter/trust", 0.0},
-                                                 {"/filter/mode_least", 5000},
-                                                 {"/threads", -1},
-                                                 {"/image/width", 3},
-                                                 {"/calibration/worst_region", -1.0},
-                                                 {"/smoothing/name", "magic"},
-                                                 {"/calibration/stature", 17.2},
-                                                 {"/seed", -1},
-                                                 {"/registration/edge_step/fronto_parallel", -1.0}};
-  for (const auto& [pointer, value] : faults) {
-    EXPECT_NE(refusal_of(nested(pointer, value)), "it was accepted") << pointer << " " << value;
+  const std::pair<std::string, Json> faults[] = {{"fov", 0.0},
+                                                 {"fov", 180.0},
+                                                 {"quality", "worst"},
+                                                 {"backend", "abacus"},
+                                                 {"budget", 0.0},
+                                                 {"tracking.lost_region", 0.0},
+                                                 {"tracking.found_region", 1.5},
+                                                 {"tracking.patience", 0},
+                                                 {"tracking.velocity", -0.1},
+                                                 {"registration.iterations", 0},
+                                                 {"registration.proposal_share", 1.1},
+                                                 {"registration.proposals.kept", 0},
+                                                 {"registration.proposals.refine", 10001},
+                                                 {"registration.proposals.margin", -0.1},
+                                                 {"registration.edge_step.trunk", -1.0},
+                                                 {"method", "guess"},
+                                                 {"particles", 0},
+                                                 {"filter.heuristics", "magic"},
+                                                 {"filter.estimate", "median"},
+                                                 {"filter.trust", 0.0},
+                                                 {"filter.mode_least", 5000},
+                                                 {"threads", -1},
+                                                 {"image.width", 3},
+                                                 {"calibration.worst_region", -1.0},
+                                                 {"smoothing", "magic"},
+                                                 {"height", 17.2},
+                                                 {"seed", -1}};
+  for (const auto& [name, value] : faults) {
+    EXPECT_TRUE(names(refusal_of({{name, value}}), name)) << name << " " << value;
   }
 }
 
@@ -259,7 +295,7 @@ class ConfigFile : public ::testing::Test {
   }
   static std::string refusal_of_file(const std::filesystem::path& file) {
     Config config;
-    return refusal([&] { update_from_file(config, file); });
+    return refusal([&] { update(config, read_settings(file)); });
   }
   ScratchFolder scratch_;
   std::filesystem::path folder_ = scratch_.path();
@@ -267,7 +303,7 @@ class ConfigFile : public ::testing::Test {
 
 TEST_F(ConfigFile, IsReadWithComments) {
   Config config;
-  update_from_file(config, write("{ // why\n \"seed\": 5, \"registration\": {\"iterations\": 200} }"));
+  update(config, read_settings(write("{ // why\n \"seed\": 5, \"registration\": {\"iterations\": 200} }")));
   EXPECT_EQ(config.seed, 5U);
   EXPECT_EQ(config.registration.iterations, 200);
 }
@@ -283,7 +319,7 @@ TEST_F(ConfigFile, FolderIsNoFile) {
 
 TEST_F(ConfigFile, BrokenJsonAndNaNAreNamed) {
   for (const char* bytes : {"", "{", "{\"seed\": NaN}", "{\"registration\": {\"edge_factor\": 1e999}}",
-                            "{\"camera\": {\"field_of_view\": Infinity}}", "\xff\xfe\x00"}) {
+                            "{\"fov\": Infinity}", "\xff\xfe\x00"}) {
     const std::string words = refusal_of_file(write(bytes));
     EXPECT_TRUE(names(words, "config.json") && names(words, "JSON")) << bytes << ": " << words;
   }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "telemime/body/rotations.h"
-#include "telemime/core/errors.h"
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {
@@ -145,13 +144,30 @@ class OneEuroSmoother final : public RotationSmoother {
   std::array<SpeedShare, 2> elbow_speed_;
 };
 
-bool usable(const OneEuroOptions& options) {
-  return std::isfinite(options.minimum_cutoff) && options.minimum_cutoff > 0.0 &&
-         std::isfinite(options.slope) && options.slope >= 0.0 && std::isfinite(options.speed_cutoff) &&
-         options.speed_cutoff > 0.0;
+SettingTable one_euro_settings(OneEuroOptions& o, const std::string& group, const std::string& speed) {
+  return {{number(group + ".minimum_cutoff", &o.minimum_cutoff, {1e-6, 1e6}, "Hz",
+                  "Cutoff frequency of the One-Euro filter at rest; lower smooths more."),
+           number(group + ".slope", &o.slope, {0, 1e6}, "Hz per " + speed,
+                  "Increase of the cutoff frequency with the speed; higher follows fast motion sooner."),
+           number(group + ".speed_cutoff", &o.speed_cutoff, {1e-6, 1e6}, "Hz",
+                  "Cutoff frequency of the low-pass filter of the speed.")},
+          {}};
 }
 
 }  // namespace
+
+SettingTable settings_of(SmoothingOptions& o) {
+  SettingTable table;
+  table.rows = {text("smoothing", o.name, {"none", "recursive", "one-euro"},
+                     "Filter of the joint rotations over time."),
+                number("smoother.look_ahead", &o.look_ahead, {0, 250}, "frames",
+                       "Later frames of a file that are used; 0: the plain filter, as live."),
+                number("smoother.recursive_coefficient", &o.recursive_coefficient, {0, 0.999}, "",
+                       "Share of the past in the recursive filter (equation 4.30).")};
+  table.append(one_euro_settings(o.angles, "smoother.angles", "rad/s"));
+  table.append(one_euro_settings(o.root, "smoother.root", "m/s"));
+  return table;
+}
 
 MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& body, const Camera& camera) {
   MotionFrame result = frame;
@@ -170,23 +186,14 @@ MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& bo
 
 std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const Body& body,
                                         const Camera& camera) {
+  check_settings(options);
   if (options.name == "none") {
     return std::make_unique<NoSmoother>();
   }
   if (options.name == "recursive") {
-    if (!(options.recursive_coefficient >= 0.0 && options.recursive_coefficient < 1.0)) {
-      throw Error(ErrorKind::config, "the smoothing coefficient must be in [0, 1)", "the thesis uses 0.6");
-    }
     return std::make_unique<RecursiveSmoother>(body, camera, options.recursive_coefficient);
   }
-  if (options.name == "one-euro") {
-    if (!usable(options.angles) || !usable(options.root)) {
-      throw Error(ErrorKind::config, "the One-Euro filter needs cutoffs above 0 Hz and slopes of at least 0");
-    }
-    return std::make_unique<OneEuroSmoother>(body, camera, options.angles, options.root);
-  }
-  throw Error(ErrorKind::config, "there is no smoothing \"" + options.name + "\"",
-              "use none, recursive or one-euro");
+  return std::make_unique<OneEuroSmoother>(body, camera, options.angles, options.root);
 }
 
 }  // namespace telemime

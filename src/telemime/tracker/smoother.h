@@ -7,25 +7,27 @@
 #include "telemime/body/body.h"
 #include "telemime/body/motion_frame.h"
 #include "telemime/core/camera.h"
+#include "telemime/core/settings.h"
 
 namespace telemime {
 
 /// Cutoff frequency of a One-Euro filter: minimum + slope * speed (Casiez, Roussel & Vogel, CHI 2012).
 struct OneEuroOptions {
-  double minimum_cutoff = 1.0;  ///< Hz, at rest: lower is stiller
-  double slope = 1.0;           ///< Hz for each rad/s or m/s: higher follows fast motion sooner
-  double speed_cutoff = 1.0;    ///< Hz, low-pass of the speed itself
+  double minimum_cutoff = 1.0;
+  double slope = 1.0;
+  double speed_cutoff = 1.0;
 };
 
+/// Settings of the smoother; the table (settings_of) gives the meaning, unit and range of each.
 struct SmoothingOptions {
-  std::string name = "one-euro";            ///< none, recursive, one-euro
-  double recursive_coefficient = 0.6;       ///< share of the past, in [0, 1) (thesis 4.30)
-  OneEuroOptions angles = {1.0, 4.0, 1.0};  ///< of joint rotations, speeds in rad/s
-  OneEuroOptions root = {1.0, 10.0, 1.0};   ///< of the translation, speeds in m/s
-  int look_ahead = 12;                      ///< frames of a file's future that are used (TwoWaySmoother)
+  std::string name = "one-euro";
+  double recursive_coefficient = 0.6;
+  OneEuroOptions angles = {1.0, 4.0, 1.0};
+  OneEuroOptions root = {1.0, 10.0, 1.0};
+  int look_ahead = 12;
 };
 
-inline constexpr int kLongestLookAhead = 250;
+SettingTable settings_of(SmoothingOptions& options);
 
 /// Steadies a stream of frames. Rotations are smoothed, not angles, so that nothing happens where angles
 /// jump; the joints follow by forward kinematics and the pixels by what the joints move in the image. A lost

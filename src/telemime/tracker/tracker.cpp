@@ -36,6 +36,7 @@ constexpr double kRate = 25.0;  // frames a second that the motion model is made
 
 Config fitted_to(Config config, const Camera& camera) {
   config.validate();
+  config = resolved(config);
   config.image = fitted_to(config.image, camera);
   return config;
 }
@@ -65,8 +66,7 @@ Tracker::Tracker(const Config& config, const Camera& camera)
       features_(config_.image),
       backend_(make_backend(config.backend, {.cues = config.cues})),
       random_(config.seed) {
-  if (config_.tracking.method != "two-step") {
-    config_.filter = filter_of(config_);
+  if (uses_filter(config_)) {
     evaluators_ = std::make_unique<Evaluators>(config_.backend, config_.threads, config_.cues);
     filter_ = std::make_unique<ParticleFilter>(config_.filter, config_.registration, limits_, *evaluators_,
                                                config_.seed);

@@ -6,33 +6,59 @@
 
 namespace telemime {
 
-void FilterConfig::validate() const {
-  const auto require = [](bool good, const std::string& what) {
-    if (!good) {
-      throw Error(ErrorKind::config, "filter: " + what);
-    }
-  };
-  require(particles >= 1 && particles <= 1000000, "particles must be between 1 and 1000000");
+namespace {
+
+SettingRule known_heuristics(const std::string& names) {
   try {
-    parse_heuristics(heuristics);
+    parse_heuristics(names);
+    return {};
   } catch (const Error& error) {
-    require(false, std::string("heuristics: ") + error.what());
+    return {false, std::string("filter.heuristics: ") + error.what()};
   }
-  require(estimate == "heaviest" || estimate == "mean", "estimate must be heaviest or mean");
-  require(diffusion > 0.0 && diffusion <= 100.0, "diffusion must be above 0, at most 100");
-  require(memory >= 0.0 && memory <= 1.0, "memory must be between 0 and 1");
-  require(trust > 0.0 && trust <= 10.0, "trust must be above 0, at most 10");
-  require(natural >= 0.0 && temporal >= 0.0 && invalid >= 0.0,
-          "natural, temporal and invalid must not be negative");
-  require(modes >= 1 && modes <= 1000, "modes must be between 1 and 1000");
-  require(mode_radius > 0.0 && mode_radius <= 1.0, "mode_radius must be above 0, at most 1 m");
-  require(mode_least >= 10 && mode_least <= mode_most && mode_most <= 1000000,
-          "10 <= mode_least <= mode_most <= 1000000 is needed");
-  require(turn_evaluations >= 10 && turn_evaluations <= 1000000,
-          "turn_evaluations must be between 10 and 1000000");
-  require(walk_evaluations >= 10 && walk_evaluations <= 1000000,
-          "walk_evaluations must be between 10 and 1000000");
-  require(flip_candidates >= 0 && flip_candidates <= 1000, "alternatives must be between 0 and 1000");
+}
+
+}  // namespace
+
+SettingTable settings_of(FilterConfig& c) {
+  SettingTable table;
+  table.rows = {
+      number("particles", &c.particles, {1, 1000000}, "evaluations",
+             "Particles of a frame with the methods heuristics and condensation; searches of turned trunks "
+             "come on top."),
+      text("filter.heuristics", c.heuristics, {},
+           "Heuristics of the particle filter, separated by commas: " + heuristic_names() + "."),
+      text("filter.estimate", c.estimate, {"heaviest", "mean"}, "The pose that represents all particles."),
+      text("filter.model", c.model, {},
+           "File of noise and motion parameters that `telemime-lab learn` writes; empty: the built-in ones."),
+      number("filter.diffusion", &c.diffusion, {0.001, 100}, "",
+             "Factor of all standard deviations of the motion (S of equation 4.13)."),
+      number("filter.memory", &c.memory, {0, 1}, "",
+             "Share of the logarithmic weights of the modes that the next frame keeps."),
+      number("filter.trust", &c.trust, {0.001, 10}, "", "Factor of the log likelihood of the image."),
+      number("filter.natural", &c.natural, {0, 1e6}, "nats", "Log prior of natural poses."),
+      number("filter.temporal", &c.temporal, {0, 1e6}, "nats",
+             "Log prior of the squared distance (over 0.15 m) of elbows and wrists from their predicted "
+             "places."),
+      number("filter.invalid", &c.invalid, {0, 1e9}, "nats/m", "Log prior of interpenetration."),
+      number("filter.modes", &c.modes, {1, 1000}, "", "Largest number of modes."),
+      number("filter.mode_radius", &c.mode_radius, {0.001, 1}, "m",
+             "Largest distance of an elbow or wrist from that of the best particle of its mode."),
+      number("filter.mode_least", &c.mode_least, {10, 1000000}, "evaluations", "Smallest effort for a mode."),
+      number("filter.mode_most", &c.mode_most, {10, 1000000}, "evaluations",
+             "Largest effort for the local search of a mode."),
+      flag("filter.blocks", c.blocks,
+           "Local search with the settings of `registration`; false: one simplex over all moving numbers, as "
+           "in the thesis."),
+      number("filter.turn_evaluations", &c.turn_evaluations, {10, 1000000}, "evaluations",
+             "Effort of the search of each turned trunk."),
+      number("filter.walk_evaluations", &c.walk_evaluations, {10, 1000000}, "evaluations",
+             "The same where the trunk is far from upright; at most half of the particles."),
+      number("filter.flip_candidates", &c.flip_candidates, {0, 1000}, "",
+             "Modes whose best particle is flipped in depth."),
+  };
+  table.rules = {known_heuristics(c.heuristics),
+                 {c.mode_least <= c.mode_most, "filter.mode_least must not be above filter.mode_most"}};
+  return table;
 }
 
 FilterConfig with_effort(FilterConfig config, double share) {

@@ -17,7 +17,7 @@ std::string complaint(const std::function<void(FilterConfig&)>& change) {
   FilterConfig config;
   change(config);
   try {
-    config.validate();
+    check_settings(config);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::config);
     return error.what();
@@ -41,9 +41,9 @@ void expect_taken(T FilterConfig::*setting, const std::vector<T>& values) {
 }
 
 TEST(FilterConfig, TheDefaultsAndTheThesissAreTaken) {
-  EXPECT_NO_THROW(FilterConfig{}.validate());
-  EXPECT_NO_THROW(reference_filter("").validate());
-  EXPECT_NO_THROW(reference_filter("wd, hpm, ee, lo, kf").validate());
+  EXPECT_NO_THROW(check_settings(FilterConfig{}));
+  EXPECT_NO_THROW(check_settings(reference_filter("")));
+  EXPECT_NO_THROW(check_settings(reference_filter("wd, hpm, ee, lo, kf")));
 }
 
 TEST(FilterConfig, TheThesissFilterKnowsNothingButTheImage) {
@@ -65,7 +65,7 @@ TEST(FilterConfig, WholeNumbersOutOfRangeAreRefusedByName) {
   expect_refused(&FilterConfig::mode_most, "mode_most", {99, -1, 1000001});
   expect_refused(&FilterConfig::turn_evaluations, "turn_evaluations", {9, -1, 1000001});
   expect_refused(&FilterConfig::walk_evaluations, "walk_evaluations", {9, -1, 1000001});
-  expect_refused(&FilterConfig::flip_candidates, "alternatives", {-1, 1001});
+  expect_refused(&FilterConfig::flip_candidates, "flip_candidates", {-1, 1001});
   expect_taken(&FilterConfig::particles, {1, 1000000});
   expect_taken(&FilterConfig::modes, {1, 1000});
   expect_taken(&FilterConfig::mode_least, {10, 1200});

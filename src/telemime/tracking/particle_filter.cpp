@@ -95,7 +95,7 @@ ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationCon
       numbers_(load_filter_model(config.model, evaluators.cues())),
       heuristics_(parse_heuristics(config.heuristics)),
       seeds_(seed) {
-  config_.validate();
+  check_settings(config_);
 }
 
 void ParticleFilter::start(const Pose& pose, bool backward) {

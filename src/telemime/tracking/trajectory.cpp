@@ -85,20 +85,25 @@ std::vector<Pose> poses_of(const std::vector<ScoredPose>& scored) {
 
 }  // namespace
 
-void TrajectoryConfig::validate() const {
-  const auto require = [](bool good, const std::string& what) {
-    if (!good) {
-      throw Error(ErrorKind::config, "offline: " + what);
-    }
-  };
-  require(stretch >= 1 && stretch <= 10000, "stretch must be between 1 and 10000 frames");
-  require(overlap >= 0 && overlap <= 1000, "overlap must be between 0 and 1000 frames");
-  require(arms >= 1 && arms <= 100, "arms must be between 1 and 100");
-  require(kept >= 1 && kept <= 1000, "kept must be between 1 and 1000");
-  require(motion >= 0.0 && motion <= 1e6, "motion must be between 0 and 1e6");
-  require(between >= 0.0 && between <= 1e6, "between must be between 0 and 1e6");
-  require(sweeps >= 0 && sweeps <= 100, "sweeps must be between 0 and 100");
-  require(evaluations >= 1 && evaluations <= 1000000, "evaluations must be between 1 and 1000000");
+SettingTable settings_of(TrajectoryConfig& c) {
+  return {
+      {number("trajectory.stretch", &c.stretch, {1, 10000}, "frames",
+              "Frames that are decided together with --offline."),
+       number("trajectory.overlap", &c.overlap, {0, 1000}, "frames",
+              "Frames after these that are taken into account."),
+       number("trajectory.arms", &c.arms, {1, 100}, "",
+              "Arms of each side that are combined with each other in each frame."),
+       number("trajectory.kept", &c.kept, {1, 1000}, "",
+              "Poses of a frame among which the trajectory chooses."),
+       number("trajectory.motion", &c.motion, {0, 1e6}, "",
+              "Cost of the squared motion (over 0.15 m) of elbows and wrists between two frames."),
+       number("trajectory.sweeps", &c.sweeps, {0, 100}, "", "Searches of each pose between its neighbours."),
+       number("trajectory.evaluations", &c.evaluations, {1, 1000000}, "evaluations",
+              "Effort of each of these searches."),
+       number("trajectory.between", &c.between, {0, 1e6}, "",
+              "Weight of the squared distance (over 0.15 m) of elbows and wrists from the middle of their "
+              "neighbours in that search.")},
+      {}};
 }
 
 std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchFrame& frame,

@@ -9,22 +9,20 @@
 
 namespace telemime {
 
-/// Settings of the joint search over many frames (`track --offline`).
+/// Settings of the joint search over many frames (`track --offline`); the table (settings_of) gives the
+/// meaning, unit and range of each.
 struct TrajectoryConfig {
-  int stretch = 100;  ///< frames that are decided together
-  int overlap = 25;   ///< following frames that are also taken into account
-  int arms = 5;       ///< candidates of each arm that are combined with those of the other, per frame
-  int kept = 16;      ///< candidate poses per frame
-  /// Cost of a step from frame to frame per unit of distance_from_predicted.
+  int stretch = 100;
+  int overlap = 25;
+  int arms = 5;
+  int kept = 16;
   double motion = 0.06;
-  int sweeps = 2;         ///< how often each pose is searched again between its neighbours; 0: never
-  int evaluations = 600;  ///< evaluations of each such search
-  double between =
-      0.2;  ///< ObjectiveWeights::temporal of that search; the prediction is midway between the neighbours
-
-  /// Throws Error(config) that says what to change.
-  void validate() const;
+  int sweeps = 2;
+  int evaluations = 600;
+  double between = 0.2;
 };
+
+SettingTable settings_of(TrajectoryConfig& config);
 
 /// One frame of a stretch and the poses found in it by searches that know only the frames before or after it.
 struct StretchFrame {

@@ -196,11 +196,11 @@ TEST(BestTrajectory, NoFramesGiveNoPoses) {
 }
 
 TEST(TrajectoryConfig, RefusesWhatIsOutOfRange) {
-  EXPECT_NO_THROW(TrajectoryConfig{}.validate());
+  EXPECT_NO_THROW(check_settings(TrajectoryConfig{}));
   const auto refused = [](const std::function<void(TrajectoryConfig&)>& change) {
     TrajectoryConfig config;
     change(config);
-    EXPECT_THROW(config.validate(), Error);
+    EXPECT_THROW(check_settings(config), Error);
   };
   refused([](auto& c) { c.stretch = 0; });
   refused([](auto& c) { c.overlap = -1; });
