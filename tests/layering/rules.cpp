@@ -20,8 +20,9 @@ constexpr std::size_t most_lines = 400;
 // Folders without sources of this project.
 constexpr std::array<std::string_view, 6> foreign = {".git",         "build", "out",
                                                      "node_modules", "dist",  ".cache"};
-constexpr std::array<std::string_view, 13> source_endings = {
-    ".h", ".cpp", ".cc", ".hpp", ".cmake", ".sh", ".py", ".ts", ".js", ".mjs", ".cl", ".inc", ".cu"};
+constexpr std::array<std::string_view, 15> source_endings = {".h",  ".cpp", ".cc", ".hpp", ".cmake",
+                                                             ".sh", ".py",  ".ts", ".js",  ".mjs",
+                                                             ".cl", ".inc", ".cu", ".css", ".html"};
 
 template <typename List>
 bool contains(const List& list, std::string_view item) {
