@@ -1,25 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
+import { fileURLToPath } from "node:url";
 import { defineConfig } from "vitest/config";
 
-// The program serves dist/ at "/". A further page gets its own line in `input`.
+// TELEMIME_MEETING=OFF builds the live page alone.
+const meeting = process.env.TELEMIME_MEETING !== "OFF";
+const root = fileURLToPath(new URL("..", import.meta.url));
+const program = "http://127.0.0.1:7070";
+
 export default defineConfig({
+  root,
+  publicDir: "web/public",
+  plugins: [
+    {
+      name: "pages-at-the-top", // the program serves web/dist at "/": index.html, meeting.html
+      enforce: "post",
+      generateBundle(_, bundle) {
+        for (const file of Object.values(bundle)) {
+          if (file.fileName.endsWith(".html")) file.fileName = file.fileName.replace(/.*\//, "");
+        }
+      },
+    },
+  ],
   build: {
     target: "es2022",
-    outDir: "dist",
-    assetsInlineLimit: 0, // the content security policy has no data: URLs for scripts and styles
+    outDir: "web/dist",
+    emptyOutDir: true,
+    assetsInlineLimit: 0, // the content security policy forbids data: URLs for scripts and styles
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1200,
-    rollupOptions: { input: { live: "index.html", room: "room.html" } },
+    rollupOptions: {
+      input: { live: "web/index.html", ...(meeting ? { meeting: "meeting/web/meeting.html" } : {}) },
+    },
   },
   worker: { format: "es" },
   server: {
     port: 7071,
+    watch: { ignored: ["**/build/**"] },
     proxy: {
-      "/ws": { target: "ws://127.0.0.1:7070", ws: true },
-      "/avatars": "http://127.0.0.1:7070",
-      "/recordings": "http://127.0.0.1:7070",
+      "/ws": { target: program, ws: true },
+      "/avatars": program,
+      "/recordings": program,
       "/room/enter": "http://127.0.0.1:7080",
     },
   },
-  test: { include: ["src/**/*.test.ts"], environment: "node", testTimeout: 20000 }, // on busy machines, too
+  test: {
+    include: ["web/src/**/*.test.ts", "meeting/web/src/**/*.test.ts"],
+    environment: "node",
+    testTimeout: 20000, // enough on a busy computer
+  },
 });

@@ -50,8 +50,8 @@ export function badAvatars(folder) {
   const files = [
     ["words.vrm", "this is no avatar at all", /not a VRM avatar/],
     ["empty.vrm", "", /too short/],
-    ["cut.vrm", good.subarray(0, good.length / 2), /broken or was cut off/],
-    ["unclosed.vrm", unclosed, /broken or was cut off/],
+    ["cut.vrm", good.subarray(0, good.length / 2), /broken or incomplete/],
+    ["unclosed.vrm", unclosed, /broken or incomplete/],
     ["outside.vrm", changed((j) => (j.accessors[0].count = 1e6)), /broken/],
     ["nowhere.vrm", changed((j) => (j.meshes[0].primitives[0].attributes.POSITION = 99)), /broken/],
     ["loop.vrm", changed((j) => (j.nodes[2].children = [0])), /broken/],

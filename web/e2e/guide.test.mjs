@@ -45,7 +45,7 @@ const following = async () => {
 };
 
 test("steps out, counts down, steps in, is followed", { timeout: 2 * PATIENCE }, async () => {
-  await title("Step out of the picture");
+  await title("Step out of view");
   assert.equal(await page.locator("#main").getAttribute("data-layout"), "guide");
   await tabTo(page, "#guide-count");
   await page.keyboard.press("Enter");
@@ -58,13 +58,13 @@ test("steps out, counts down, steps in, is followed", { timeout: 2 * PATIENCE },
   await title("Step in and face the camera");
   camera.show(person);
   await following();
-  assert.deepEqual(await steps(), ["Looking at the room", "Step in and face the camera", "Done"]);
+  assert.deepEqual(await steps(), ["Capturing the background", "Step in and face the camera", "Done"]);
   assert.match(program.heard.err, /background: the empty room/);
 });
 
 test("again, without the countdown", { timeout: 2 * PATIENCE }, async () => {
   await page.keyboard.press("g");
-  await title("Step out of the picture");
+  await title("Step out of view");
   camera.show(room);
   await listener.heard((m) => m.type === "status"); // the program has had pictures of the room since
   await listener.heard((m) => m.type === "status");
@@ -77,13 +77,13 @@ test("again, without the countdown", { timeout: 2 * PATIENCE }, async () => {
 
 test("again, and skipped with the person in the picture", { timeout: 2 * PATIENCE }, async () => {
   await page.keyboard.press("g");
-  await title("Step out of the picture");
+  await title("Step out of view");
   await tabTo(page, "#guide-skip");
   await steps();
   await page.keyboard.press("Enter");
   await following();
   const seen = await steps();
-  assert.ok(seen.includes("Looking at the room around you"), seen.join());
-  assert.ok(!seen.includes("Looking at the room"), "nobody was to stay out of the picture");
+  assert.ok(seen.includes("Capturing the background around you"), seen.join());
+  assert.ok(!seen.includes("Capturing the background"), "nobody was to stay out of the picture");
   assert.deepEqual(complaints, []);
 });

@@ -178,11 +178,11 @@ test("outputs come and go, wrong ones are refused in words", LONG, async () => {
     listener.heard(
       (m) => m.type === "status" && m.outputs.length === 1 && (m.outputs[0].state === "off") === is,
     );
-  await press("Stop sending to");
+  await press("Pause");
   await state(true);
-  await press("Send again to");
+  await press("Resume");
   await state(false);
-  await press("No longer send to");
+  await press("Remove");
   await listener.heard((m) => m.type === "status" && m.outputs.length === 0);
   await row.waitFor({ state: "detached" });
 });

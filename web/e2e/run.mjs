@@ -1,29 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of the tests beside this file, for ctest: node e2e/run.mjs guide. Without Chromium, ffmpeg or (for rooms) their
-// brokers they are skipped, with a word and status 77; where CI is set that is a failure.
+// Runs end-to-end tests for ctest: node web/e2e/run.mjs web/e2e/guide. A folder stands for all of its tests. Without Chromium,
+// ffmpeg or the broker of a meeting they are skipped with status 77; where CI is set that is a failure.
 
 import { spawnSync } from "node:child_process";
-import { existsSync } from "node:fs";
-import { hasMosquitto } from "../mock/broker.mjs";
-import { hasNats } from "../mock/cluster.mjs";
+import { existsSync, readdirSync } from "node:fs";
+
+const env = { ...process.env, PATH: `${process.env.PATH}:/usr/sbin` };
+const installed = (command, ...args) => !spawnSync(command, args, { env }).error;
 
 const chromium = process.env.TELEMIME_CHROMIUM ?? "/usr/bin/chromium";
+const tests = process.argv.slice(2).flatMap((path) =>
+  existsSync(path)
+    ? readdirSync(path)
+        .filter((name) => name.endsWith(".test.mjs"))
+        .map((name) => `${path}/${name}`)
+    : [`${path}.test.mjs`],
+);
 const missing = [];
-if (!existsSync(chromium)) missing.push(`Chromium (TELEMIME_CHROMIUM says where it is; now ${chromium})`);
-if (spawnSync("ffmpeg", ["-version"]).error) missing.push("ffmpeg");
+if (!existsSync(chromium)) missing.push(`Chromium (TELEMIME_CHROMIUM names it; now ${chromium})`);
+if (!installed("ffmpeg", "-version")) missing.push("ffmpeg");
+const meetings = tests.filter((t) => t.startsWith("meeting/"));
 if (
-  ["room", "room_host", "room_faults", "room_motion"].some((name) => process.argv.includes(name)) &&
-  !hasMosquitto()
+  meetings.some((t) => !t.includes("cluster")) &&
+  !installed(process.env.TELEMIME_MOSQUITTO ?? "mosquitto", "-h")
 )
-  missing.push("Mosquitto (TELEMIME_MOSQUITTO says where it is)");
-if (process.argv.includes("room_cluster") && !hasNats())
-  missing.push("nats-server (TELEMIME_NATS_SERVER says where it is)");
+  missing.push("Mosquitto (TELEMIME_MOSQUITTO names it)");
+if (
+  meetings.some((t) => t.includes("cluster")) &&
+  !installed(process.env.TELEMIME_NATS_SERVER ?? "nats-server", "--version")
+)
+  missing.push("nats-server (TELEMIME_NATS_SERVER names it)");
 if (missing.length > 0) {
   console.log(
-    `skipped: not installed here: ${missing.join(", ")}. scripts/deps.sh test installs what is missing.`,
+    `skipped, not installed: ${missing.join(", ")}. scripts/deps.sh test installs what is missing.`,
   );
   process.exit(process.env.CI ? 1 : 77);
 }
-const tests = process.argv.slice(2).map((name) => new URL(`${name}.test.mjs`, import.meta.url).pathname);
 const { status } = spawnSync(process.execPath, ["--test", ...tests], { stdio: "inherit" });
 process.exit(status ?? 1);

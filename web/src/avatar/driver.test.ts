@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { TrackedPose } from "../protocol";
-import { about, angleBetween, type Quat } from "../quaternion";
+import type { TrackedPose } from "../live/protocol";
+import { about, angleBetween, type Quat } from "../shared/quaternion";
 import { PoseDriver } from "./driver";
 import { foldMissing } from "./fold";
 

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the messages to what the avatar shows at this moment: eased between frames, at rest when the person is lost.
-// Knows no three.js: rotations go in and come out as those of a T-pose that faces +z.
+// From pose messages to the pose that the avatar shows now: eased between frames, at rest when the person is lost. It does
+// not use three.js: rotations are those from a T-pose that faces +z.
 
-import { IDENTITY, angleBetween, mix, slerp, type Quat, type Vec3 } from "../quaternion";
-import type { BodyMessage, Pose, TrackedPose } from "../protocol";
+import { IDENTITY, angleBetween, mix, slerp, type Quat, type Vec3 } from "../shared/quaternion";
+import type { BodyMessage, Pose, TrackedPose } from "../live/protocol";
 import { mirrorBones, mirrorPosition } from "./mirror";
 import { RestBlend, relaxedFingers, restPose } from "./rest";
 
 /**
- * Time constant of the easing to a new pose, s. It adds this much to the latency of a movement: at 60 Hz the first
- * picture has 88 % of the way, the second 98 %.
+ * Time constant of the easing to a new pose, s. It adds as much latency: at 60 Hz the first picture shows 88 % of a
+ * movement and the second 98 %.
  */
 export const EASE = 0.008;
-/** Without any pose for so long (the camera stopped, the connection is gone) the person counts as lost, s. */
+/** After this time without a pose (no camera, no connection) the person counts as lost, s. */
 export const SILENT = 0.8;
 
-const STILL = 2e-4; // rad and m: below it nothing can be seen to move
+const STILL = 2e-4; // rad or m: smaller changes are not visible
 
 export interface Shown {
   bones: Map<string, Quat>;
-  /** The way of the hips from where they are in the T-pose, as a part of their height. */
+  /** Displacement of the hips from the T-pose, as a fraction of their height. */
   hips: Vec3;
-  /** False when this is the same as the last time. */
+  /** False when nothing has changed since the last call. */
   moving: boolean;
-  /** The newest pose, when it is shown here for the first time. */
+  /** The newest pose, when this is the first call that shows it. */
   fresh: { frame: number; stamp: number } | null;
   /** 0 follows the person, 1 rests. */
   rest: number;
@@ -32,7 +32,7 @@ export interface Shown {
 export class PoseDriver {
   mirrored = false;
   still = false; // no breathing
-  /** Show each pose at once and as it is: for computers that cannot draw many pictures for a pose. */
+  /** Show each pose at once, without easing: for computers that cannot draw several pictures of a pose. */
   direct = false;
   private body: BodyMessage | null = null;
   private target: TrackedPose | null = null;
@@ -59,7 +59,7 @@ export class PoseDriver {
     }
   }
 
-  /** Nobody is tracked any more (the connection is gone or the start is guided anew). */
+  /** Nobody is tracked any more: the connection is lost, or the setup has been restarted. */
   setLost(): void {
     this.state = "lost";
     this.pending = null;
@@ -71,7 +71,7 @@ export class PoseDriver {
     const before = this.blend.weight;
     const tracked = this.state === "tracking" && now - this.arrived < SILENT;
     const rest = this.blend.update(now, tracked);
-    // While at rest there is nothing to ease from: the return itself is eased.
+    // At rest there is nothing to ease from: the return itself is gradual.
     const change = this.ease(before === 1 || this.direct ? Infinity : dt);
     const fresh = this.pending;
     this.pending = null;
@@ -96,7 +96,7 @@ export class PoseDriver {
     return { bones, hips, moving, fresh, rest };
   }
 
-  /** Moves the eased pose toward the newest; the largest change, rad or m. */
+  /** Moves the eased pose toward the newest one; returns the largest change, rad or m. */
   private ease(dt: number): number {
     if (!this.target) return 0;
     const k = 1 - Math.exp(-dt / EASE);
@@ -107,17 +107,17 @@ export class PoseDriver {
       change = Math.max(change, angleBetween(from, to));
       this.eased.set(bone, to);
     }
-    const hips = this.hipsWay(this.target.hips);
+    const hips = this.hipsDisplacement(this.target.hips);
     const to = mix(this.easedHips, hips, k);
     change = Math.max(change, Math.hypot(...to.map((v, i) => v - this.easedHips[i]!)));
     this.easedHips = to;
     return change;
   }
 
-  private hipsWay(hips: Vec3): Vec3 {
+  private hipsDisplacement(hips: Vec3): Vec3 {
     const home = this.body?.bones.get("hips");
     if (!home || !(home[1] > 0.1)) return [0, 0, 0];
-    // Bounded: a slip of the tracker must not throw the avatar out of the picture.
+    // Bounded: an error of the tracker must not move the avatar out of the picture.
     const part = (i: 0 | 1 | 2) => Math.max(-2, Math.min(2, (hips[i] - home[i]) / home[1]));
     return [part(0), part(1), part(2)];
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatars may do without some bones (chest, neck, shoulders): their rotation then goes to the bones that hang on them.
+// Avatars may lack optional bones (chest, neck, shoulders). Their rotations are passed on to the bones below them.
 
-import { IDENTITY, multiply, type Quat } from "../quaternion";
+import { IDENTITY, multiply, type Quat } from "../shared/quaternion";
 
 const PARENT: Readonly<Record<string, string>> = {
   spine: "hips",
@@ -19,7 +19,7 @@ const PARENT: Readonly<Record<string, string>> = {
   rightHand: "rightLowerArm",
 };
 
-/** The rotations for a skeleton that has only the bones for which `has` is true. */
+/** Rotations for a skeleton that has only the bones for which `has` is true. */
 export function foldMissing(
   bones: ReadonlyMap<string, Quat>,
   has: (bone: string) => boolean,

@@ -58,7 +58,7 @@ describe("a look at avatar files", () => {
     expect(() => inspect(new ArrayBuffer(100))).toThrow("not a VRM avatar");
     expect(() => inspect(file("{broken"))).toThrow("broken");
     expect(() => inspect(file({ nodes: [] }))).toThrow("not a VRM avatar");
-    expect(() => inspect(file(vrm1()).slice(0, 200))).toThrow("cut off");
+    expect(() => inspect(file(vrm1()).slice(0, 200))).toThrow("incomplete");
     expect(() => inspect(file({ ...vrm1(), images: [{ uri: "http://x/y.png" }] }))).toThrow("other files");
   });
   it("names the compression that the page cannot read", () => {
@@ -70,7 +70,9 @@ describe("a look at avatar files", () => {
       "KHR_meshopt_compression",
       "KHR_texture_basisu",
     ]) {
-      expect(() => inspect(needs("VRMC_vrm", name))).toThrow(`cannot read (${name}). Export it without.`);
+      expect(() => inspect(needs("VRMC_vrm", name))).toThrow(
+        `cannot read (${name}). Export it without compression.`,
+      );
     }
     expect(() => inspect(needs("KHR_texture_basisu", "KHR_draco_mesh_compression"))).toThrow(
       "(KHR_draco_mesh_compression, KHR_texture_basisu)",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A look at a file before it is given to the 3-D library: is it an avatar that can be driven? If not, why, in words.
+// Checks a file before the 3-D library gets it: whether it is an avatar that can be driven, and if not, why.
 
 export const MAX_BYTES = 200 * 1024 * 1024;
 
-/** What VRM 1.0 requires; VRM 0.x files have them all. */
+/** The bones that VRM 1.0 requires; VRM 0.x files have them too. */
 export const REQUIRED_BONES = [
   "hips",
   "spine",
@@ -28,7 +28,7 @@ export interface Facts {
   author: string;
 }
 
-/** Why a file cannot be an avatar; `message` is for the person to read. */
+/** Why a file cannot be used as an avatar; the page shows `message`. */
 export class AvatarError extends Error {}
 
 type Json = Record<string, unknown>;
@@ -42,21 +42,21 @@ export function checkSize(bytes: number): void {
   }
 }
 
-/** The bone as people say it: "left upper arm". */
+/** A bone name in words: "left upper arm". */
 export function boneWords(bone: string): string {
   return bone.replace(/[A-Z]/g, (c) => " " + c.toLowerCase());
 }
 
 /** The JSON of a binary glTF file; throws AvatarError. */
 export function readJson(data: ArrayBuffer): Json {
-  const broken = "The file is broken or was cut off. Try to export or download it again.";
+  const broken = "The file is broken or incomplete. Export or download it again.";
   if (data.byteLength < 20) throw new AvatarError("This is not a VRM avatar: the file is too short.");
   const view = new DataView(data);
   if (view.getUint32(0, true) !== 0x46546c67) {
     throw new AvatarError("This is not a VRM avatar. Choose a file that ends in .vrm.");
   }
   if (view.getUint32(4, true) !== 2)
-    throw new AvatarError("This file is in an old form of glTF that cannot be read.");
+    throw new AvatarError("This file uses an old version of glTF that is not supported.");
   const length = view.getUint32(12, true);
   if (view.getUint32(8, true) > data.byteLength || 20 + length > data.byteLength)
     throw new AvatarError(broken);
@@ -65,7 +65,7 @@ export function readJson(data: ArrayBuffer): Json {
     const json: unknown = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 20, length)));
     if (isObject(json)) return json;
   } catch {
-    // said below
+    // Reported below.
   }
   throw new AvatarError(broken);
 }
@@ -76,15 +76,15 @@ function refuseOutsideFiles(json: Json): void {
     if (!Array.isArray(items)) continue;
     for (const item of items) {
       if (isObject(item) && typeof item.uri === "string" && !item.uri.startsWith("data:")) {
-        throw new AvatarError("This avatar needs other files beside it. Export it as one single .vrm file.");
+        throw new AvatarError("This avatar refers to other files. Export it as a single .vrm file.");
       }
     }
   }
 }
 
 /**
- * What the 3-D library cannot build without a decoder, which the page has none of: they are WebAssembly, and the content
- * security policy lets none in. Of other extensions it only warns. Draco fails also where it is not required.
+ * Extensions that the 3-D library needs a decoder for. The page has none: decoders are WebAssembly, which its content
+ * security policy forbids. Other extensions only cause warnings. Draco fails even where it is not required.
  */
 const COMPRESSIONS: readonly { name: string; where: "extensionsUsed" | "extensionsRequired" }[] = [
   { name: "KHR_draco_mesh_compression", where: "extensionsUsed" },
@@ -103,7 +103,7 @@ function refuseCompression(json: Json): void {
   );
   if (found.length === 0) return;
   throw new AvatarError(
-    `This file uses compression that the page cannot read (${found.join(", ")}). Export it without.`,
+    `This file uses a compression that the page cannot read (${found.join(", ")}). Export it without compression.`,
   );
 }
 
@@ -131,14 +131,14 @@ function bonesOf(json: Json, version: "0" | "1"): Set<string> {
   return found;
 }
 
-/** What kind of avatar this is; throws AvatarError when it is none that can be driven. */
+/** Version and author of the avatar; throws AvatarError when it cannot be driven. */
 export function inspect(data: ArrayBuffer): Facts {
   checkSize(data.byteLength);
   const json = readJson(data);
   const extensions = isObject(json.extensions) ? json.extensions : {};
   const version = isObject(extensions.VRMC_vrm) ? "1" : isObject(extensions.VRM) ? "0" : null;
   if (!version)
-    throw new AvatarError("This is a 3-D model, but not a VRM avatar: it does not say which bone is which.");
+    throw new AvatarError("This is a 3-D model, but not a VRM avatar: its bones are not assigned.");
   refuseOutsideFiles(json);
   refuseCompression(json);
   const bones = bonesOf(json, version);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A VRM file to an avatar that stands in the scene, facing +z.
+// Builds an avatar from a VRM file. It stands in the scene and faces +z.
 
 import { VRMLoaderPlugin, VRMUtils, type VRM, type VRMHumanBoneName } from "@pixiv/three-vrm";
 import {
@@ -13,29 +13,29 @@ import {
   type Object3D,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import { drawsInSoftware } from "../graphics";
-import type { Quat, Vec3 } from "../quaternion";
+import { drawsInSoftware } from "../shared/graphics";
+import type { Quat, Vec3 } from "../shared/quaternion";
 import { foldMissing } from "./fold";
 import { AvatarError, inspect, type Facts } from "./inspect";
 
 export interface BoneReading {
   /** Rotation parent from bone of the normalised skeleton (T-pose, facing +z), as in a pose message. */
   local: Quat;
-  /** Turn of the file's own bone since the T-pose, in the world (y up, the avatar faces +z). */
+  /** Rotation of the file's own bone from the T-pose, in world axes (y up, the avatar faces +z). */
   world: Quat;
-  /** Of the file's own bone, m, in the world. */
+  /** Position of the file's own bone, m, world. */
   position: Vec3;
 }
 
 export class Avatar {
   readonly scene: Object3D;
   readonly hipHeight: number; // m
-  readonly headHeight: number; // m: the head bone
+  readonly headHeight: number; // m, of the head bone
   readonly top: number; // m
   readonly hasSprings: boolean;
   private readonly restWorld = new Map<string, Quaternion>();
   private readonly restHips: Vector3;
-  /** VRM 0.x faces -z in its own frame: x and z change sign. */
+  /** VRM 0.x faces -z in its own frame: the signs of x and z change. */
   private readonly flip: 1 | -1;
 
   constructor(
@@ -66,7 +66,7 @@ export class Avatar {
     return Object.keys(this.vrm.humanoid.humanBones) as VRMHumanBoneName[];
   }
 
-  /** `hips`: the way from the T-pose as a part of the hips' height; `dt` in seconds, for hair and clothes. */
+  /** `hips`: displacement from the T-pose as a fraction of the hips' height. `dt`: time step of hair and clothes, s. */
   show(bones: ReadonlyMap<string, Quat>, hips: Vec3, dt: number): void {
     const f = this.flip;
     for (const [bone, q] of foldMissing(bones, (b) => this.node(b) !== null)) {
@@ -81,24 +81,24 @@ export class Avatar {
     this.vrm.update(dt);
   }
 
-  /** After the avatar was put elsewhere at once: hair and clothes hang as if it had always been there. */
+  /** Call it after the avatar has been moved at once: hair and clothes come to rest. */
   resetSprings(): void {
     this.vrm.scene.updateMatrixWorld(true);
     this.vrm.springBoneManager?.reset();
   }
 
-  /** Hides the head and what hangs on it, for pictures from the avatar's own eyes. */
+  /** Hides the head and what is attached to it, for pictures from the avatar's eyes. */
   set headless(on: boolean) {
-    // What follows the head's bone shrinks to a point inside of the neck. Poses do not change its size.
+    // The head shrinks to a point inside the neck. Poses do not change the scale.
     this.vrm.humanoid.getRawBoneNode("head")!.scale.setScalar(on ? 1e-4 : 1);
   }
 
-  /** Where the head's joint is now; m, world. */
+  /** Position of the head bone, m, world. */
   headPosition(out: Vector3): Vector3 {
     return this.vrm.humanoid.getRawBoneNode("head")!.getWorldPosition(out);
   }
 
-  /** Where the hips are now; m, world. */
+  /** Position of the hips, m, world. */
   hipsPosition(out: Vector3): Vector3 {
     return this.vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(out);
   }
@@ -127,40 +127,17 @@ export class Avatar {
   }
 }
 
-/** The same colours without gloss, at a part of the cost. Toon materials stay: they are much of how an avatar looks. */
+/** The same colours without gloss, which costs less. Toon materials stay: they define how an avatar looks. */
 function cheap(material: Material | Material[]): Material | Material[] {
   if (Array.isArray(material)) return material.map((m) => cheap(m) as Material);
   if (!(material instanceof MeshStandardMaterial)) return material;
-  const {
-    color,
-    map,
-    emissive,
-    emissiveMap,
-    alphaMap,
-    alphaTest,
-    transparent,
-    opacity,
-    side,
-    vertexColors,
-    name,
-  } = material;
-  const out = new MeshLambertMaterial({
-    color,
-    map,
-    emissive,
-    emissiveMap,
-    alphaMap,
-    alphaTest,
-    transparent,
-    opacity,
-    side,
-    vertexColors,
-  });
-  out.name = name;
-  return out;
+  const { color, map, emissive, emissiveMap, alphaMap, name } = material; // its textures and colours
+  const { alphaTest, transparent, opacity, side, vertexColors } = material;
+  const colours = { color, map, emissive, emissiveMap, alphaMap, vertexColors };
+  return new MeshLambertMaterial({ ...colours, alphaTest, transparent, opacity, side, name });
 }
 
-/** Throws AvatarError, in words, when the file cannot be used. */
+/** Throws AvatarError when the file cannot be used. */
 export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
   const facts = inspect(data);
   const loader = new GLTFLoader();
@@ -173,7 +150,7 @@ export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
     VRMUtils.rotateVRM0(vrm);
     VRMUtils.combineSkeletons(gltf.scene);
     vrm.scene.traverse((o) => {
-      o.frustumCulled = false; // bounds are those of the T-pose
+      o.frustumCulled = false; // the bounds are those of the T-pose
       if (drawsInSoftware() && o instanceof Mesh) o.material = cheap(o.material);
     });
     return new Avatar(vrm, facts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { about, multiply, rotate, type Quat } from "../quaternion";
+import { about, multiply, rotate, type Quat } from "../shared/quaternion";
 import { mirrorBone, mirrorBones, mirrorPosition, mirrorRotation } from "./mirror";
 
 describe("the mirror", () => {

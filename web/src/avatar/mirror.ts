@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pose seen in a mirror: reflected in the body's own plane x = 0, so that left and right change places.
+// The mirror image of a pose: reflected in the body's plane x = 0, with left and right exchanged.
 
-import type { Quat, Vec3 } from "../quaternion";
+import type { Quat, Vec3 } from "../shared/quaternion";
 
-/** leftHand <-> rightHand; bones in the middle keep their name. */
+/** leftHand becomes rightHand and the reverse; bones in the middle keep their names. */
 export function mirrorBone(bone: string): string {
   if (bone.startsWith("left")) return "right" + bone.slice(4);
   if (bone.startsWith("right")) return "left" + bone.slice(5);
   return bone;
 }
 
-/** M R M with M = diag(-1, 1, 1): turning about x stays, turning about y and z is reversed. */
+/** M R M with M = diag(-1, 1, 1): rotations about x stay, rotations about y and z are reversed. */
 export function mirrorRotation(q: Quat): Quat {
   return [q[0], -q[1], -q[2], q[3]];
 }

@@ -1,30 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// A canvas that is drawn in 3-D, in the size of its box: fine on computers that can, coarser where a picture takes long.
+// A canvas that three.js draws on, as large as its box. On slow computers it is drawn coarser, and without a graphics card
+// less often.
 
 import { Color, WebGLRenderer, type Camera, type Scene } from "three";
-import { drawsInSoftware } from "../graphics";
+import { drawsInSoftware } from "../shared/graphics";
 import { Resolution } from "./resolution";
 
+/** Without a graphics card: least time between two pictures, s, and the part of a picture's own time that follows it. */
+const SOFTWARE_INTERVAL = 1 / 20;
+const SOFTWARE_PAUSE = 0.5;
+
 export class Painter {
-  /** Every picture costs a lot: fewer and coarser ones. */
-  readonly software: boolean;
+  /** The browser emulates the graphics card. */
+  readonly software = drawsInSoftware();
   readonly renderer: WebGLRenderer;
+  /** How long the last picture took, s. Measured without a graphics card only. */
+  took = 0;
   private readonly resolution: Resolution;
   private contextLost = false;
   private draws = 0;
   private fence: WebGLSync | null = null;
-  private readonly pixel = new Uint8Array(4);
+  private begun: number | null = null; // the picture that the fence belongs to
+  private next = 0;
 
   /**
-   * Throws when the browser has no WebGL. `changed`: a new picture is needed, as the size or the context is a new one;
-   * `aspect` is width to height. It is not called by the constructor.
+   * Throws when the browser has no WebGL. `changed` is called when the size or the context has changed and a new picture is
+   * needed; `aspect` is width to height. The constructor does not call it.
    */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly box: HTMLElement,
     private readonly changed: (aspect: number) => void,
   ) {
-    this.software = drawsInSoftware();
     this.renderer = new WebGLRenderer({
       canvas,
       antialias: !this.software,
@@ -53,9 +60,33 @@ export class Painter {
     return this.renderer.getPixelRatio();
   }
 
-  /** Nothing can be drawn now. */
+  /** Nothing can be drawn at the moment. */
   get blind(): boolean {
     return this.contextLost;
+  }
+
+  /** The last picture is still being drawn. Always false with a graphics card, which takes a few milliseconds. */
+  get busy(): boolean {
+    if (!this.fence || this.contextLost) return false;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+    gl.deleteSync(this.fence);
+    this.fence = null;
+    return false;
+  }
+
+  /**
+   * Whether the next picture may begin at `now` (s): always with a graphics card. Without one, pictures do not queue up, and
+   * the page and the tracker get processor time between them.
+   */
+  ready(now: number): boolean {
+    if (this.busy) return false;
+    if (this.begun !== null) {
+      this.took = now - this.begun;
+      this.next = Math.max(this.begun + SOFTWARE_INTERVAL, now + SOFTWARE_PAUSE * this.took);
+      this.begun = null;
+    }
+    return now >= this.next;
   }
 
   resize(): void {
@@ -66,44 +97,23 @@ export class Painter {
     this.changed(w / h);
   }
 
-  /**
-   * Waits until the last picture is drawn, where the browser draws in software: else pictures would queue up. With a
-   * graphics card that takes few milliseconds, and nobody waits.
-   */
-  settle(): void {
-    if (!this.software || this.contextLost) return;
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.pixel);
+  /** Draws at `now`, s. `since`: time since the last picture, s; null after a pause, which says nothing about the speed. */
+  draw(scene: Scene, camera: Camera, now: number, since: number | null): void {
+    this.renderer.render(scene, camera);
+    this.draws++;
+    if (since !== null && this.resolution.drew(since * 1000)) {
+      this.resize(); // which clears the canvas
+      this.renderer.render(scene, camera);
+    }
+    if (this.software && !this.contextLost) this.watch(now);
   }
 
-  /**
-   * Whether the last picture is still being drawn, where the browser draws in software. As settle(), but it does not
-   * hold up the page: to be asked again. Elsewhere never.
-   */
-  get busy(): boolean {
-    const gl = this.renderer.getContext() as WebGL2RenderingContext;
-    if (!this.fence || this.contextLost) return false;
-    if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
-    gl.deleteSync(this.fence);
-    this.fence = null;
-    return false;
-  }
-
-  /** After a picture: busy tells when it is there. */
-  watch(): void {
-    if (!this.software || this.contextLost) return;
+  /** `busy` is true until all that was drawn up to here is there. */
+  private watch(now: number): void {
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
     if (this.fence) gl.deleteSync(this.fence);
     this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl.flush();
-  }
-
-  /** `since`: time since the last picture when the one before was drawn, too, s; null after a pause. */
-  draw(scene: Scene, camera: Camera, since: number | null): void {
-    this.renderer.render(scene, camera);
-    this.draws++;
-    if (since === null || !this.resolution.drew(since * 1000)) return;
-    this.resize(); // which clears the canvas
-    this.renderer.render(scene, camera);
+    this.begun = now;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { angleBetween, rotate } from "../quaternion";
+import { angleBetween, rotate } from "../shared/quaternion";
 import { mirrorBones } from "./mirror";
 import { RestBlend, restPose } from "./rest";
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the avatar does while nobody is tracked: it lets the arms hang and breathes.
+// The pose of the avatar while nobody is tracked: the arms hang, and it breathes.
 
-import { about, multiply, type Quat } from "../quaternion";
+import { about, multiply, type Quat } from "../shared/quaternion";
 import { mirrorBone, mirrorRotation } from "./mirror";
 
 const DEGREE = Math.PI / 180;
 
 /**
- * The rest pose at `seconds`, as rotations from the T-pose (facing +z, left arm along +x).
- * `breath` is 0 (still) to 1.
+ * The rest pose at `seconds`, as rotations from the T-pose (facing +z, left arm along +x). `breath`: 0 (still) to 1.
  */
 export function restPose(seconds: number, breath: number): Map<string, Quat> {
   const b = breath * Math.sin((2 * Math.PI * seconds) / 4.2);
@@ -26,7 +25,7 @@ export function restPose(seconds: number, breath: number): Map<string, Quat> {
   return pose;
 }
 
-/** Fingers a little bent, so that hands do not look like boards; nobody tracks them. */
+/** Slightly bent fingers, which are not tracked. */
 export function relaxedFingers(): Map<string, Quat> {
   const pose = new Map<string, Quat>();
   const bend: Record<string, number> = { Index: 12, Middle: 15, Ring: 18, Little: 20 };
@@ -40,18 +39,18 @@ export function relaxedFingers(): Map<string, Quat> {
   return pose;
 }
 
-export const LOST_DELAY = 0.3; // s before anything is seen of a loss
+export const LOST_DELAY = 0.3; // s before a loss becomes visible
 export const LEAVE = 1.0; // s to come to rest
-export const RETURN = 0.3; // s to be back
+export const RETURN = 0.3; // s to return
 
-/** How an avatar comes to rest: how long it waits with it, how long it takes to get there and back; s. */
+/** How an avatar comes to rest: delay, and durations of the way there and back; s. */
 export interface RestTimes {
   delay: number;
   leave: number;
   back: number;
 }
 
-/** How far the avatar has come to rest: 0 follows the person, 1 rests. */
+/** The weight of the rest pose: 0 follows the person, 1 rests. */
 export class RestBlend {
   private raw = 1;
   private last: number | null = null;
@@ -61,7 +60,7 @@ export class RestBlend {
     this.lostFor = times.delay;
   }
 
-  /** `now` in seconds; `tracked`: whether the person is seen at this moment. */
+  /** `now` in seconds; `tracked`: whether the person is tracked now. */
   update(now: number, tracked: boolean): number {
     const dt = this.last === null ? 0 : Math.max(0, now - this.last);
     this.last = now;

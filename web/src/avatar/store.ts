@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The user's own avatar files, kept in this browser (IndexedDB). Nothing is sent anywhere.
+// The user's avatar files, stored in this browser (IndexedDB). They are not sent anywhere.
 
 export interface StoredAvatar {
   id: string;
@@ -13,7 +13,7 @@ export type StoredEntry = Omit<StoredAvatar, "data">;
 const DATABASE = "telemime";
 const FILES = "avatar-files"; // id -> StoredAvatar
 const ENTRIES = "avatar-list"; // id -> StoredEntry: the list does not read the files
-const MOST = 8;
+const MAX_FILES = 8;
 
 function done<T>(request: IDBRequest<T>): Promise<T> {
   return new Promise((resolve, reject) => {
@@ -45,7 +45,7 @@ async function change(what: (files: IDBObjectStore, entries: IDBObjectStore) => 
   }
 }
 
-/** Oldest first; an empty list when the browser keeps nothing (private window). */
+/** Oldest first; empty when the browser stores nothing (private window). */
 export async function listAvatars(): Promise<StoredEntry[]> {
   try {
     const db = await open();
@@ -71,12 +71,12 @@ export async function getAvatar(id: string): Promise<StoredAvatar | null> {
   }
 }
 
-/** Keeps the file; one of the same name is replaced, and beyond 8 the oldest goes. Throws when there is no room. */
+/** Stores the file. It replaces one of the same name; of more than 8 the oldest is removed. Throws without space. */
 export async function putAvatar(name: string, data: ArrayBuffer): Promise<StoredEntry> {
   const id = `${Date.now().toString().padStart(15, "0")}-${Math.random().toString(36).slice(2, 8)}`;
   const entry: StoredEntry = { id, name, bytes: data.byteLength };
   const before = await listAvatars();
-  const gone = before.filter((e, i) => e.name === name || i < before.length - (MOST - 1));
+  const gone = before.filter((e, i) => e.name === name || i < before.length - (MAX_FILES - 1));
   await change((files, entries) => {
     for (const e of gone) {
       files.delete(e.id);

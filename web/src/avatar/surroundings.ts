@@ -1,50 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light and floor around the avatar, for graphics cards and as numbers for where there is none.
+// Light, floor and shadow.
 
 import {
+  CanvasTexture,
   CircleGeometry,
   DirectionalLight,
   HemisphereLight,
+  LinearFilter,
   Mesh,
   MeshBasicMaterial,
-  type Light as SceneLight,
+  SRGBColorSpace,
+  type Light,
 } from "three";
-import { formulaOf, type Dome, type Lamp } from "./light";
-import type { Spot } from "./raster";
-import { spot } from "./spot";
 
-const DOME: Dome = { sky: 0xffffff, ground: 0x8a8f98, power: 1.35 };
-const KEY: Lamp = { colour: 0xffffff, power: 2.2, from: [0.8, 1.6, 2.2] };
-const RIM: Lamp = { colour: 0xdfe9ff, power: 0.7, from: [-1.5, 1.2, -1.8] };
-
-export const LIGHT = formulaOf(DOME, KEY, RIM);
-export const FLOOR: Spot = { x: 0, y: 0, z: 0, radius: 1.3, core: 8 / 64, alpha: 0.16, grey: 255 };
-/** It follows the hips. */
-export const SHADOW: Spot = { x: 0, y: 0.002, z: 0, radius: 0.42, core: 2 / 64, alpha: 0.55, grey: 0 };
-
-export function lights(): SceneLight[] {
-  const lamp = ({ colour, power, from }: Lamp): DirectionalLight => {
-    const light = new DirectionalLight(colour, power);
-    light.position.set(...from);
-    return light;
-  };
-  return [new HemisphereLight(DOME.sky, DOME.ground, DOME.power), lamp(KEY), lamp(RIM)];
+/** A soft round spot as a texture: `colour` within `core` (0 to 1 of the radius), then fading out. */
+export function spotTexture(colour: string, core: number): CanvasTexture {
+  const c = document.createElement("canvas");
+  c.width = c.height = 128;
+  const g = c.getContext("2d")!;
+  const gradient = g.createRadialGradient(64, 64, 64 * core, 64, 64, 64);
+  gradient.addColorStop(0, `rgb(${colour})`);
+  gradient.addColorStop(1, `rgb(${colour} / 0)`);
+  g.fillStyle = gradient;
+  g.fillRect(0, 0, 128, 128);
+  const t = new CanvasTexture(c);
+  t.colorSpace = SRGBColorSpace;
+  t.generateMipmaps = false; // it is soft at any size
+  t.minFilter = LinearFilter;
+  return t;
 }
 
-/** `order`: what is lower is drawn earlier. */
-export function spotMesh(s: Spot, order: number): Mesh {
-  const colour = (alpha: number): string => `rgba(${s.grey},${s.grey},${s.grey},${alpha})`;
+/** A spot that lies on the floor. `order`: lower ones are drawn first. */
+function spot(map: CanvasTexture, radius: number, opacity: number, order: number): Mesh {
   const mesh = new Mesh(
-    new CircleGeometry(s.radius, 48),
-    new MeshBasicMaterial({
-      map: spot(colour(1), colour(0), 64 * s.core),
-      opacity: s.alpha,
-      transparent: true,
-      depthWrite: false,
-    }),
+    new CircleGeometry(radius, 48),
+    new MeshBasicMaterial({ map, opacity, transparent: true, depthWrite: false }),
   );
   mesh.rotation.x = -Math.PI / 2;
-  mesh.position.set(s.x, s.y, s.z);
   mesh.renderOrder = order;
   return mesh;
 }
+
+export const floor = (): Mesh => spot(spotTexture("255 255 255", 8 / 64), 1.3, 0.16, -2);
+
+/** The shadow below the avatar. */
+export function shadow(): Mesh {
+  const mesh = spot(spotTexture("0 0 0", 2 / 64), 0.42, 0.55, -1);
+  mesh.position.y = 0.002;
+  return mesh;
+}
+
+/** A lamp far away in the direction `from`. */
+export function lamp(
+  colour: number,
+  power: number,
+  from: readonly [number, number, number],
+): DirectionalLight {
+  const light = new DirectionalLight(colour, power);
+  light.position.set(...from);
+  return light;
+}
+
+export const lights = (): Light[] => [
+  new HemisphereLight(0xffffff, 0x8a8f98, 1.35),
+  lamp(0xffffff, 2.2, [0.8, 1.6, 2.2]),
+  lamp(0xdfe9ff, 0.7, [-1.5, 1.2, -1.8]),
+];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// window.telemime: what the page shows at this moment, to be read by tests. It changes nothing.
+// window.telemime: what the page shows at this moment, for tests. Reading it changes nothing.
 
 import type { BoneReading } from "../avatar/load";
-import type { Pose } from "../protocol";
 import type { AvatarInfo } from "../ui/avatars";
+import type { Pose } from "./protocol";
 
 export interface Debug {
   /** The program's phase, or "connecting", "disconnected". */
@@ -18,8 +18,8 @@ export interface Debug {
    */
   readonly counters: Record<string, number>;
   /**
-   * The avatar's bones as they stand now (what was drawn last), by their VRM 1.0 names: `local` as in the pose message
-   * (of a mirrored avatar: mirrored), `world` and `position` from the file's own bones.
+   * The avatar's bones as drawn last, by their VRM 1.0 names: `local` as in the pose message (mirrored when the avatar is),
+   * `world` and `position` from the file's own bones.
    */
   boneRotations(): Record<string, BoneReading>;
 }
@@ -30,38 +30,18 @@ declare global {
   }
 }
 
-function plain(pose: Pose | null): Record<string, unknown> | null {
+/** A pose with its maps as plain objects. */
+export function plain(pose: Pose | null): Record<string, unknown> | null {
   if (!pose) return null;
   return Object.fromEntries(
-    Object.entries(pose).map(([k, v]) => [
+    Object.entries(pose).map(([k, value]: [string, unknown]) => [
       k,
-      v instanceof Map ? Object.fromEntries(v as Map<string, unknown>) : v,
+      value instanceof Map ? Object.fromEntries(value as Map<string, unknown>) : value,
     ]),
   );
 }
 
-export function exposeDebug(from: {
-  phase: () => string;
-  lastPose: () => Pose | null;
-  avatar: () => AvatarInfo | null;
-  read: () => Record<string, BoneReading>;
-  counters: () => Record<string, number>;
-}): void {
-  const surface: Debug = Object.freeze({
-    get phase() {
-      return from.phase();
-    },
-    get lastPose() {
-      return plain(from.lastPose());
-    },
-    get avatar() {
-      const a = from.avatar();
-      return a && { ...a };
-    },
-    get counters() {
-      return from.counters();
-    },
-    boneRotations: from.read,
-  });
-  Object.defineProperty(window, "telemime", { value: surface });
+/** `from` has getters, so that each reading is up to date. */
+export function exposeDebug(from: Debug): void {
+  Object.defineProperty(window, "telemime", { value: Object.freeze(from) });
 }

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Once for each picture of the screen: avatar first, then the flat views; then `drawn` for the program.
+// In each animation frame: the avatar first, then the flat views. Each pose that was drawn is reported to the program.
 
 import type { PoseDriver } from "../avatar/driver";
 import type { Avatar } from "../avatar/load";
 import type { Stage } from "../avatar/stage";
-import type { Command } from "../protocol";
-import { byId } from "../ui/dom";
+import { byId } from "../shared/dom";
 import type { CameraView } from "../views/camera";
 import type { TopView } from "../views/top";
+import type { Command } from "./protocol";
+
+interface Stamped {
+  frame: number;
+  stamp: number;
+}
 
 export class Loop {
   private stage: Stage | null = null;
@@ -16,22 +21,19 @@ export class Loop {
   private ticks = 0;
   private drawnSent = 0;
   private readonly after = new MessageChannel();
-  private drawn: { frame: number; stamp: number } | null = null;
+  private fresh: Stamped | null = null; // the newest pose that is not drawn yet
+  private drawn: Stamped | null = null; // drawn and not reported yet
 
+  /** `complain` shows an error to the user. */
   constructor(
     private readonly driver: PoseDriver,
     private readonly camera: CameraView,
     private readonly top: TopView,
-    send: (c: Command) => boolean,
+    private readonly send: (c: Command) => boolean,
     private readonly complain: (words: string) => void,
   ) {
-    // A task of its own, after the picture has been handed over.
-    this.after.port1.onmessage = () => {
-      this.stage?.settle();
-      const d = this.drawn;
-      this.drawn = null;
-      if (d && send({ type: "drawn", ...d })) this.drawnSent++;
-    };
+    // A separate task: it runs after the picture has been handed over.
+    this.after.port1.onmessage = () => this.report();
     void this.openStage();
   }
 
@@ -40,7 +42,7 @@ export class Loop {
     const loaded = await import("../avatar/stage").catch(() => null);
     if (this.stage) return this.stage;
     if (!loaded) {
-      this.complain("The part of this page that draws the avatar did not load: load the page again.");
+      this.complain("The 3-D part of this page could not be loaded. Reload the page.");
       return null;
     }
     try {
@@ -48,9 +50,7 @@ export class Loop {
       this.stage = new loaded.Stage(canvas, view);
       this.driver.direct = this.stage.software;
     } catch {
-      this.complain(
-        "This browser cannot draw in 3-D (WebGL is off): the avatar is not shown. All else works.",
-      );
+      this.complain("The avatar cannot be shown: WebGL is off in this browser. Everything else works.");
     }
     return this.stage;
   }
@@ -59,7 +59,7 @@ export class Loop {
     return this.stage?.current ?? null;
   }
 
-  /** Numbers for tests and for the curious. `shown`: the frame of the newest pose that was drawn. */
+  /** For tests; see Debug.counters. */
   get counters(): Record<string, number> {
     return {
       ticks: this.ticks,
@@ -91,13 +91,22 @@ export class Loop {
   }
 
   private showAvatar(): void {
+    this.report();
     const now = performance.now() / 1000;
     const shown = this.driver.step(now);
     this.rest = shown.rest;
-    const rendered = this.stage?.draw(shown, now) ?? false;
-    if (!rendered || !shown.fresh) return;
-    this.lastShown = shown.fresh.frame;
-    this.drawn = { frame: shown.fresh.frame, stamp: shown.fresh.stamp };
+    this.fresh = shown.fresh ?? this.fresh;
+    if (!this.stage?.draw(shown, now) || !this.fresh) return;
+    this.lastShown = this.fresh.frame;
+    this.drawn = { frame: this.fresh.frame, stamp: this.fresh.stamp };
+    this.fresh = null;
     this.after.port2.postMessage(null);
+  }
+
+  /** Reports the last pose once its picture is complete. */
+  private report(): void {
+    if (!this.drawn || this.stage?.busy) return;
+    if (this.send({ type: "drawn", ...this.drawn })) this.drawnSent++;
+    this.drawn = null;
   }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Addresses of outputs.
 
-/** Like the program's limit. */
-export const LONGEST_ADDRESS = 2000;
+/** The limit of the program. */
+export const MAX_ADDRESS = 2000;
 
 /**
- * The address as the program shows it: without the password of a user, or the secret of a room's link.
- * The same as without_password in src/telemime/network/url.cpp.
+ * The address as the program shows it: without a user's password, or the secret of a meeting's link.
+ * The same as without_password in src/telemime/streaming/url.cpp.
  */
 export function withoutPassword(given: string): string {
   const secret = given.indexOf(/^http/i.test(given) ? "#" : "#k=");
@@ -19,7 +19,7 @@ export function withoutPassword(given: string): string {
   const colon = url.indexOf(":", start);
   let at = url.slice(0, end).lastIndexOf("@");
   if (at < start) {
-    // No user in the right place. A password with a "/" in it would be one in the wrong place.
+    // There is no user before the host. A password that contains "/" ends behind it.
     const hostAndPath = colon < 0 || colon > end || /^[0-9]+$/.test(url.slice(colon + 1, end));
     at = hostAndPath && !/^mqtt/i.test(url) ? -1 : url.lastIndexOf("@");
   }

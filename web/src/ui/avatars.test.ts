@@ -3,13 +3,13 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { AvatarError } from "../avatar/inspect";
 import type { Avatar } from "../avatar/load";
 import { Avatars } from "./avatars";
-import { fakeDocument } from "./testing_dom";
+import { fakeDocument } from "../shared/testing_dom";
 
 vi.mock("../avatar/store", () => ({
   listAvatars: async () => [],
   putAvatar: async () => ({ id: "1" }),
 }));
-vi.mock("../graphics", () => ({ drawsInSoftware: () => false }));
+vi.mock("../shared/graphics", () => ({ drawsInSoftware: () => false }));
 
 let asked: string[]; // looks of the program
 let answers: Map<string, (there: boolean) => void>;
@@ -44,7 +44,7 @@ beforeEach(() => {
         return { facts: { version: "1", author: "" }, dispose: () => {} } as unknown as Avatar;
       },
       show: () => {},
-      say: (_level, words) => said.push(words),
+      notify: (_level, words) => said.push(words),
       remember: (id) => remembered.push(id),
     },
     "look:casual",

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which avatar is shown: the program's own looks, or a file of the user's, chosen or dropped on the page.
+// The choice of the avatar: one of the program's, or a file of the user that is chosen or dropped on the page.
 
 import { AvatarError, checkSize } from "../avatar/inspect";
 import type { Avatar } from "../avatar/load";
 import { getAvatar, listAvatars, putAvatar, removeAvatar, type StoredEntry } from "../avatar/store";
-import { drawsInSoftware } from "../graphics";
-import { button, byId, h, icon, megabytes } from "./dom";
+import { button, byId, h, labelOf, sizeText } from "../shared/dom";
+import { drawsInSoftware } from "../shared/graphics";
+import { icon } from "../shared/icons";
+import type { Level } from "../shared/toasts";
 
 export interface AvatarInfo {
   id: string; // as in the settings
@@ -17,33 +19,28 @@ export interface AvatarInfo {
 interface Uses {
   load: (data: ArrayBuffer) => Promise<Avatar>;
   show: (avatar: Avatar) => void;
-  say: (level: "info" | "warning" | "error", words: string) => void;
+  notify: (level: Level, words: string) => void;
   remember: (id: string) => void;
 }
 
 const NONE = "No avatar is shown.";
 const STAYS = "The avatar stays as it was.";
 
-/** An avatar that was asked for, and neither came nor failed. */
-interface Wish {
+/** An avatar that was requested and has neither arrived nor failed. */
+interface Request {
   id: string;
   remember: boolean;
 }
-
-const lookName = (look: string): string => {
-  const words = look.replace(/[-_]+/g, " ");
-  return words.charAt(0).toUpperCase() + words.slice(1);
-};
 
 export class Avatars {
   info: AvatarInfo | null = null;
   private looks: string[] = [];
   private own: StoredEntry[] = [];
   private wanted = "";
-  /** The last one, also while a file has come before it. */
-  private wish: Wish | null = null;
+  /** The last request, also while a file has taken precedence over it. */
+  private request: Request | null = null;
   private turn = 0;
-  /** The program has said what it has. */
+  /** The program has sent its list. */
   private ready = false;
 
   constructor(
@@ -57,11 +54,11 @@ export class Avatars {
       if (f) void this.take(f);
     });
     button("avatar-load", () => file.click());
-    this.dropping();
+    this.acceptDrops();
     this.list();
   }
 
-  /** The program said what it has. Shows the avatar of the settings, or else the first look. */
+  /** Takes the list of the program, and shows the avatar of the settings or else the first one. */
   async setLooks(looks: readonly string[]): Promise<void> {
     this.looks = [...looks];
     this.own = await listAvatars();
@@ -70,42 +67,42 @@ export class Avatars {
     if (!this.info && !this.wanted) await this.start({ id: this.preferred, remember: false });
   }
 
-  /** Shows that one, or else the program's first look when nothing is shown. */
-  private async start(wish: Wish): Promise<void> {
+  /** Shows the requested one, or else the program's first one when nothing is shown. */
+  private async start(request: Request): Promise<void> {
     const first = this.looks[0] ? `look:${this.looks[0]}` : "";
-    if (this.ids().includes(wish.id)) {
+    if (this.ids().includes(request.id)) {
       const turn = this.turn + 1;
-      const another = !this.info && first !== "" && first !== wish.id;
-      if (await this.bring(wish, !another)) return;
-      if (turn !== this.turn || !another) return; // or the user chose another meanwhile
+      const another = !this.info && first !== "" && first !== request.id;
+      if (await this.load(request, !another)) return;
+      if (turn !== this.turn || !another) return; // or the user has chosen another one
     }
-    // A stand-in is not what the user chose: the next time the choice is tried again.
-    if (first && !this.info) await this.bring({ id: first, remember: false }, true);
+    // A substitute is not remembered: the next visit tries the user's choice again.
+    if (first && !this.info) await this.load({ id: first, remember: false }, true);
   }
 
-  /** Shows it, and again the next time. True when it is shown; the old one stays when it cannot be. */
+  /** Shows it, now and on the next visit. True when it is shown; otherwise the old one stays. */
   choose(id: string): Promise<boolean> {
-    return this.bring({ id, remember: true }, true);
+    return this.load({ id, remember: true }, true);
   }
 
   /** `last`: when it cannot be shown, no other is tried. */
-  private async bring(wish: Wish, last: boolean): Promise<boolean> {
-    const { id, remember } = wish;
+  private async load(request: Request, last: boolean): Promise<boolean> {
+    const { id, remember } = request;
     const turn = ++this.turn;
-    this.wish = wish;
+    this.request = request;
     this.wanted = id;
     this.list();
     try {
       const got = id.startsWith("own:")
         ? await this.fromStore(id.slice(4))
         : await this.fromProgram(id.slice(5));
-      if (turn !== this.turn) return false; // another was chosen meanwhile
+      if (turn !== this.turn) return false; // another one has been chosen
       const shown = await this.put(id, got.name, got.data, turn);
       if (shown && remember) this.uses.remember(id);
       return shown;
     } catch (e) {
       if (turn !== this.turn) return false;
-      this.wish = null;
+      this.request = null;
       this.failed(e, "The avatar could not be loaded", last);
       return false;
     } finally {
@@ -114,7 +111,7 @@ export class Avatars {
     }
   }
 
-  /** A file from the user. Kept for the next time when it could be shown. */
+  /** Shows a file of the user. A file that can be shown is stored for the next visit. */
   async take(file: File): Promise<boolean> {
     const turn = ++this.turn;
     this.wanted = "file";
@@ -130,24 +127,24 @@ export class Avatars {
         if (info && info === this.info) {
           info.id = id;
           this.uses.remember(id);
-        } // else another was chosen meanwhile
+        } // else another one has been chosen
       } catch {
-        this.uses.say(
+        this.uses.notify(
           "warning",
-          "The avatar is shown, but this browser has no room to keep it for the next time.",
+          "The avatar is shown, but this browser has no space to store it for the next visit.",
         );
       }
       this.own = await listAvatars();
       return true;
     } catch (e) {
       if (turn !== this.turn) return false;
-      // On with what this file came before: an avatar, or all when the program has yet to say what it has.
-      const { wish } = this;
-      const goesOn = wish !== null || (!this.info && (!this.ready || this.ids().length > 0));
-      this.failed(e, `${file.name} could not be read`, !goesOn);
+      // Continue with what the file took precedence over: a request, or the start when the list has not arrived.
+      const { request } = this;
+      const continues = request !== null || (!this.info && (!this.ready || this.ids().length > 0));
+      this.failed(e, `${file.name} could not be read`, !continues);
       this.wanted = "";
-      this.wish = null;
-      if (goesOn && this.ready) await this.start(wish ?? { id: this.preferred, remember: false });
+      this.request = null;
+      if (continues && this.ready) await this.start(request ?? { id: this.preferred, remember: false });
       return false;
     } finally {
       if (turn === this.turn) this.wanted = "";
@@ -162,13 +159,13 @@ export class Avatars {
   private async fromProgram(look: string): Promise<{ name: string; data: ArrayBuffer }> {
     const light = drawsInSoftware() ? "-light" : "";
     const answer = await fetch(`/avatars/${encodeURIComponent(look + light)}.vrm`);
-    if (!answer.ok) throw new AvatarError(`Telemime does not have the avatar "${lookName(look)}".`);
-    return { name: lookName(look), data: await answer.arrayBuffer() };
+    if (!answer.ok) throw new AvatarError(`Telemime has no avatar "${labelOf(look)}".`);
+    return { name: labelOf(look), data: await answer.arrayBuffer() };
   }
 
   private async fromStore(id: string): Promise<{ name: string; data: ArrayBuffer }> {
     const kept = await getAvatar(id);
-    if (!kept) throw new AvatarError("This browser no longer has that avatar. Load the file again.");
+    if (!kept) throw new AvatarError("This avatar is no longer stored in this browser. Load the file again.");
     return kept;
   }
 
@@ -178,16 +175,16 @@ export class Avatars {
       avatar.dispose();
       return false;
     }
-    this.wish = null;
+    this.request = null;
     this.info = { id, name, version: avatar.facts.version, author: avatar.facts.author };
     this.uses.show(avatar);
     return true;
   }
 
-  /** `last`: nothing else is tried, so that it is known what is shown. */
+  /** `last`: nothing else is tried, so the message says what is shown. */
   private failed(e: unknown, otherwise: string, last: boolean): void {
     const words = e instanceof AvatarError ? e.message : `${otherwise}. Try again.`;
-    this.uses.say("error", last ? `${words} ${this.info ? STAYS : NONE}` : words);
+    this.uses.notify("error", last ? `${words} ${this.info ? STAYS : NONE}` : words);
   }
 
   private list(): void {
@@ -196,8 +193,8 @@ export class Avatars {
       ? (document.activeElement as HTMLElement).dataset.id
       : undefined;
     const rows = [
-      ...this.looks.map((l) => this.row(`look:${l}`, lookName(l), "Comes with Telemime", null)),
-      ...this.own.map((o) => this.row(`own:${o.id}`, o.name, `Your file, ${megabytes(o.bytes)}`, o.id)),
+      ...this.looks.map((l) => this.row(`look:${l}`, labelOf(l), "Included with Telemime", null)),
+      ...this.own.map((o) => this.row(`own:${o.id}`, o.name, `Your file, ${sizeText(o.bytes)}`, o.id)),
     ];
     box.replaceChildren(...rows);
     box.setAttribute("aria-busy", String(Boolean(this.wanted)));
@@ -224,21 +221,21 @@ export class Avatars {
     if (!own) return h("div", { class: "row" }, label);
     const remove = h(
       "button",
-      { class: "icon-button", "aria-label": `Forget ${name}`, title: "Forget", "data-id": `forget ${id}` },
+      { class: "icon-button", "aria-label": `Remove ${name}`, title: "Remove", "data-id": `remove ${id}` },
       icon("trash"),
     );
-    remove.addEventListener("click", () => void this.forget(own));
+    remove.addEventListener("click", () => void this.remove(own));
     return h("div", { class: "row" }, label, remove);
   }
 
-  private async forget(id: string): Promise<void> {
+  private async remove(id: string): Promise<void> {
     await removeAvatar(id).catch(() => undefined);
     this.own = await listAvatars();
     if (this.info?.id === `own:${id}` && this.looks[0]) await this.choose(`look:${this.looks[0]}`);
     this.list();
   }
 
-  private dropping(): void {
+  private acceptDrops(): void {
     const hint = byId("drop", HTMLElement);
     let depth = 0;
     const files = (e: DragEvent) => e.dataTransfer?.types.includes("Files") ?? false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Command, Phase, Status } from "../protocol";
+import type { Command, Phase, Status } from "../live/protocol";
 import { Guide } from "./guide";
-import { fakeDocument, type FakeElement } from "./testing_dom";
+import { fakeDocument, type FakeElement } from "../shared/testing_dom";
 
 let element: (id: string) => FakeElement;
 let sent: Command[];
@@ -65,15 +65,15 @@ describe("the guide", () => {
 
   it("keeps out of the picture only who said that the room is empty", () => {
     enter("background", true);
-    expect(element("guide-text").textContent).toMatch(/Stay out of the picture/);
+    expect(element("guide-text").textContent).toMatch(/Stay out of view/);
     expect(element("guide").dataset.figure).toBe("room");
     enter("background"); // the same title
-    expect(element("guide-title").textContent).toBe("Looking at the room");
+    expect(element("guide-title").textContent).toBe("Capturing the background");
     expect(element("guide-text").textContent).toMatch(/Stay where you are.*around you/);
     expect(element("guide").dataset.figure).toBe("in");
     expect(said.at(-1)).toMatch(/Stay where you are/);
     enter("background", true);
-    expect(element("guide-text").textContent).toMatch(/Stay out of the picture/);
+    expect(element("guide-text").textContent).toMatch(/Stay out of view/);
     enter("person");
     expect(element("guide-title").textContent).toMatch(/Step in/);
   });

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guided start: step out, step in, done. The program's phase says where we are; the words are large enough to be
-// read from where the person stands.
+// The guided setup: step out of view, step in, done. It follows the program's phase. Its text is large enough to be read
+// from where the person stands.
 
-import type { Command, Phase, Status } from "../protocol";
-import { button, byId } from "./dom";
+import type { Command, Phase, Status } from "../live/protocol";
+import { button, byId } from "../shared/dom";
 
-const COUNT = 5; // s
+const COUNTDOWN = 5; // s
 const DONE_SHOWN = 2200; // ms
 
 interface Step {
-  /** The title when left out; differs between steps that share one. */
+  /** Distinguishes steps with the same title; the title by default. */
   key?: string;
   number: 1 | 2 | 3;
   title: string;
@@ -22,40 +22,40 @@ const STEPS: Partial<Record<Phase | "around" | "done", Step>> = {
   opening: { number: 1, title: "Opening the camera", text: "One moment.", figure: "camera", busy: true },
   empty_room: {
     number: 1,
-    title: "Step out of the picture",
-    text: "Telemime looks at the empty room first. Start the countdown and walk out, or say when the room is empty.",
+    title: "Step out of view",
+    text: "Telemime captures the empty background first. Start the countdown and step out, or confirm that nobody is in view.",
     figure: "out",
     busy: false,
   },
   background: {
     number: 1,
-    title: "Looking at the room",
-    text: "Stay out of the picture for a moment.",
+    title: "Capturing the background",
+    text: "Stay out of view for a moment.",
     figure: "room",
     busy: true,
   },
-  // The background when nobody has said that the room is empty.
+  // The background phase when the user has not confirmed that nobody is in view.
   around: {
-    key: "Looking at the room around you",
+    key: "Capturing the background around you",
     number: 1,
-    title: "Looking at the room",
-    text: "Stay where you are for a moment: the room is learned around you.",
+    title: "Capturing the background",
+    text: "Stay where you are for a moment. The background is learned around you.",
     figure: "in",
     busy: true,
   },
   person: {
     number: 2,
     title: "Step in and face the camera",
-    text: "Hold your arms slightly apart from your body and stand still.",
+    text: "Stand still with your arms slightly away from your body.",
     figure: "in",
     busy: false,
   },
-  done: { number: 3, title: "Done", text: "The avatar follows you now.", figure: "done", busy: false },
+  done: { number: 3, title: "Done", text: "The avatar follows you.", figure: "done", busy: false },
 };
 
 export class Guide {
   private readonly box = byId("guide", HTMLElement);
-  private readonly count = byId("countdown", HTMLElement);
+  private readonly countdown = byId("countdown", HTMLElement);
   private readonly countButton: HTMLButtonElement;
   private phase: Phase | null = null;
   private roomEmpty = false;
@@ -69,7 +69,7 @@ export class Guide {
     private readonly announce: (words: string) => void,
     private readonly layout: (guiding: boolean) => void,
   ) {
-    this.countButton = button("guide-count", () => this.toggleCount());
+    this.countButton = button("guide-count", () => this.toggleCountdown());
     button("guide-now", () => this.empty());
     button("guide-skip", () => this.skip());
     button("guide-back", () => this.again());
@@ -79,7 +79,7 @@ export class Guide {
     const before = this.phase;
     this.phase = s.phase;
     this.roomEmpty = s.roomEmpty;
-    if (s.phase !== "empty_room") this.stopCount();
+    if (s.phase !== "empty_room") this.stopCountdown();
     if (s.phase === "person" || s.phase === "background" || s.phase === "empty_room") this.guided = true;
     if (s.phase === "tracking" && this.guided && before !== null) {
       this.guided = false;
@@ -89,23 +89,23 @@ export class Guide {
     this.show(s.words);
   }
 
-  /** Nobody hears the countdown any more; where we are is known with the next status. */
+  /** The phase is unknown until the next status. */
   disconnected(): void {
-    this.stopCount();
+    this.stopCountdown();
     this.phase = null;
     this.guided = false;
     this.show("");
   }
 
-  /** Starts or stops the countdown, when the room is to be empty. */
-  toggleCount(): void {
+  /** Starts or stops the countdown, in the phase that waits for an empty scene. */
+  toggleCountdown(): void {
     if (this.phase !== "empty_room") return;
     if (this.left > 0) {
-      this.stopCount();
+      this.stopCountdown();
       this.announce("Countdown stopped.");
       return;
     }
-    this.left = COUNT;
+    this.left = COUNTDOWN;
     this.tick();
     this.timer = window.setInterval(() => {
       this.left--;
@@ -116,7 +116,7 @@ export class Guide {
 
   skip(): void {
     if (this.phase === "empty_room") this.answer("skip");
-    this.stopCount();
+    this.stopCountdown();
   }
 
   again(): void {
@@ -124,27 +124,26 @@ export class Guide {
   }
 
   private empty(): void {
-    this.stopCount();
+    this.stopCountdown();
     if (this.phase === "empty_room") this.answer("empty");
   }
 
   private answer(step: "empty" | "skip" | "again"): void {
-    if (!this.send({ type: "guide", step }))
-      this.announce("There is no connection to Telemime at the moment.");
+    if (!this.send({ type: "guide", step })) this.announce("There is no connection to Telemime.");
   }
 
   private tick(): void {
-    this.count.hidden = false;
-    this.count.textContent = String(this.left);
+    this.countdown.hidden = false;
+    this.countdown.textContent = String(this.left);
     this.countButton.textContent = "Stop the countdown";
     this.announce(String(this.left));
   }
 
-  private stopCount(): void {
+  private stopCountdown(): void {
     window.clearInterval(this.timer);
     this.left = 0;
-    this.count.hidden = true;
-    this.countButton.textContent = `Count down ${COUNT} seconds`;
+    this.countdown.hidden = true;
+    this.countButton.textContent = `Start the ${COUNTDOWN}-second countdown`;
   }
 
   private show(words: string): void {

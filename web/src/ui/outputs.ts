@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the motion is sent: the list with its state in words, and adding by address.
+// The destinations of the motion: a list with their states, and a form to add one by its address.
 
-import type { Command, Output, Sender } from "../protocol";
-import { LONGEST_ADDRESS, withoutPassword } from "./address";
-import { byId, h, icon, renderOnce } from "./dom";
+import type { Command, Output, Sender } from "../live/protocol";
+import { MAX_ADDRESS, withoutPassword } from "./address";
+import { byId, h, renderOnce } from "../shared/dom";
+import { icon } from "../shared/icons";
 
-const ANSWER = 3000; // ms in which the program says what is wrong with an address
-const NOBODY = "There is no connection to Telemime at the moment.";
+const ANSWER_TIME = 3000; // ms in which the program reports an error of an address
+const NO_CONNECTION = "There is no connection to Telemime.";
 const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
 
-/** Colour of the dot; a state that this page does not know yet waits, and none at all has none. */
-function mood(o: Output): "good" | "bad" | "wait" | "" {
+/** Class of the dot: states that this page does not know count as waiting. */
+function dotClass(o: Output): "good" | "bad" | "wait" | "" {
   return o.state === "sending" ? "good" : o.state === "failed" ? "bad" : o.state ? "wait" : "";
 }
 
-function facts(o: Output): string {
+function counters(o: Output): string {
   const parts = [`${o.sent} sent`];
   if (o.dropped > 0) parts.push(`${o.dropped} dropped`);
   if (o.receivers !== null) parts.push(o.receivers === 1 ? "1 receiver" : `${o.receivers} receivers`);
@@ -25,18 +26,17 @@ export class OutputList {
   private readonly list = byId("outputs", HTMLElement);
   private readonly input = byId("output-url", HTMLInputElement);
   private readonly error = byId("output-error", HTMLElement);
-
   private outputs: readonly Output[] = [];
   private connected = false;
-  /** What was added last, until the list or an error answers it. */
-  private asked: { url: string; shown: string; at: number } | null = null;
+  /** The address that was added last, until the list or an error answers it. */
+  private pending: { url: string; shown: string; at: number } | null = null;
 
   constructor(private readonly send: (c: Command) => boolean) {
     byId("output-form", HTMLFormElement).addEventListener("submit", (e) => {
       e.preventDefault();
       this.add();
     });
-    this.input.addEventListener("input", () => this.complain(""));
+    this.input.addEventListener("input", () => this.showError(""));
   }
 
   setSenders(senders: readonly Sender[]): void {
@@ -50,7 +50,7 @@ export class OutputList {
         );
         b.addEventListener("click", () => {
           this.input.value = s.example;
-          this.complain("");
+          this.showError("");
           this.input.focus();
         });
         return h("li", {}, b);
@@ -59,20 +59,20 @@ export class OutputList {
   }
 
   setOutputs(outputs: readonly Output[]): void {
-    const { asked } = this;
-    const sent = (all: readonly Output[]) => all.some((o) => o.url === asked?.shown && o.state !== "off");
-    // One that was there before is no answer: the error that says so is still to come.
-    if (sent(outputs) && !sent(this.outputs)) this.asked = null;
-    if (this.error.textContent === NOBODY) this.complain("");
+    const { pending } = this;
+    const active = (all: readonly Output[]) => all.some((o) => o.url === pending?.shown && o.state !== "off");
+    // An address that was in the list before is no answer: its error is still to come.
+    if (active(outputs) && !active(this.outputs)) this.pending = null;
+    if (this.error.textContent === NO_CONNECTION) this.showError("");
     this.connected = true;
     this.outputs = outputs;
     this.show();
   }
 
-  /** How the outputs do is known with the next status. */
+  /** The states are unknown until the next status. */
   disconnected(): void {
     this.connected = false;
-    this.asked = null;
+    this.pending = null;
     this.show();
   }
 
@@ -88,7 +88,7 @@ export class OutputList {
           "button",
           {
             class: "icon-button",
-            "aria-label": `No longer send to ${o.url}`,
+            "aria-label": `Remove ${o.url}`,
             title: "Remove",
             "data-focus": o.url,
           },
@@ -96,76 +96,76 @@ export class OutputList {
         );
         remove.addEventListener("click", () => this.ask({ type: "output", remove: o.url }));
         const off = o.state === "off";
-        const flip = h(
+        const toggle = h(
           "button",
           {
             class: "small",
-            "aria-label": `${off ? "Send again" : "Stop sending"} to ${o.url}`,
-            "data-focus": `flip ${o.url}`,
+            "aria-label": `${off ? "Resume" : "Pause"} ${o.url}`,
+            "data-focus": `toggle ${o.url}`,
           },
-          off ? "Switch on" : "Switch off",
+          off ? "Resume" : "Pause",
         );
-        flip.addEventListener("click", () =>
+        toggle.addEventListener("click", () =>
           this.ask(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
         );
         return h(
           "li",
           { class: "row" },
-          h("span", { class: `dot ${mood(o)}`.trim() }),
+          h("span", { class: `dot ${dotClass(o)}`.trim() }),
           h(
             "div",
             { class: "row-text" },
             h("b", { class: "url" }, o.url),
             h("span", { class: "state-words" }, [o.state, o.words].filter(Boolean).join(": ")),
-            h("span", { class: "soft", "data-facts": "" }, ""),
+            h("span", { class: "soft", "data-counters": "" }, ""),
           ),
-          flip,
+          toggle,
           remove,
         );
       }),
     );
-    // Counters change all the time: only their text.
-    this.list.querySelectorAll("[data-facts]").forEach((e, i) => {
+    // The counters change all the time: only their text is replaced.
+    this.list.querySelectorAll("[data-counters]").forEach((e, i) => {
       const o = outputs[i];
-      if (o) e.textContent = this.connected ? facts(o) : "";
+      if (o) e.textContent = this.connected ? counters(o) : "";
     });
   }
 
   private ask(c: Command): void {
-    if (!this.send(c)) this.error.textContent = NOBODY;
+    if (!this.send(c)) this.error.textContent = NO_CONNECTION;
   }
 
   private add(): void {
     const url = this.input.value.trim();
     if (!LOOKS_LIKE_URL.test(url)) {
-      this.complain("An address looks like vmc://localhost:39539. Choose an example and change it.");
+      this.showError("An address looks like vmc://localhost:39539. Choose an example and edit it.");
       return;
     }
-    if (url.length > LONGEST_ADDRESS) {
-      this.complain(`An address has up to ${LONGEST_ADDRESS} characters.`);
+    if (url.length > MAX_ADDRESS) {
+      this.showError(`An address has at most ${MAX_ADDRESS} characters.`);
       return;
     }
     if (this.send({ type: "output", add: url })) {
-      this.asked = { url, shown: withoutPassword(url), at: performance.now() };
+      this.pending = { url, shown: withoutPassword(url), at: performance.now() };
       this.input.value = "";
-      this.complain("");
+      this.showError("");
     } else {
-      this.complain(NOBODY);
+      this.showError(NO_CONNECTION);
     }
   }
 
-  /** An error of the program: true when it is the answer to an address, and stands beside it now. */
+  /** Takes an error of the program: true when it answers the pending address and is now shown beside it. */
   refused(words: string): boolean {
-    const asked = this.asked;
-    if (!asked || performance.now() - asked.at > ANSWER) return false;
-    if (!words.includes(asked.shown)) return false; // of something else: a full disk
-    this.asked = null;
-    this.input.value ||= asked.url;
-    this.complain(words);
+    const pending = this.pending;
+    if (!pending || performance.now() - pending.at > ANSWER_TIME) return false;
+    if (!words.includes(pending.shown)) return false; // another error, for instance a full disk
+    this.pending = null;
+    this.input.value ||= pending.url;
+    this.showError(words);
     return true;
   }
 
-  private complain(words: string): void {
+  private showError(words: string): void {
     this.error.textContent = words;
     this.input.setAttribute("aria-invalid", String(Boolean(words)));
   }

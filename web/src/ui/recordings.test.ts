@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Status } from "../protocol";
+import type { Status } from "../live/protocol";
 import { Recordings } from "./recordings";
-import { fakeDocument, type FakeElement } from "./testing_dom";
+import { fakeDocument, type FakeElement } from "../shared/testing_dom";
 
 let element: (id: string) => FakeElement;
 let recordings: Recordings;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Record, list, save, delete.
+// Recordings: start and stop, list, download, delete.
 
-import type { Command, Recording, Status } from "../protocol";
-import { button, byId, clock, h, icon, megabytes, renderOnce } from "./dom";
+import type { Command, Recording, Status } from "../live/protocol";
+import { button, byId, durationText, h, renderOnce, sizeText } from "../shared/dom";
+import { icon } from "../shared/icons";
 
-const SURE = 4000; // ms in which a second press deletes
-const ANSWER = 3000; // ms in which a status shows what was asked for, or it did not come about
+const CONFIRM_TIME = 4000; // ms in which a second press deletes
+const ANSWER_TIME = 3000; // ms in which a status confirms a request
 
-/** What this page asked for last, until a status shows it. */
-interface Wish {
+/** What this page requested last, until a status confirms it. */
+interface Request {
   on: boolean;
   at: number; // performance.now()
-  /** A status with the opposite came last: one that fits is news, and was not on its way before the wish. */
+  /** The last status said the opposite: one that agrees is newer than the request. */
   awaited: boolean;
 }
 
@@ -24,7 +25,7 @@ export class Recordings {
   private readonly record: HTMLButtonElement;
   private status: Status | null = null;
   private recording = false;
-  private wish: Wish | null = null;
+  private request: Request | null = null;
 
   constructor(
     private readonly send: (c: Command) => boolean,
@@ -37,10 +38,10 @@ export class Recordings {
     if (this.record.disabled) return;
     const on = !this.wanted();
     if (!this.send({ type: "record", on })) {
-      this.announce("There is no connection to Telemime at the moment.");
+      this.announce("There is no connection to Telemime.");
       return;
     }
-    this.wish = { on, at: performance.now(), awaited: on !== this.recording };
+    this.request = { on, at: performance.now(), awaited: on !== this.recording };
     this.show();
   }
 
@@ -49,8 +50,8 @@ export class Recordings {
     if (on !== this.recording) this.announce(on ? "Recording." : "Recording ended.");
     this.status = s;
     this.recording = on;
-    if (this.wish && on !== this.wish.on) this.wish.awaited = true;
-    else if (this.wish?.awaited) this.wish = null; // it has come about
+    if (this.request && on !== this.request.on) this.request.awaited = true;
+    else if (this.request?.awaited) this.request = null; // confirmed
     this.show();
 
     byId("recordings-empty", HTMLElement).hidden = s.recordings.length > 0;
@@ -63,25 +64,25 @@ export class Recordings {
 
   disconnected(): void {
     this.status = null;
-    this.wish = null;
+    this.request = null;
     this.show();
   }
 
-  /** Whether to record, as far as this page knows. */
+  /** Whether recording is requested or, without a request, going on. */
   private wanted(): boolean {
-    if (this.wish && performance.now() - this.wish.at > ANSWER) this.wish = null;
-    return this.wish?.on ?? this.recording;
+    if (this.request && performance.now() - this.request.at > ANSWER_TIME) this.request = null;
+    return this.request?.on ?? this.recording;
   }
 
   private show(): void {
     const s = this.status;
     const on = this.wanted();
-    const label = this.wish ? (on ? "Starting…" : "Stopping…") : on ? "Stop" : "Record";
-    const time = s?.recording && !this.wish ? ` ${clock(s.recording.seconds)}` : "";
+    const label = this.request ? (on ? "Starting…" : "Stopping…") : on ? "Stop" : "Record";
+    const time = s?.recording && !this.request ? ` ${durationText(s.recording.seconds)}` : "";
     this.record.disabled = !s || (!on && !["tracking", "lost"].includes(s.phase));
     this.record.classList.toggle("on", on);
     byId("record-label", HTMLElement).textContent = label + time;
-    this.record.setAttribute("aria-label", this.wish ? label : on ? "Stop recording" : "Record");
+    this.record.setAttribute("aria-label", this.request ? label : on ? "Stop recording" : "Record");
   }
 
   private row(r: Recording): HTMLElement {
@@ -95,37 +96,37 @@ export class Recordings {
       },
       icon("trash"),
     );
-    let sure = 0;
+    let confirming = 0;
     remove.addEventListener("click", () => {
-      if (sure) {
-        window.clearTimeout(sure);
+      if (confirming) {
+        window.clearTimeout(confirming);
         this.send({ type: "forget", recording: r.number });
         return;
       }
       remove.replaceChildren("Delete?");
       remove.setAttribute("aria-label", `Delete recording ${r.number}? Press again to delete`);
       remove.classList.add("sure");
-      sure = window.setTimeout(() => {
-        sure = 0;
+      confirming = window.setTimeout(() => {
+        confirming = 0;
         remove.replaceChildren(icon("trash"));
         remove.setAttribute("aria-label", `Delete recording ${r.number}`);
         remove.classList.remove("sure");
-      }, SURE);
+      }, CONFIRM_TIME);
     });
     const files = r.files.map((f) => {
-      const end = f.name.split(".").pop()?.toUpperCase() ?? f.name;
+      const extension = f.name.split(".").pop()?.toUpperCase() ?? f.name;
       return h(
         "a",
         {
           class: "file",
           href: fileAddress(r.number, f.name),
           download: `telemime-${r.number}-${f.name}`,
-          title: `${f.name}, ${megabytes(f.bytes)}`,
-          "aria-label": `Save ${f.name} of recording ${r.number}, ${megabytes(f.bytes)}`,
+          title: `${f.name}, ${sizeText(f.bytes)}`,
+          "aria-label": `Download ${f.name} of recording ${r.number}, ${sizeText(f.bytes)}`,
           "data-focus": `f${r.number}${f.name}`,
         },
-        h("b", {}, end),
-        h("span", {}, megabytes(f.bytes)),
+        h("b", {}, extension),
+        h("span", {}, sizeText(f.bytes)),
       );
     });
     return h(
@@ -138,7 +139,7 @@ export class Recordings {
           "div",
           { class: "row-text" },
           h("b", {}, `Recording ${r.number}`),
-          h("span", { class: "soft" }, `${clock(r.seconds)} · ${r.frames} frames`),
+          h("span", { class: "soft" }, `${durationText(r.seconds)} · ${r.frames} frames`),
         ),
         remove,
       ),

@@ -1,70 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the user chose, kept in this browser.
+// What the user chose on the live page.
 
-export interface Settings {
-  mirrorPicture: boolean;
-  mirrorAvatar: boolean;
-  overlay: boolean;
-  closeUp: boolean;
-  panelClosed: boolean; // on a wide page
-  tab: "avatar" | "send" | "recordings";
+import * as v from "valibot";
+import { Stored, parseStored } from "../shared/stored";
+
+const flag = (otherwise: boolean) => v.fallback(v.boolean(), otherwise);
+
+export const SettingsSchema = v.object({
+  mirrorPicture: flag(true),
+  mirrorAvatar: flag(false),
+  overlay: flag(true),
+  closeUp: flag(false),
+  panelClosed: flag(false), // on a wide page
+  tab: v.fallback(v.picklist(["avatar", "send", "recordings"]), "avatar"),
   /** "look:NAME" of the program's own, or "own:ID" of the browser's store; empty: the program's first. */
-  avatar: string;
-  keys: boolean; // single-key shortcuts
-}
+  avatar: v.fallback(v.pipe(v.string(), v.maxLength(199)), ""),
+  keys: flag(true), // single-key shortcuts
+});
+export type Settings = v.InferOutput<typeof SettingsSchema>;
 
-export const DEFAULTS: Readonly<Settings> = {
-  mirrorPicture: true,
-  mirrorAvatar: false,
-  overlay: true,
-  closeUp: false,
-  panelClosed: false,
-  tab: "avatar",
-  avatar: "",
-  keys: true,
-};
+export const DEFAULTS: Readonly<Settings> = parseStored(SettingsSchema, null);
 
-const KEY = "telemime";
-
-/** Stored text to settings; what is missing or of the wrong kind takes its default. */
-export function readSettings(stored: string | null): Settings {
-  const out: Settings = { ...DEFAULTS };
-  let given: unknown = null;
-  try {
-    given = JSON.parse(stored ?? "null");
-  } catch {
-    // broken: defaults
-  }
-  if (typeof given !== "object" || given === null) return out;
-  const g = given as Record<string, unknown>;
-  for (const key of ["mirrorPicture", "mirrorAvatar", "overlay", "closeUp", "panelClosed", "keys"] as const) {
-    const v = g[key];
-    if (typeof v === "boolean") out[key] = v;
-  }
-  if (g.tab === "avatar" || g.tab === "send" || g.tab === "recordings") out.tab = g.tab;
-  if (typeof g.avatar === "string" && g.avatar.length < 200) out.avatar = g.avatar;
-  return out;
-}
-
-export function loadSettings(): Settings {
-  try {
-    return readSettings(localStorage.getItem(KEY));
-  } catch {
-    return { ...DEFAULTS };
-  }
-}
-
-/** What differs from `before`. */
-export function changed(s: Settings, before: Settings): Partial<Settings> {
-  const keys = Object.keys(s) as (keyof Settings)[];
-  return Object.fromEntries(keys.filter((key) => s[key] !== before[key]).map((key) => [key, s[key]]));
-}
-
-/** Keeps what has changed since `before`, and nothing else: another window may have kept other choices. */
-export function saveSettings(s: Settings, before: Settings): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify({ ...loadSettings(), ...changed(s, before) }));
-  } catch {
-    // A browser that keeps nothing: the settings hold until the page is closed.
-  }
-}
+export const storedSettings = () => new Stored<Settings>("telemime", SettingsSchema);

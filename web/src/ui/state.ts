@@ -1,27 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line that says what goes on, on the screen and to screen readers.
+// The state of the tracker, in the header and over the video.
 
-import type { Phase, Status } from "../protocol";
-import { byId } from "./dom";
+import type { Phase, Status } from "../live/protocol";
+import { byId } from "../shared/dom";
+import { StateLine } from "../shared/state_line";
 
 const NAMES: Record<Phase, string> = {
   opening: "Opening the camera",
-  empty_room: "Getting ready",
-  background: "Getting ready",
+  empty_room: "Setup",
+  background: "Setup",
   person: "Waiting for you",
   tracking: "Tracking",
-  lost: "I do not see you",
-  stopped: "No pictures",
+  lost: "Person not found",
+  stopped: "No video",
   ended: "Ended",
 };
 
-/** Phases in which the words also stand over the picture (the guide says them in the others). */
+/** Phases whose text also stands over the video. In the others the guide shows it. */
 const CAPTIONED: readonly Phase[] = ["lost", "stopped", "ended"];
 
-export class StateLine {
-  private readonly box = byId("state", HTMLElement);
-  private readonly live = byId("live", HTMLElement);
-  private said = "";
+export class LiveState extends StateLine {
+  private announced = "";
 
   setStatus(s: Status): void {
     this.show(s.phase, NAMES[s.phase], s.words);
@@ -29,26 +28,13 @@ export class StateLine {
     caption.hidden = !CAPTIONED.includes(s.phase);
     caption.textContent = s.words || NAMES[s.phase];
     const words = `${NAMES[s.phase]}. ${s.words}`;
-    if (words !== this.said && CAPTIONED.concat("tracking").includes(s.phase)) this.announce(words);
-    this.said = words;
+    if (words !== this.announced && CAPTIONED.concat("tracking").includes(s.phase)) this.announce(words);
+    this.announced = words;
   }
 
   disconnected(): void {
-    this.said = "";
+    this.announced = "";
     byId("camera-words", HTMLElement).hidden = true;
     this.show("disconnected", "Not connected", "");
-  }
-
-  /** Said by screen readers when they have nothing else to say. */
-  announce(words: string): void {
-    this.live.textContent = words;
-  }
-
-  private show(phase: string, name: string, words: string): void {
-    this.box.dataset.phase = phase;
-    byId("state-name", HTMLElement).textContent = name;
-    const text = byId("state-words", HTMLElement);
-    text.textContent = words;
-    text.title = words;
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera's picture with what was found in it. The picture comes unmirrored and bare.
+// The camera's video with the tracked skeleton. The program sends it unmirrored and without drawings.
 
-import { flatContext } from "../graphics";
-import type { Camera, Picture, Pose, Status } from "../protocol";
+import { flatContext } from "../shared/graphics";
+import type { Camera, Picture, Pose } from "../live/protocol";
 import { ellipseInPicture } from "./geometry";
 import { POSES_STOPPED, Pairing } from "./pairing";
 import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
@@ -10,16 +10,6 @@ import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skele
 interface Decoded {
   frame: number;
   image: ImageBitmap;
-}
-
-/**
- * Whether every second picture is enough: each costs processor time without a graphics card, which the tracker and
- * the avatar need. `fps`: what the camera gives, and what the tracker sees of it (pictures come as often); when these
- * are few they are shown in full. `half`: whether it is so now.
- */
-export function fewerPictures(software: boolean, fps: Status["fps"], half: boolean): boolean {
-  const rate = Math.min(fps.input ?? 0, fps.tracked ?? 0);
-  return software && rate > (half ? 14 : 18);
 }
 
 export class CameraView {
@@ -70,7 +60,7 @@ export class CameraView {
     this.dirty = true;
   }
 
-  /** Decodes one picture at a time; while it does, only the newest waits. */
+  /** Decodes one picture at a time. While it does, only the newest one waits. */
   async setPicture(picture: Picture): Promise<void> {
     this.waiting = picture;
     if (this.decoding) return;
@@ -89,13 +79,13 @@ export class CameraView {
     this.decoding = false;
   }
 
-  /** In an animation frame; draws only when something is new. */
+  /** Call it in each animation frame: it draws only when something has changed. */
   draw(): void {
     const old = this.shownPose !== null && performance.now() - this.posed > POSES_STOPPED + 50;
     if (!this.dirty && !old) return;
     const { picture, pose } = this.pairing.pick(performance.now());
     this.dirty = false;
-    // Picture and pose come one after the other: nothing is new before both are there.
+    // The picture and its pose arrive one after the other: draw only once both are there.
     if (!this.changed && picture && picture.image === this.shown && pose === this.shownPose) return;
     this.changed = false;
     this.shownPose = pose;
@@ -122,7 +112,7 @@ export class CameraView {
     const g = this.g;
     const sx = width / (this.camera?.width ?? width);
     const sy = height / (this.camera?.height ?? height);
-    // Pixel (0, 0) of the program is the centre of the first pixel.
+    // In the program the centre of the first pixel is (0, 0).
     const at = (joint: string): [number, number] | null => {
       const p = pose.pixels.get(joint);
       return p ? [(p[0] + 0.5) * sx, (p[1] + 0.5) * sy] : null;

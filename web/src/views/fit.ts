@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/** Gives the canvas as many pixels as it takes on the screen (at most 2 for one of the page); its size on the page. */
+/** Gives the canvas as many pixels as it has on the screen, at most 2 for a pixel of the page; returns its size on the page. */
 export function fitCanvas(canvas: HTMLCanvasElement): { width: number; height: number; ratio: number } {
   const ratio = Math.min(2, window.devicePixelRatio || 1);
   const width = canvas.clientWidth;

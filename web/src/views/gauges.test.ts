@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { Phase, Status } from "../protocol";
-import { fakeDocument, type FakeElement } from "../ui/testing_dom";
+import type { Phase, Status } from "../live/protocol";
+import { fakeDocument, type FakeElement } from "../shared/testing_dom";
 import { Gauges } from "./gauges";
 
 const lines = vi.hoisted(() => ({ cleared: 0 }));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// How well it goes: rate, latency, times of the stages, residuals, work of the computer.
+// Measurements: rate, latency, times of the stages, residuals, processor time.
 
-import type { Phase, Pose, Status } from "../protocol";
-import { byId, h } from "../ui/dom";
+import type { Phase, Pose, Status } from "../live/protocol";
+import { byId, h, setText } from "../shared/dom";
 import { Sparkline } from "./sparkline";
 
 const HISTORY = 120; // poses
-const EVERY = 250; // ms between drawings of the history
+const DRAW_INTERVAL = 250; // ms between drawings of the history
 
-/** Before a person is looked for, nothing is measured. */
-const TRACKS: readonly Phase[] = ["person", "tracking", "lost", "ended"];
+/** Phases with measurements of the tracker. */
+const MEASURED: readonly Phase[] = ["person", "tracking", "lost", "ended"];
 
-/** Those that are numbers alone. */
+/** Ids of gauges that are plain numbers. */
 const VALUES = ["tracked", "input", "dropped", "median", "p95", "f", "dc"].map((name) => `gauge-${name}`);
 
 export const show = (v: number | null | undefined, digits = 0): string =>
@@ -29,7 +29,7 @@ export class Gauges {
     this.F.push(t?.F ?? null);
     this.Dc.push(t?.Dc ?? null);
     const now = performance.now();
-    if (now - this.drawn < EVERY) return;
+    if (now - this.drawn < DRAW_INTERVAL) return;
     this.drawn = now;
     this.F.draw();
     this.Dc.draw();
@@ -38,13 +38,13 @@ export class Gauges {
   }
 
   setStatus(s: Status): void {
-    // What pages reported last stays in the status when there is nothing more to be reported.
+    // The status keeps the last reported latency when the pages report no more.
     const latency = s.phase === "tracking" ? s.latency : null;
     this.rate.push(s.fps.tracked);
     this.latency.push(latency?.median ?? null);
     this.rate.draw();
     this.latency.draw();
-    const tracks = TRACKS.includes(s.phase);
+    const tracks = MEASURED.includes(s.phase);
     this.put("gauge-tracked", tracks ? show(s.fps.tracked, 1) : "–");
     this.put("gauge-input", tracks ? show(s.fps.input) : "–");
     if (s.phase !== "tracking") for (const id of ["gauge-f", "gauge-dc"]) this.put(id, "–");
@@ -55,7 +55,7 @@ export class Gauges {
     this.stages(tracks ? s.ms : new Map());
   }
 
-  /** What was measured says nothing of now. */
+  /** Clears what was measured before the connection was lost. */
   disconnected(): void {
     for (const line of [this.F, this.Dc, this.rate, this.latency]) {
       line.clear();
@@ -102,7 +102,6 @@ export class Gauges {
   }
 
   private put(id: string, text: string): void {
-    const e = byId(id, HTMLElement);
-    if (e.textContent !== text) e.textContent = text;
+    setText(byId(id, HTMLElement), text);
   }
 }

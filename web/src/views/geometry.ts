@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spreads (covariances) as ellipses, in the picture and from above.
+// Covariances of joints as ellipses, in the image and from above.
 
-import type { Camera, Spread } from "../protocol";
-import type { Vec3 } from "../quaternion";
+import type { Camera, Spread } from "../live/protocol";
+import type { Vec3 } from "../shared/quaternion";
 
-/** Radius, in standard deviations, of the ellipse that holds 95 % of a normal distribution in the plane. */
+/** Radius of the 95 % ellipse of a normal distribution in the plane, in standard deviations. */
 export const RADIUS_95 = Math.sqrt(5.991);
 
 export interface Ellipse {
@@ -24,7 +24,7 @@ export function ellipse(a: number, b: number, c: number): Ellipse {
   };
 }
 
-/** Of a joint at `p` (mm, camera frame), in pixels of the input; null behind the camera. First-order projection. */
+/** The ellipse of a joint at `p` (mm, camera frame) in pixels of the input, to first order; null behind the camera. */
 export function ellipseInPicture(p: Vec3, s: Spread, camera: Camera): Ellipse | null {
   const [x, y, z] = p;
   if (!(z > 1)) return null;
@@ -37,7 +37,7 @@ export function ellipseInPicture(p: Vec3, s: Spread, camera: Camera): Ellipse | 
   return ellipse(uu, uv, vv);
 }
 
-/** From above: the x-z plane, mm. */
+/** The ellipse in the x-z plane, mm. */
 export function ellipseFromAbove(s: Spread): Ellipse {
   return ellipse(s[0], s[2], s[5]);
 }

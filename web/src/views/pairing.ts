@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which picture is shown with which pose. Poses come later than the pictures that they were found in (the tracker
-// takes its time), so that the newest of both would not lie over each other.
+// Pairs pictures with poses. A pose arrives later than the picture that it was found in, so that the newest of both do not
+// belong together.
 
 interface Numbered {
   frame: number;
@@ -8,18 +8,18 @@ interface Numbered {
 
 const KEPT_PICTURES = 6;
 const KEPT_POSES = 12;
-export const POSES_STOPPED = 400; // ms without a pose: pictures are shown as they come
+export const POSES_STOPPED = 400; // ms without a pose, after which pictures are shown as they arrive
 
 export class Pairing<Picture extends Numbered, Pose extends Numbered> {
   private pictures: Picture[] = [];
   private poses: Pose[] = [];
   private lastPose = -Infinity;
 
-  /** `drop` frees a picture that will not be shown any more. */
+  /** `drop` frees a picture that will not be shown again. */
   constructor(private readonly drop: (p: Picture) => void) {}
 
   picture(p: Picture): void {
-    // A smaller number: the program was started anew.
+    // A smaller number: the program has been restarted.
     const last = this.pictures.at(-1);
     if (last && p.frame < last.frame) this.clear();
     this.pictures.push(p);
@@ -42,14 +42,14 @@ export class Pairing<Picture extends Numbered, Pose extends Numbered> {
     this.lastPose = -Infinity;
   }
 
-  /** What to show at `now`: the newest picture that has its pose; without fresh poses the newest picture alone. */
+  /** What to show at `now`: the newest picture that has a pose, or without recent poses the newest picture alone. */
   pick(now: number): { picture: Picture | null; pose: Pose | null } {
     const pose = this.poses.at(-1);
     const newest = this.pictures.at(-1) ?? null;
     if (!pose || now - this.lastPose > POSES_STOPPED) return { picture: newest, pose: null };
     const ready = this.pictures.filter((p) => p.frame <= pose.frame);
     const picture = ready.pop() ?? newest;
-    for (const p of ready) this.drop(p); // older ones will not be asked for again
+    for (const p of ready) this.drop(p); // older ones are not needed again
     this.pictures = this.pictures.filter((p) => !ready.includes(p));
     return { picture, pose: this.poses.find((p) => picture && p.frame === picture.frame) ?? pose };
   }

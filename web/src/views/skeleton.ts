@@ -2,7 +2,7 @@
 
 export type Side = "left" | "right" | "middle";
 
-/** What is drawn of the tracked skeleton; joints are named as in the pose files. */
+/** The lines of the drawn skeleton, by the joint names of the pose files. */
 export const LINES: readonly (readonly [string, string, Side])[] = [
   ["root", "neck", "middle"],
   ["neck", "head", "middle"],
@@ -17,7 +17,7 @@ export const LINES: readonly (readonly [string, string, Side])[] = [
   ["r_wrist", "r_hand", "right"],
 ];
 
-/** Joints whose spread is drawn: those of the arms. */
+/** Joints whose covariance is drawn: those of the arms. */
 export const SPREAD_JOINTS = ["l_elbow", "l_wrist", "r_elbow", "r_wrist"] as const;
 
 export const sideOf = (joint: string): Side =>
@@ -25,7 +25,7 @@ export const sideOf = (joint: string): Side =>
 
 export type Palette = Record<Side, string>;
 
-/** The colours of the style sheet, for canvases. Read anew when the colour scheme changes. */
+/** The colours of the style sheet, for canvases. Read them again when the colour scheme changes. */
 export function readPalette(element: Element): Palette {
   const style = getComputedStyle(element);
   const of = (name: string, otherwise: string) => style.getPropertyValue(name).trim() || otherwise;

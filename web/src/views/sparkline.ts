@@ -2,12 +2,12 @@
 
 import { fitCanvas } from "./fit";
 
-/** A short history as a line. A null is a gap. */
+/** A short history as a line; null makes a gap. */
 export class Sparkline {
   private readonly values: (number | null)[] = [];
   private readonly g: CanvasRenderingContext2D;
 
-  /** `least` is the smallest range that fills the height. */
+  /** `size`: number of values. `least`: the smallest range that fills the height. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly size: number,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The person from above: what one camera cannot see well, the depth, with how sure the tracker is of it.
-// The camera is at the bottom and looks up; x to the right (to the left when mirrored, as in the picture).
+// The person from above: the depth, which a single camera shows least well, with its uncertainty. The camera is at the
+// bottom and looks up; x points to the right, or to the left when mirrored as the video is.
 
-import { drawsInSoftware, flatContext } from "../graphics";
-import type { Camera, Pose, TrackedPose } from "../protocol";
-import type { Vec3 } from "../quaternion";
+import { drawsInSoftware, flatContext } from "../shared/graphics";
+import type { Camera, Pose, TrackedPose } from "../live/protocol";
+import type { Vec3 } from "../shared/quaternion";
 import { fitCanvas } from "./fit";
 import { ellipseFromAbove } from "./geometry";
 import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
@@ -16,7 +16,7 @@ interface Colours extends Palette {
   body: string;
 }
 
-/** What part of the floor is shown, mm: x in ±half, z from near to far. */
+/** The part of the floor that is shown, mm: z from near to far, x about the middle `x`. */
 interface Window {
   near: number;
   far: number;
@@ -101,7 +101,7 @@ export class TopView {
     if (pose) this.drawPerson(pose, at, scale, sx);
   }
 
-  /** The window follows the person, in steps, so that it does not swim. */
+  /** Moves the window with the person, in steps, so that it does not drift. */
   private follow(pose: TrackedPose | null, aspect: number): void {
     if (!pose) {
       if (!this.closeUp) this.window = { ...this.window, near: -200, x: 0 };
@@ -195,7 +195,7 @@ export class TopView {
       const c = point(joint);
       if (!s || !c) continue;
       const e = ellipseFromAbove(s);
-      // On the canvas x may be mirrored, and z goes up (y goes down).
+      // On the canvas x may be mirrored, and z points up while y points down.
       const angle = Math.atan2(-Math.sin(e.angle), sx * Math.cos(e.angle));
       g.beginPath();
       g.ellipse(

@@ -1,23 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { fewerPictures } from "./camera";
 import { RADIUS_95, ellipse, ellipseFromAbove, ellipseInPicture } from "./geometry";
 import { Pairing } from "./pairing";
-
-describe("the camera's pictures", () => {
-  it("are fewer where each costs much, unless the camera is slow", () => {
-    const fast = { input: 25, tracked: 24.5 };
-    expect(fewerPictures(true, fast, false)).toBe(true);
-    expect(fewerPictures(false, fast, false)).toBe(false);
-    expect(fewerPictures(true, { input: 15, tracked: 15 }, false)).toBe(false);
-    expect(fewerPictures(true, { input: 30, tracked: 12 }, true)).toBe(false); // of the others there are no pictures
-    expect(fewerPictures(true, { input: null, tracked: null }, false)).toBe(false);
-  });
-  it("are not asked for differently each half second", () => {
-    const between = { input: 16, tracked: 16 };
-    expect([true, false].map((half) => fewerPictures(true, between, half))).toEqual([true, false]);
-  });
-});
 
 describe("ellipses", () => {
   it("have the half axes of a diagonal covariance", () => {

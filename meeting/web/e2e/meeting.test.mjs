@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+// People meet in a meeting: three pages and two trackers, with a real Mosquitto and a real Chromium.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { startBrowser, PATIENCE, tabTo } from "#e2e/program";
+import {
+  atTheEntryForm,
+  dressed,
+  drawLine,
+  inTheMeeting,
+  isIn,
+  motionError,
+  openMeeting,
+  processesOf,
+  shows,
+  strokes,
+} from "./meeting.mjs";
+
+const LONG = { timeout: 4 * PATIENCE };
+const MOST = 2; // degrees, on average
+
+let browser, meeting, ana, bo, chair, guest, watcher;
+before(async () => {
+  browser = await startBrowser();
+  meeting = await openMeeting();
+  ana = await meeting.person({ name: "Ana", gesture: "wave", avatar: { look: "plain" } });
+  bo = await meeting.person({ name: "Bo", gesture: "open", avatar: { look: "robot" }, phase: 1 });
+  chair = await inTheMeeting(browser, meeting, { name: "Chidi", role: "chair", look: "office" });
+  guest = await inTheMeeting(browser, meeting, { name: "Dara", look: "summer" });
+  watcher = await inTheMeeting(browser, meeting, { role: "watch" });
+});
+after(async () => {
+  for (const visit of [chair, guest, watcher]) await visit?.close();
+  await browser?.close();
+  await meeting?.end();
+});
+
+const pages = () => [chair.page, guest.page, watcher.page];
+const quiet = () => {
+  for (const visit of [chair, guest, watcher]) assert.deepEqual(visit.complaints.splice(0), []);
+};
+
+test("everybody sees everybody move", LONG, async () => {
+  for (const page of pages()) {
+    await shows(page, ["Ana", "Bo", "Chidi", "Dara"]);
+    await dressed(page, [ana.participant, bo.participant]);
+    for (const person of [ana, bo]) {
+      const error = await motionError(page, person);
+      console.log(
+        `${person.participant}: bones ${error.mean.toFixed(3)} degrees off, at most ${error.worst.toFixed(2)}`,
+      );
+      assert.ok(error.mean <= MOST);
+    }
+  }
+  const seats = await Promise.all(
+    pages().map((p) => p.evaluate(() => window.telemimeMeeting.participants.map((x) => [x.id, x.seat]))),
+  );
+  assert.deepEqual(seats[0], seats[1], "the same seats for all");
+  assert.deepEqual(seats[0], seats[2]);
+  quiet();
+});
+
+test("the link's secret is in no address", LONG, async () => {
+  const secrets = Object.values(meeting.invites);
+  for (const visit of [chair, guest, watcher]) {
+    assert.equal(new URL(visit.page.url()).hash, "");
+    for (const address of visit.requested) assert.ok(!secrets.some((s) => address.includes(s)), address);
+  }
+  for (const address of meeting.asked) assert.ok(!secrets.some((s) => address.includes(s)), address);
+});
+
+test("chat reaches all; what looks like a script is text", LONG, async () => {
+  const bad = '<img src=x onerror="window.hacked=1"><script>window.hacked=1</script>';
+  await guest.page.keyboard.press("c");
+  await guest.page.locator("#chat-text").fill("hello from Dara");
+  await guest.page.keyboard.press("Enter");
+  await ana.say(1, bad);
+  for (const page of pages()) {
+    const lines = page.locator("#lines");
+    await lines.getByText("hello from Dara").waitFor({ state: "attached" });
+    await lines.getByText(bad).waitFor({ state: "attached" });
+    assert.equal(await page.locator("#lines :is(img, script), #tags :is(img, script)").count(), 0);
+  }
+  const twin = await meeting.person({ name: bad.slice(0, 40), gesture: "idle", avatar: null });
+  const other = await meeting.person({ name: "Ana", gesture: "idle", avatar: null });
+  const number = (p) => Number(p.participant.slice(1));
+  for (const page of pages()) {
+    await shows(page, [
+      `Ana (${number(ana)})`,
+      `Ana (${number(other)})`,
+      "Bo",
+      "Chidi",
+      "Dara",
+      bad.slice(0, 40),
+    ]);
+    assert.equal(await page.locator("#people :is(img, script)").count(), 0);
+    assert.equal(await page.evaluate(() => window.hacked), undefined);
+  }
+  await twin.leave();
+  other.drop(); // the broker says it for it
+  for (const page of pages()) await shows(page, ["Ana", "Bo", "Chidi", "Dara"]);
+  await chair.page.locator("#lines").getByText("Bo left.").waitFor({ state: "detached" });
+  quiet();
+});
+
+test(
+  "the blackboard: drawn by mouse and by keys, taken back, wiped, seen by who comes late",
+  LONG,
+  async () => {
+    await guest.page.locator("#meeting-canvas").focus();
+    await guest.page.keyboard.press("b");
+    await drawLine(guest.page, [
+      [0.1, 0.2],
+      [0.5, 0.6],
+      [0.9, 0.2],
+    ]);
+    await drawLine(guest.page, [
+      [0.2, 0.8],
+      [0.8, 0.8],
+    ]);
+    await tabTo(guest.page, "#board-canvas");
+    for (const key of ["Space", "ArrowRight", "ArrowRight", "ArrowDown", "Space"])
+      await guest.page.keyboard.press(key);
+    for (const page of pages()) await strokes(page, 3);
+    await guest.page.keyboard.press("z");
+    for (const page of pages()) await strokes(page, 2);
+    const late = await inTheMeeting(browser, meeting, { name: "Emeka" });
+    await strokes(late.page, 2);
+    await shows(late.page, ["Ana", "Bo", "Chidi", "Dara", "Emeka"]);
+    await dressed(late.page, [ana.participant]);
+    assert.ok((await motionError(late.page, ana)).mean <= MOST);
+    assert.deepEqual(late.complaints, []);
+    await late.close();
+    await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+    await guest.page.keyboard.press("Escape");
+    assert.equal(await guest.page.locator("#board-clear").isVisible(), false);
+    await chair.page.locator("#board-toggle").click();
+    await chair.page.locator("#board-clear").click();
+    await chair.page.locator("#board-clear").click();
+    for (const page of pages()) await strokes(page, 0);
+    await drawLine(chair.page, [
+      [0.1, 0.5],
+      [0.9, 0.5],
+    ]);
+    for (const page of pages()) await strokes(page, 1);
+    await chair.page.locator("#board-close").click();
+    quiet();
+  },
+);
+
+test("who sends rubbish harms nobody else", LONG, async () => {
+  const bad = await meeting.person({ name: "Mallory", gesture: "idle", avatar: { look: "casual" }, rate: 5 });
+  const id = bad.participant;
+  for (const page of pages()) await shows(page, ["Ana", "Bo", "Chidi", "Dara", "Mallory"]);
+  const raw = (what, bytes, retain = false) =>
+    bad.client.publishAsync(`${bad.base}/${what}`, bytes, { qos: 1, retain });
+  const old = Buffer.from(bad.frame(1e6));
+  for (let n = 0; n < 20; n++) await raw("pose", Buffer.alloc(n * 7, n)); // none of them is a frame
+  for (let n = 0; n < 20; n++) await raw("pose", old);
+  await raw("pose", Buffer.alloc(60000, 1));
+  for (const text of ["{", "[]", '{"v":1}', "[".repeat(4000), `{"v":1,"name":"${"x".repeat(5000)}"}`]) {
+    for (const what of ["state", "chat", "board/0", "board/63"]) await raw(what, text);
+  }
+  const line = { c: "#ffffff", w: 30, p: [0, 0, 10000, 10000, 0, 10000, 10000, 0] };
+  const page = JSON.stringify({ v: 1, epoch: 2, strokes: Array(300).fill(line) });
+  for (let n = 0; n < 64; n++) await raw(`board/${n}`, page, true); // thousands of strokes
+  const bomb = { url: "https://bomb.example/a.vrm", sha256: "0".repeat(64), bytes: 9 };
+  const state = { v: 1, session: bad.session, kind: "tracker", name: "Mallory", seat: 0 };
+  await raw("state", JSON.stringify({ ...state, avatar: { ...bomb, bytes: 1e12 } }), true);
+  await raw("state", JSON.stringify({ ...state, avatar: { url: "http://bomb.example/a.vrm" } }), true);
+  for (const p of pages()) {
+    await p.waitForFunction((who) => {
+      const m = window.telemimeMeeting.participants.find((x) => x.id === who);
+      return m.reading.malformed >= 21 && m.reading.outOfOrder + m.reading.replayed >= 19 && m.refused >= 22;
+    }, id);
+    for (const person of [ana, bo]) {
+      const r = await p.evaluate(
+        (who) => window.telemimeMeeting.participants.find((x) => x.id === who).reading,
+        person.participant,
+      );
+      assert.deepEqual([r.malformed, r.replayed, r.flooded], [0, 0, 0]);
+      assert.ok((await motionError(p, person, 5)).mean <= MOST);
+    }
+  }
+  for (let n = 0; n < 64; n++) await raw(`board/${n}`, "", true);
+  for (const p of pages()) await strokes(p, 1);
+  await bad.leave();
+  for (const p of pages()) await shows(p, ["Ana", "Bo", "Chidi", "Dara"]);
+  quiet();
+});
+
+test(
+  "a full meeting without a graphics card: pictures come, and the page answers meanwhile",
+  LONG,
+  async () => {
+    const more = [];
+    for (let i = 0; i < 6; i++) {
+      const avatar = { look: i % 2 ? "plain" : "casual" };
+      more.push(await meeting.person({ name: `N${i}`, gesture: "wave", phase: i, avatar, rate: 20 }));
+    }
+    await dressed(
+      guest.page,
+      more.map((p) => p.participant),
+    );
+    const counters = () => guest.page.evaluate(() => window.telemimeMeeting.counters);
+    const before = await counters();
+    assert.equal(before.software, 1);
+    await guest.page.waitForFunction(
+      (n) => window.telemimeMeeting.counters.renders >= n + 15,
+      before.renders,
+    );
+    await guest.page.keyboard.press("c");
+    await guest.page.locator("#chat-text").fill("ten of us");
+    await guest.page.keyboard.press("Enter");
+    await chair.page.locator("#lines").getByText("ten of us").waitFor({ state: "attached" });
+    for (const p of [ana, more[0], more[5]]) assert.ok((await motionError(guest.page, p, 5)).mean <= MOST);
+    const after = await counters();
+    console.log(
+      `${after.renders} pictures at ${after.ratio} of the page's pixels, ${after.geometries} surfaces, the last took ${(after.took * 1000).toFixed(0)} ms`,
+    );
+    for (const p of more) await p.leave();
+    await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+    quiet();
+  },
+);
+
+test("avatars from elsewhere are those that were told, or are not shown", LONG, async () => {
+  const { boxAvatar } = await import("#mock/avatar");
+  const { createHash } = await import("node:crypto");
+  const file = boxAvatar();
+  const told = {
+    url: "https://avatars.example/boxes.vrm",
+    sha256: createHash("sha256").update(file).digest("hex"),
+    bytes: file.length,
+  };
+  await guest.page.route("https://avatars.example/**", (route) =>
+    route.fulfill({ body: file, headers: { "access-control-allow-origin": "*" } }),
+  );
+  const good = await meeting.person({ name: "Good", gesture: "wave", avatar: told });
+  await dressed(guest.page, [good.participant]);
+  assert.ok((await motionError(guest.page, good)).mean <= MOST);
+  const changed = await meeting.person({ name: "Changed", avatar: { ...told, sha256: "0".repeat(64) } });
+  await guest.page.waitForFunction(
+    (id) => window.telemimeMeeting.participants.find((p) => p.id === id)?.complaint.includes("changed since"),
+    changed.participant,
+  );
+  await good.leave();
+  await changed.leave();
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+  for (const visit of [chair, watcher]) visit.complaints.length = 0; // they could not reach avatars.example
+  quiet();
+});
+
+test("a tab that stalls holds nobody up, is taken for gone, and goes on when it is let", LONG, async () => {
+  const { opened, ids } = await processesOf(browser, () =>
+    inTheMeeting(browser, meeting, { name: "Stalled" }),
+  );
+  assert.ok(ids.length > 0, "the page has a process of its own");
+  await dressed(opened.page, [ana.participant]);
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara", "Stalled"]);
+  for (const id of ids) process.kill(id, "SIGSTOP");
+  const stopped = performance.now();
+  try {
+    for (let n = 0; n < 3; n++) assert.ok((await motionError(guest.page, ana, 10)).mean <= MOST);
+    await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+    const took = (performance.now() - stopped) / 1000;
+    console.log(`a tab that stalls is gone after ${took.toFixed(1)} s`);
+    assert.ok(took < 14, "before the broker says so");
+  } finally {
+    for (const id of ids) process.kill(id, "SIGCONT");
+  }
+  await isIn(opened.page);
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara", "Stalled"]);
+  assert.ok((await motionError(opened.page, ana)).mean <= MOST);
+  await opened.page.locator("#leave").click();
+  await opened.page.locator("#entry").waitFor();
+  for (const page of pages()) await shows(page, ["Ana", "Bo", "Chidi", "Dara"]);
+  assert.deepEqual(opened.complaints, []);
+  await opened.close();
+  quiet();
+});
+
+test(
+  "the broker dies and starts anew: all come back by themselves, and nothing but the gap is lost",
+  LONG,
+  async () => {
+    await meeting.broker.kill();
+    for (const page of pages()) {
+      await page
+        .locator("#banner")
+        .filter({ hasText: /connection to the meeting is lost|broker does not answer/ })
+        .waitFor();
+      assert.match(await page.locator("#state").innerText(), /Not connected|Connecting/);
+    }
+    await guest.page.keyboard.press("c");
+    await guest.page.locator("#chat-text").fill("said meanwhile");
+    await guest.page.keyboard.press("Enter");
+    await guest.page.locator("#chat-error").filter({ hasText: "waits for the connection" }).waitFor();
+    await meeting.broker.again();
+    for (const page of pages()) {
+      await page.locator("#banner").waitFor({ state: "hidden" });
+      await shows(page, ["Ana", "Bo", "Chidi", "Dara"]);
+      await strokes(page, 1);
+      for (const person of [ana, bo]) assert.ok((await motionError(page, person)).mean <= MOST);
+      await page.locator("#lines").getByText("said meanwhile").waitFor({ state: "attached" });
+      assert.equal(await page.locator("#title").innerText(), "Blue room");
+    }
+    for (const visit of [chair, guest, watcher]) visit.complaints.length = 0; // Chromium tells of each failed socket
+  },
+);
+
+test("by keyboard: in, about, out; and back to the same seat", LONG, async () => {
+  const { page, complaints, close } = await atTheEntry(browser, meeting);
+  await tabTo(page, "#name");
+  await page.keyboard.press("Enter");
+  await page.locator("#entry-error").filter({ hasText: "Enter a name first" }).waitFor();
+  await page.keyboard.type("Fumiko");
+  await tabTo(page, 'input[name="look"]:checked');
+  await page.keyboard.press("ArrowRight");
+  await tabTo(page, "#enter");
+  await page.keyboard.press("Enter");
+  await isIn(page);
+  const me = await page.evaluate(() => window.telemimeMeeting.me);
+  await dressed(page, [me]);
+  for (const [key, view] of [
+    ["2", "seat"],
+    ["3", "eyes"],
+    ["1", "orbit"],
+  ]) {
+    await page.keyboard.press(key);
+    assert.equal(await page.locator('input[name="view"]:checked').getAttribute("value"), view);
+  }
+  const drawn = () => page.evaluate(() => window.telemimeMeeting.counters.renders);
+  await page.locator("#meeting-canvas").focus();
+  const n = await drawn();
+  await page.keyboard.press("ArrowLeft");
+  await page.waitForFunction((before) => window.telemimeMeeting.counters.renders > before, n);
+  await page.keyboard.press("?");
+  await page.locator("#help-dialog").waitFor();
+  await page.keyboard.press("Escape");
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara", "Fumiko"]);
+  await page.reload(); // without the link
+  assert.equal(await page.locator("#name").inputValue(), "Fumiko");
+  await page.locator("#enter").click();
+  await isIn(page);
+  assert.equal(await page.evaluate(() => window.telemimeMeeting.me), me);
+  assert.deepEqual(complaints, []);
+  await close();
+  await shows(guest.page, ["Ana", "Bo", "Chidi", "Dara"]);
+});
+
+test("a link that opens nothing is told in words", LONG, async () => {
+  const { page, close } = await atTheEntry(browser, { ...meeting, link: () => `${meeting.url}#k=nothing` });
+  await page.locator("#name").fill("X");
+  await page.locator("#enter").click();
+  await page.locator("#entry-error").filter({ hasText: "not valid" }).waitFor();
+  assert.equal(await page.evaluate(() => window.telemimeMeeting.phase), "entry");
+  await close();
+});

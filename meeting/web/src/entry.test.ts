@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { EntryError, LOOKS, enter, inviteOf, readEntered, readSaved, tokenFor, withSeat } from "./entry";
+
+const ANSWER = {
+  user: "main.p01",
+  password: "secret",
+  participant: "p01",
+  mqtt: "ws://localhost:9001",
+  topic: "r/lab/main",
+  roles: ["speak", "board"],
+  return: "token-1",
+};
+
+describe("a link", () => {
+  it("has its secret behind #", () => {
+    expect(inviteOf("#k=abc_DEF-123")).toBe("abc_DEF-123");
+    expect(inviteOf("#x=1&k=abc")).toBe("abc");
+    for (const f of ["", "#", "#k=", "#abc", `#k=${"x".repeat(201)}`, "#k=<script>"]) {
+      expect(inviteOf(f)).toBeNull();
+    }
+  });
+});
+
+describe("the answer", () => {
+  it("is taken as it is", () => {
+    expect(readEntered(ANSWER)).toEqual({
+      user: "main.p01",
+      password: "secret",
+      participant: "p01",
+      mqtt: "ws://localhost:9001/",
+      tcp: null,
+      topic: "r/lab/main",
+      roles: ["speak", "board"],
+      token: "token-1",
+      looks: LOOKS,
+    });
+  });
+  it("may lead to a broker below a path", () => {
+    const url = "wss://room.example.org/mqtt";
+    expect(readEntered({ ...ANSWER, mqtt: url })!.mqtt).toBe(url);
+  });
+  it("may say where programs reach the broker, and nothing else there", () => {
+    const tcp = (v: unknown) => readEntered({ ...ANSWER, tcp: v })!.tcp;
+    for (const good of ["mqtt://localhost:1883", "mqtts://room.example.org:8883", "mqtt://[::1]:1883"])
+      expect(tcp(good)).toBe(good);
+    expect(tcp("mqtt://localhost:1883/")).toBe("mqtt://localhost:1883");
+    for (const bad of [
+      7,
+      "",
+      "http://h:1",
+      "mqtt://u:p@h:1",
+      "mqtt://h:1/x",
+      "mqtt://h';rm -r '",
+      "mqtt://$(x):1",
+    ])
+      expect(tcp(bad)).toBeNull();
+  });
+  it("for those who watch has no participant", () => {
+    expect(readEntered({ ...ANSWER, roles: ["watch"] })!.participant).toBeNull();
+    expect(readEntered({ ...ANSWER, participant: null })!.participant).toBeNull();
+  });
+  it("that lacks something is none", () => {
+    for (const change of [
+      { mqtt: "http://localhost:9001" },
+      { mqtt: "javascript:1" },
+      { topic: "r/lab/#" },
+      { topic: "x" },
+      { user: "" },
+      { password: 7 },
+    ]) {
+      expect(readEntered({ ...ANSWER, ...change })).toBeNull();
+    }
+    for (const a of [null, 3, "x", []]) expect(readEntered(a)).toBeNull();
+    expect(readEntered({ ...ANSWER, looks: ["a", "../b", 3] })!.looks).toEqual(["a"]);
+  });
+});
+
+describe("entering", () => {
+  const answering =
+    (status: number, body: unknown, seen: Request[] = []) =>
+    (url: RequestInfo | URL, init?: RequestInit): Promise<Response> => {
+      seen.push(new Request(new URL(String(url), "http://localhost"), init));
+      return Promise.resolve(new Response(JSON.stringify(body), { status }));
+    };
+  const question = { invite: "SECRET", token: null, watch: false };
+
+  it("asks with the secret in the body, never in the address", async () => {
+    const seen: Request[] = [];
+    const entered = await enter({ ...question, token: "t" }, answering(200, ANSWER, seen));
+    expect(entered.user).toBe("main.p01");
+    expect(seen[0]!.url).toBe("http://localhost/room/enter");
+    expect(seen[0]!.method).toBe("POST");
+    expect(await seen[0]!.json()).toEqual({ v: 1, invite: "SECRET", return: "t", watch: false });
+  });
+  it("says in words why not, without the secret", async () => {
+    for (const [status, words] of [
+      [403, "not valid"],
+      [409, "seats"],
+      [423, "locked"],
+      [429, "Too many"],
+      [500, "refused the request"],
+    ] as const) {
+      const e = await enter(question, answering(status, { error: "SECRET" })).catch((x: unknown) => x);
+      expect(e).toBeInstanceOf(EntryError);
+      expect((e as Error).message).toContain(words);
+      expect((e as Error).message).not.toContain("SECRET");
+    }
+    await expect(enter(question, answering(200, {}))).rejects.toThrow("does not understand");
+    await expect(enter(question, () => Promise.reject(new TypeError("net")))).rejects.toThrow("answer");
+  });
+});
+
+describe("what the browser keeps", () => {
+  const entered = readEntered(ANSWER)!;
+  it("brings back to the seat of this link, or else to the last one", () => {
+    let saved = readSaved(null);
+    expect(tokenFor(saved, "A")).toBeNull();
+    saved = withSeat(saved, "A", entered);
+    saved = withSeat(saved, "B", { ...entered, token: "token-2", topic: "r/lab/two" });
+    expect([tokenFor(saved, "A"), tokenFor(saved, "B"), tokenFor(saved, "C")]).toEqual([
+      "token-1",
+      "token-2",
+      null,
+    ]);
+    expect(tokenFor(saved, null)).toBe("token-2");
+    saved = withSeat(saved, null, { ...entered, token: "token-3" }); // back without the link
+    expect(tokenFor(saved, "A")).toBe("token-3");
+    expect(readSaved(JSON.stringify(saved))).toEqual(saved);
+  });
+  it("does not hold the link's secret", () => {
+    expect(JSON.stringify(withSeat(readSaved(null), "VERYSECRET", entered))).not.toContain("VERYSECRET");
+  });
+  it("is bounded, and nothing when it is broken", () => {
+    let saved = readSaved(null);
+    for (let i = 0; i < 50; i++) saved = withSeat(saved, `link${i}`, { ...entered, token: `t${i}` });
+    expect(saved.seats.length).toBe(10);
+    for (const t of [
+      "{",
+      "3",
+      "null",
+      '{"seats":3,"name":7,"avatar":{}}',
+      '{"seats":[null,{"topic":"x"}]}',
+    ]) {
+      expect(readSaved(t)).toEqual({ seats: [], name: "", avatar: "" });
+    }
+  });
+});

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joining: the secret of the link, the request to the server of the meeting, and what this browser stores for the next time.
+
+import { sha256 } from "@noble/hashes/sha2";
+import { bytesToHex } from "@noble/hashes/utils";
+import * as v from "valibot";
+import { parseStored } from "#web/shared/stored";
+import { characters } from "./messages";
+import { isSegment, meetingTopic } from "./topics";
+
+/** The secret behind # in a link; null when there is none. */
+export function inviteOf(fragment: string): string | null {
+  const k = new URLSearchParams(fragment.replace(/^#/, "")).get("k");
+  return k && /^[A-Za-z0-9_.~-]{1,200}$/.test(k) ? k : null;
+}
+
+export const LOOKS = ["plain", "casual", "office", "summer", "robot"] as const;
+const ROLES = ["speak", "board", "chair"] as const;
+export type Role = (typeof ROLES)[number];
+
+function isSocketUrl(text: string): boolean {
+  try {
+    return ["ws:", "wss:"].includes(new URL(text).protocol);
+  } catch {
+    return false;
+  }
+}
+
+const text = (most: number) => v.pipe(v.string(), v.minLength(1), v.maxLength(most));
+const topic = v.pipe(
+  v.string(),
+  v.check((t) => meetingTopic(t) !== null),
+);
+const list = v.fallback(v.array(v.unknown()), []);
+
+/** The answer of the server: how to reach the broker, and as whom. */
+const EnteredSchema = v.pipe(
+  v.object({
+    user: text(200),
+    password: text(500),
+    /** Null for those who only watch. */
+    participant: v.fallback(
+      v.nullable(
+        v.pipe(
+          v.string(),
+          v.check((s) => isSegment(s)),
+        ),
+      ),
+      null,
+    ),
+    /** ws:// or wss:// */
+    mqtt: v.pipe(
+      v.string(),
+      v.check(isSocketUrl),
+      v.transform((url) => new URL(url).href),
+    ),
+    /** mqtt:// or mqtts://, for programs; null when it is not given. Host and port alone: users copy it into a command. */
+    tcp: v.fallback(
+      v.nullable(
+        v.pipe(
+          v.string(),
+          v.regex(/^mqtts?:\/\/(\[[0-9a-f:.]{2,45}\]|[a-z0-9._-]{1,253})(:\d{1,5})?\/?$/i),
+          v.transform((url) => url.replace(/\/$/, "")),
+        ),
+      ),
+      null,
+    ),
+    /** "r/tenant/meeting" */
+    topic,
+    roles: v.pipe(
+      list,
+      v.transform((all): readonly Role[] => ROLES.filter((r) => all.includes(r))),
+    ),
+    return: v.fallback(v.nullable(text(500)), null),
+    looks: v.pipe(
+      list,
+      v.transform((all): readonly string[] => all.filter((s) => isSegment(s)).slice(0, 50)),
+    ),
+  }),
+  v.transform(({ return: token, ...a }) => ({
+    ...a,
+    participant: a.roles.length ? a.participant : null,
+    /** Gives the same seat the next time. */
+    token,
+    /** Avatars at /avatars/<look>.vrm */
+    looks: a.looks.length ? a.looks : LOOKS,
+  })),
+);
+export type Entered = v.InferOutput<typeof EnteredSchema>;
+
+/** Null when the answer lacks something that is required. */
+export function readEntered(answer: unknown): Entered | null {
+  const result = v.safeParse(EnteredSchema, answer);
+  return result.success ? result.output : null;
+}
+
+/** Why joining failed; the page shows `message`. */
+export class EntryError extends Error {}
+
+const REFUSALS: Record<number, string> = {
+  403: "This link is not valid: it may be old or incomplete. Ask for a new one.",
+  404: "There is no meeting at this address. Ask for a new link.",
+  409: "All seats are taken. You can watch, or try again later.",
+  423: "The meeting is locked: nobody new can join now.",
+  429: "Too many attempts. Wait a minute, then try again.",
+};
+
+export interface EntryRequest {
+  invite: string | null;
+  token: string | null;
+  watch: boolean;
+}
+
+/** Asks the program that serves this page. The secret is sent in the body, never in an address. */
+export async function enter(request: EntryRequest, fetcher: typeof fetch = fetch): Promise<Entered> {
+  const { invite, token, watch } = request;
+  let answer: Response;
+  try {
+    answer = await fetcher("/room/enter", {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: JSON.stringify({
+        v: 1,
+        ...(invite ? { invite } : {}),
+        ...(token ? { return: token } : {}),
+        watch,
+      }),
+      cache: "no-store",
+      credentials: "omit",
+      referrerPolicy: "no-referrer",
+    });
+  } catch {
+    throw new EntryError("The meeting's server does not answer. Is it still running?");
+  }
+  if (!answer.ok)
+    throw new EntryError(REFUSALS[answer.status] ?? "The server refused the request. Try again.");
+  const entered = readEntered(await answer.json().catch(() => null));
+  if (!entered) throw new EntryError("This page does not understand the server's answer. Reload the page.");
+  return entered;
+}
+
+const KEY = "telemime-room";
+const MAX_SEATS_SAVED = 10;
+const SeatSchema = v.object({ by: text(64), topic, token: text(500) });
+
+/** What this browser stores: the user's choices, and tokens that lead back to seats. */
+const SavedSchema = v.object({
+  /** Newest last. `by`: a hash of the link. */
+  seats: v.pipe(
+    list,
+    v.transform((all) => all.filter((s) => v.is(SeatSchema, s)).slice(-MAX_SEATS_SAVED)),
+  ),
+  name: v.fallback(
+    v.pipe(
+      v.string(),
+      v.check((s) => characters(s) <= 40),
+    ),
+    "",
+  ),
+  /** "look:NAME", "url:...", "none", or "" when nothing was chosen. */
+  avatar: v.fallback(v.pipe(v.string(), v.maxLength(2200)), ""),
+});
+export type Saved = v.InferOutput<typeof SavedSchema>;
+
+export const readSaved = (stored: string | null): Saved => parseStored(SavedSchema, stored);
+
+const hashOf = (invite: string): string => bytesToHex(sha256(invite)).slice(0, 16);
+
+/** The token for this link; without a link, that of the last meeting. */
+export function tokenFor(saved: Saved, invite: string | null): string | null {
+  if (!invite) return saved.seats.at(-1)?.token ?? null;
+  return saved.seats.find((s) => s.by === hashOf(invite))?.token ?? null;
+}
+
+export function withSeat(saved: Saved, invite: string | null, entered: Entered): Saved {
+  const { token, topic } = entered;
+  if (!token) return saved;
+  const by = invite ? hashOf(invite) : (saved.seats.find((s) => s.topic === topic)?.by ?? hashOf(topic));
+  const others = saved.seats.filter((s) => s.by !== by);
+  return { ...saved, seats: [...others, { by, topic, token }].slice(-MAX_SEATS_SAVED) };
+}
+
+export function loadSaved(): Saved {
+  try {
+    return readSaved(localStorage.getItem(KEY));
+  } catch {
+    return readSaved(null);
+  }
+}
+
+export function save(saved: Saved): void {
+  try {
+    localStorage.setItem(KEY, JSON.stringify(saved));
+  } catch {
+    // Nothing can be stored here: the seat is lost when the page is closed.
+  }
+}

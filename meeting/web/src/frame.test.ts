@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { about, angleBetween, multiply, type Quat } from "#web/shared/quaternion";
+import { BONES, MAX_FRAME, MAX_BONES, decodeFrame, encodeFrame, type PoseFrame } from "./frame";
+
+/** Numbers in [0, 1), the same each time. */
+function chance(seed: number): () => number {
+  let s = seed;
+  return () => (s = (s * 48271) % 2147483647) / 2147483647;
+}
+
+function anyRotation(next: () => number): Quat {
+  const turn = (axis: "x" | "y" | "z"): Quat => about(axis, (next() * 2 - 1) * Math.PI);
+  return multiply(turn("x"), multiply(turn("y"), turn("z")));
+}
+
+const frame = (change: Partial<PoseFrame> = {}): PoseFrame => ({
+  tracked: true,
+  still: false,
+  session: 4660,
+  sequence: 7,
+  captured: 123456789n,
+  hips: [0.012, 0.94, -0.3],
+  bones: BONES.slice(0, 13).map((_, bone) => ({ bone, rotation: [0, 0, 0, 1], confidence: bone })),
+  ...change,
+});
+
+describe("frames", () => {
+  it("of 13 bones have 111 bytes", () => {
+    expect(encodeFrame(frame()).length).toBe(111);
+    expect(encodeFrame(frame({ bones: [], tracked: false })).length).toBe(26);
+  });
+  it("come back as they were, to 15 bits", () => {
+    const next = chance(1);
+    let worst = 0;
+    for (let n = 0; n < 300; n++) {
+      const bones = BONES.map((_, bone) => bone)
+        .filter(() => next() < 0.6)
+        .slice(0, MAX_BONES)
+        .map((bone) => ({ bone, rotation: anyRotation(next), confidence: Math.floor(next() * 16) }));
+      const sent = frame({ bones, sequence: Math.floor(next() * 2 ** 32), still: next() < 0.5 });
+      const got = decodeFrame(encodeFrame(sent))!;
+      expect({ ...got, bones: [] }).toEqual({ ...sent, bones: [] });
+      expect(got.bones.map((b) => [b.bone, b.confidence])).toEqual(bones.map((b) => [b.bone, b.confidence]));
+      bones.forEach((b, i) => (worst = Math.max(worst, angleBetween(b.rotation, got.bones[i]!.rotation))));
+    }
+    expect(worst).toBeLessThan(1.5e-4); // rad
+  });
+  it("turn the short way for either sign of a rotation", () => {
+    for (const rotation of [
+      [0.5, 0.5, 0.5, 0.5],
+      [-0.5, -0.5, -0.5, -0.5],
+      [0, 0, 0, -1],
+      [-1, 0, 0, 0],
+      [0, Math.SQRT1_2, -Math.SQRT1_2, 0],
+    ] as Quat[]) {
+      const got = decodeFrame(encodeFrame(frame({ bones: [{ bone: 4, rotation, confidence: 0 }] })))!;
+      expect(angleBetween(got.bones[0]!.rotation, rotation)).toBeLessThan(1.5e-4);
+    }
+  });
+  it("take any view of memory", () => {
+    const bytes = encodeFrame(frame());
+    const larger = new Uint8Array(bytes.length + 9);
+    larger.set(bytes, 5);
+    expect(decodeFrame(larger.subarray(5, 5 + bytes.length))).toEqual(decodeFrame(bytes));
+  });
+  it("hold large times exactly, and hips within their range", () => {
+    const captured = 2n ** 63n + 1n;
+    expect(decodeFrame(encodeFrame(frame({ captured })))!.captured).toBe(captured);
+    expect(decodeFrame(encodeFrame(frame({ hips: [99, -99, 0] })))!.hips).toEqual([32.767, -32.768, 0]);
+  });
+  it("that cannot be said are refused", () => {
+    const bone = { bone: 0, rotation: [0, 0, 0, 1] as Quat, confidence: 0 };
+    expect(() => encodeFrame(frame({ session: 0 }))).toThrow(RangeError);
+    expect(() => encodeFrame(frame({ bones: [bone, bone] }))).toThrow(RangeError);
+    expect(() => encodeFrame(frame({ bones: [{ ...bone, bone: 19 }] }))).toThrow(RangeError);
+    expect(() => encodeFrame(frame({ tracked: false, bones: [bone] }))).toThrow(RangeError);
+    const all = BONES.map((_, i) => ({ ...bone, bone: i }));
+    expect(() => encodeFrame(frame({ bones: all }))).toThrow(RangeError);
+  });
+});
+
+describe("malformed frames", () => {
+  const good = encodeFrame(frame());
+  const changed = (at: number, value: number): Uint8Array => {
+    const b = good.slice();
+    b[at] = value;
+    return b;
+  };
+  it("of every other length", () => {
+    for (let n = 0; n < good.length; n++) expect(decodeFrame(good.subarray(0, n))).toBeNull();
+    for (const more of [1, 6, MAX_FRAME, 1 << 20]) {
+      const b = new Uint8Array(good.length + more);
+      b.set(good);
+      expect(decodeFrame(b)).toBeNull();
+    }
+  });
+  it("of another version, without a session, with more bones than there are", () => {
+    expect(decodeFrame(good)).not.toBeNull();
+    expect(decodeFrame(changed(0, 2))).toBeNull();
+    const none = changed(2, 0);
+    none[3] = 0;
+    expect(decodeFrame(none)).toBeNull();
+    for (const at of [18, 19]) expect(decodeFrame(changed(at, 0xf8))).toBeNull();
+    expect(decodeFrame(changed(17, 0xff))).toBeNull(); // more bones than bytes
+    expect(decodeFrame(changed(1, 0))).toBeNull(); // lost, with bones
+    expect(decodeFrame(changed(1, 0xfd))).not.toBeNull(); // flags of later versions
+  });
+  it("with all 19 bones", () => {
+    const b = new Uint8Array(26 + 10 + 19 * 6);
+    b.set(good.subarray(0, 16));
+    new DataView(b.buffer).setUint32(16, 0x7ffff, true);
+    expect(decodeFrame(b)).toBeNull();
+  });
+  it("with bits that no rotation has", () => {
+    const first = 26 + 7;
+    expect(decodeFrame(changed(first + 5, good[first + 5]! | 0x80))).toBeNull();
+    const long = good.slice();
+    long.fill(0xff, first, first + 5); // three components of 0.7
+    long[first + 5] = 0x1f;
+    expect(decodeFrame(long)).toBeNull();
+    expect(decodeFrame(changed(32, 0xff))).toBeNull(); // the unused half of the confidences
+  });
+  it("of noise never harm, and rotations are always unit", () => {
+    const next = chance(3);
+    for (let n = 0; n < 3000; n++) {
+      const b = Uint8Array.from({ length: 26 + Math.floor(next() * 130) }, () => Math.floor(next() * 256));
+      if (n % 2) b.set(good.subarray(0, 20));
+      const f = decodeFrame(b);
+      for (const { rotation } of f?.bones ?? []) expect(Math.hypot(...rotation)).toBeCloseTo(1, 6);
+    }
+  });
+});

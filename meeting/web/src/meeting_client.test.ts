@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { toBytes } from "./messages";
+import { FakeBroker, Page, TOPIC } from "./testing_meeting";
+
+let broker: FakeBroker;
+beforeEach(() => {
+  vi.useFakeTimers();
+  broker = new FakeBroker();
+});
+afterEach(() => vi.useRealTimers());
+
+const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
+
+describe("a page in a meeting", () => {
+  it("sees others come, speak and go, on seats of their own", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(bo.names).toEqual(["Ana", "Bo"]);
+    expect(ana.seats).toEqual({ p01: 0, p02: 1 });
+    expect(bo.seats).toEqual(ana.seats);
+    expect(broker.told).toBe(4); // a presence and a state of each
+    bo.client.say("hello");
+    await wait(100);
+    bo.client.leave();
+    await wait(1000);
+    expect(ana.said).toEqual(["* Bo joined.", "Bo: hello", "* Bo left."]);
+    expect(bo.said).toEqual(["Bo: hello"]); // who was here before is not announced
+    expect([...broker.kept.keys()]).not.toContain(`${TOPIC}/p/p02/state`);
+  });
+  it("does not tell again and again of one who comes and goes all the time", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    for (let i = 0; i < 60; i++) {
+      broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: i % 2 === 0, session: 5 }), true);
+      await wait(3000);
+    }
+    expect(ana.said.length).toBeLessThan(20);
+    expect(ana.said.slice(0, 2)).toEqual(["* p09 joined.", "* p09 left."]);
+  });
+  it("numbers the same names", async () => {
+    const pages = [new Page(broker, "p02", "Ana"), new Page(broker, "p01", "Ana")]; // at the same moment
+    await wait(3000);
+    for (const p of pages) expect(p.names).toEqual(["Ana (1)", "Ana (2)"]);
+    expect(Object.values(pages[0]!.seats).sort()).toEqual([0, 1]);
+    expect(pages[0]!.seats).toEqual(pages[1]!.seats);
+  });
+  it("asks for the seat that it was given when somebody with a smaller id wants its own", async () => {
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(1000);
+    expect(bo.seats).toEqual({ p02: 0 });
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 5 }), true);
+    const state = { session: 5, kind: "tracker", name: "Ana", seat: 0, avatar: null };
+    broker.publish(`${TOPIC}/p/p01/state`, toBytes(state), true);
+    await wait(1000);
+    expect(bo.seats).toEqual({ p01: 0, p02: 1 });
+    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: false, session: 5 }), true);
+    await wait(1000);
+    expect(bo.seats).toEqual({ p02: 1 }); // nobody is moved because somebody leaves
+  });
+  it("keeps its seat among those who want any", async () => {
+    for (const [i, id] of ["p13", "p14"].entries()) {
+      broker.publish(`${TOPIC}/p/${id}/presence`, toBytes({ here: true, session: 5 }), true);
+      const state = { session: 5, kind: "tracker", name: `T${i}`, seat: null, avatar: null };
+      broker.publish(`${TOPIC}/p/${id}/state`, toBytes(state), true);
+    }
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    expect(bo.seats).toEqual({ p02: 2, p13: 0, p14: 1 });
+    expect(broker.told).toBe(6); // and no dispute with oneself
+  });
+  it("only watches without a seat", async () => {
+    new Page(broker, "p01", "Ana");
+    const watcher = new Page(broker, null, "");
+    await wait(2000);
+    expect(watcher.names).toEqual(["Ana"]);
+    expect(watcher.client.say("hi")).toContain("only watch");
+    expect([...broker.kept.keys()].every((t) => t.startsWith(`${TOPIC}/p/p01/`))).toBe(true);
+  });
+});
+
+describe("when the broker dies and comes back with nothing", () => {
+  it("everybody is there again without a word, and what was said meanwhile is said", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    bo.client.draw("#ffffff", 40, [0, 0, 1, 1]);
+    await wait(500);
+    broker.die();
+    await wait(4000);
+    expect(ana.client.state.kind).toBe("lost");
+    expect(ana.names).toEqual(["Ana", "Bo"]); // still to be seen
+    expect(ana.client.say("are you there?")).toBe("");
+    bo.client.draw("#ffffff", 40, [0, 1, 1, 0]);
+    broker.up = true;
+    await wait(40000);
+    expect(ana.client.state.kind).toBe("open");
+    expect(ana.said).toEqual(["* Bo joined.", "Ana: are you there?"]);
+    expect(bo.said.at(-1)).toBe("Ana: are you there?");
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(ana.client.board.strokes.length).toBe(2);
+    const late = new Page(broker, "p03", "Chidi");
+    await wait(1000);
+    expect(late.client.board.strokes.length).toBe(2);
+    expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
+  });
+  it("all that was written meanwhile is heard by all, as fast as they listen", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    broker.die();
+    await wait(2000);
+    const lines = Array.from({ length: 20 }, (_, i) => `line ${i}`);
+    for (const l of lines) expect(ana.client.say(l)).toBe("");
+    broker.up = true;
+    await wait(60000);
+    for (const p of [ana, bo])
+      expect(p.said.filter((l) => l.startsWith("Ana"))).toEqual(lines.map((l) => `Ana: ${l}`));
+    expect(ana.client.outbox.waiting).toEqual([]);
+  });
+  it("what waited is said by the page that comes in anew, when the others are back", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    broker.die();
+    await wait(2000);
+    ana.client.say("are you there?");
+    ana.client.stop();
+    broker.up = true;
+    const again = new Page(broker, "p01", "Ana", ["speak", "board"], ana.client.outbox);
+    await wait(2000);
+    expect(again.client.outbox.waiting.length).toBe(1); // nobody may be there yet to hear it
+    await wait(40000);
+    expect(bo.said.at(-1)).toBe("Ana: are you there?");
+    expect(again.client.outbox.waiting).toEqual([]);
+    again.client.say("at once");
+    await wait(100);
+    expect(bo.said.at(-1)).toBe("Ana: at once");
+  });
+  it("who does not come back has left", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    broker.die();
+    bo.client.stop();
+    broker.up = true;
+    await wait(15000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    await wait(20000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual(["* Bo joined.", "* Bo left."]);
+  });
+  it("chairs tell what the meeting is", async () => {
+    const meeting = { title: "Blue", seats: 5, epoch: 3, chairs: ["p01"], locked: false };
+    broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
+    await wait(1000);
+    broker.die();
+    broker.up = true;
+    await wait(5000);
+    expect(ana.client.roster.meeting).toMatchObject(meeting);
+    const late = new Page(broker, "p03", "Chidi");
+    await wait(1000);
+    expect(late.client.roster.meeting.title).toBe("Blue");
+  });
+});
+
+describe("a page that vanishes", () => {
+  it("is gone within its keep-alive of 10 s, whenever the broker notices", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    new Page(broker, "p02", "Bo");
+    await wait(40000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    broker.lose();
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual(["* Bo joined.", "* Bo left."]);
+  });
+});
+
+describe("a broker that is not heard for a while", () => {
+  it("makes nobody leave", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    new Page(broker, "p02", "Bo");
+    await wait(10000);
+    broker.deaf = true;
+    await wait(15000);
+    broker.deaf = false;
+    await wait(10000);
+    expect(ana.names).toEqual(["Ana", "Bo"]);
+    expect(ana.said).toEqual(["* Bo joined."]);
+  });
+});
+
+describe("somebody whom only the broker still knows", () => {
+  it("is not seen for long, and leaves without a word", async () => {
+    broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: true, session: 5, every: 1.25 }), true);
+    await wait(100);
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    expect(ana.names).toEqual(["Ana", "p09"]);
+    await wait(5000);
+    expect(ana.names).toEqual(["Ana"]);
+    expect(ana.said).toEqual([]);
+  });
+});
+
+describe("one connection that breaks", () => {
+  it("is told to others, and mended without a trace of the late will", async () => {
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(3000);
+    broker.cut();
+    await wait(20000);
+    expect(bo.client.state.kind).toBe("open");
+    expect(ana.said).toEqual(["* Bo joined.", "* Bo left.", "* Bo joined."]);
+    // The will of the old connection comes only now: Bo is here none the less, for those who come later, too.
+    broker.publish(`${TOPIC}/p/p02/presence`, toBytes({ here: false, session: 1 }), true);
+    await wait(2000);
+    const late = new Page(broker, "p03", "Chidi");
+    await wait(1000);
+    expect(ana.names).toEqual(["Ana", "Bo", "Chidi"]);
+    expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
+    expect(ana.said.length).toBe(4);
+  });
+});
+
+describe("the blackboard", () => {
+  it("is the same for all, late ones and those who come back", async () => {
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(2000);
+    expect(bo.client.mayChair).toBe(false);
+    ana.client.draw("#ffd76a", 40, [0, 0, 0.5, 0.5]);
+    bo.client.draw("#ff9280", 40, [0, 1, 1, 0]);
+    bo.client.draw("#ff9280", 40, [0, 0.5, 1, 0.5]);
+    await wait(1000);
+    for (const p of [ana, bo]) expect(p.client.board.strokes.length).toBe(3);
+    bo.client.stop();
+    const again = new Page(broker, "p02", "Bo");
+    await wait(2000);
+    expect(again.client.board.strokes.length).toBe(3);
+    again.client.undo();
+    await wait(1000);
+    expect(ana.client.board.strokes.length).toBe(2);
+    bo.client.wipe(); // may not
+    await wait(500);
+    expect(ana.client.board.strokes.length).toBe(2);
+    ana.client.wipe();
+    await wait(1000);
+    for (const p of [ana, again]) expect(p.client.board.strokes.length).toBe(0);
+    expect([...broker.kept.keys()].filter((t) => t.includes("/board/"))).toEqual([]);
+    again.client.draw("#ff9280", 40, [0, 0, 1, 1]);
+    await wait(1000);
+    expect(ana.client.board.strokes.length).toBe(1);
+  });
+});
+
+describe("those who chair the meeting", () => {
+  const kept = () => JSON.parse(new TextDecoder().decode(broker.kept.get(`${TOPIC}/room`)));
+  const told = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
+  it("change its title, seats and lock, and leave all else as it is", async () => {
+    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
+    const bo = new Page(broker, "p02", "Bo");
+    await wait(2000);
+    // The second before the first has come back.
+    const both = [ana.client.alter({ title: "Red", seats: 12 }), ana.client.alter({ locked: true })];
+    await wait(500);
+    expect(await Promise.all(both)).toEqual(["", ""]);
+    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true });
+    expect(bo.client.roster.meeting).toMatchObject({ title: "Red", seats: 12, locked: true });
+    ana.client.wipe();
+    await wait(500);
+    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true, epoch: 5 });
+    expect(await bo.client.alter({ title: "Mine" })).toContain("Only those who chair");
+    expect(kept().title).toBe("Red");
+  });
+  it("hear in words when the meeting does not take it", async () => {
+    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    const ana = new Page(broker, "p01", "Ana", ["speak", "chair"]);
+    await wait(2000);
+    const publish = broker.publish.bind(broker);
+    broker.publish = (topic, ...rest) => void (topic === `${TOPIC}/room` || publish(topic, ...rest)); // as one that drops it
+    const words = ana.client.alter({ locked: true });
+    await wait(10000);
+    expect(await words).toContain("not accepted");
+    expect(ana.client.roster.meeting.locked).toBe(false);
+    broker.die();
+    expect(await ana.client.alter({ locked: true })).toContain("no connection");
+  });
+});

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of the meeting for the page. The 3-D library is the largest part of it and comes by itself, beside the door.
+
+import { byId } from "#web/shared/dom";
+import type { DebugPose } from "../debug";
+import { MeetingLoop, type Shown } from "../loop";
+import type { Stroke } from "../messages";
+import type { Rig } from "../rig";
+import type { Roster } from "../roster";
+import { drawsInSoftware } from "#web/shared/graphics";
+import { BoardCanvas } from "./board_canvas";
+import type { Cast } from "./cast";
+import { control } from "./controls";
+import { DAY, EVENING, type Palette } from "./palette";
+import type { MeetingStage } from "./meeting_stage";
+import { Tags } from "./tags";
+
+export class SceneUi {
+  readonly slate: BoardCanvas;
+  /** Null before the 3-D library is there, or when the browser cannot draw in 3-D. */
+  cast: Cast | null = null;
+  private stage: MeetingStage | null = null;
+  private loop: MeetingLoop | null = null;
+  private readonly tags = new Tags(byId("tags", HTMLElement));
+  private readonly dark = window.matchMedia("(prefers-color-scheme: dark)");
+  private built = "";
+  private calm = false;
+  private fetchStrangers = true;
+  private furtherSeats: (roster: Roster) => number = () => 0;
+
+  constructor(
+    private readonly rig: Rig,
+    private readonly what: () => Shown,
+    strokes: () => readonly Stroke[],
+    slateChanged: () => void,
+  ) {
+    const width = drawsInSoftware() ? 1024 : 2048;
+    this.slate = new BoardCanvas(strokes, width, this.colours.slate, () => {
+      this.stage?.boardChanged();
+      slateChanged();
+    });
+    this.dark.addEventListener("change", () => {
+      this.slate.setSlate(this.colours.slate);
+      this.build();
+    });
+  }
+
+  private get colours(): Palette {
+    return this.dark.matches ? EVENING : DAY;
+  }
+
+  /** `complain`: why there is no picture, in words. */
+  async open(complain: (words: string) => void): Promise<void> {
+    const canvas = byId("meeting-canvas", HTMLCanvasElement);
+    const parts = await Promise.all([
+      import("./meeting_stage"),
+      import("./cast"),
+      import("./avatar_library"),
+    ]).catch(() => null);
+    const missing = (why: string): void => {
+      const none = byId("meeting-none", HTMLElement);
+      none.hidden = false;
+      none.textContent = `${why} The side panel and the blackboard work.`;
+      complain(`${why} Avatars are not shown. All else works.`);
+    };
+    if (!parts) {
+      missing("The part of this page that draws the meeting did not load: load the page again.");
+      return;
+    }
+    const [{ MeetingStage }, { Cast, furtherSeats }, { AvatarLibrary }] = parts;
+    try {
+      const view = byId("meeting-view", HTMLElement);
+      const stage = new MeetingStage(canvas, view, this.tags, this.rig, this.slate.canvas);
+      const cast = new Cast(stage, new AvatarLibrary(), this.tags, (n) =>
+        view.classList.toggle("loading", n > 0),
+      );
+      this.furtherSeats = furtherSeats;
+      this.stage = stage;
+      this.cast = cast;
+      this.strangers(this.fetchStrangers);
+      this.still(this.calm);
+      control(canvas, this.rig);
+      this.loop = new MeetingLoop(stage, cast, this.rig, this.tags, this.what, () => this.calm);
+      const { roster, me } = this.what();
+      this.build();
+      cast.follow(roster, me);
+      this.loop.start();
+    } catch (e) {
+      console.warn("3-D:", e);
+      missing("This browser cannot draw in 3-D (WebGL is off).");
+    }
+  }
+
+  private build(): void {
+    const { roster } = this.what();
+    const key = `${roster.meeting.seats} ${this.furtherSeats(roster)} ${this.dark.matches}`;
+    if (!this.stage || key === this.built) return;
+    this.built = key;
+    this.stage.build(roster.meeting.seats, this.furtherSeats(roster), this.colours);
+  }
+
+  /** Somebody came, went or changed, or the meeting did. */
+  follow(roster: Roster, me: string | null): void {
+    this.build();
+    this.cast?.follow(roster, me);
+  }
+
+  touch(): void {
+    this.stage?.touch();
+  }
+
+  say(id: string, text: string): void {
+    this.tags.say(id, text, performance.now() / 1000);
+    this.stage?.touch();
+  }
+
+  strangers(on: boolean): void {
+    this.fetchStrangers = on;
+    if (this.cast) this.cast.strangers = on;
+  }
+
+  still(on: boolean): void {
+    this.calm = on;
+    if (this.cast) this.cast.still = on;
+  }
+
+  /** What stands now, of those who have both motion and an avatar. */
+  poses(roster: Roster): Record<string, DebugPose> {
+    const out: Record<string, DebugPose> = {};
+    for (const p of roster.here) {
+      const shown = p.stream.shown;
+      const bones = Object.entries(this.cast?.read(p.id) ?? {}).map(([b, r]) => [b, r.local] as const);
+      if (shown && bones.length) out[p.id] = { ...shown, bones: Object.fromEntries(bones) };
+    }
+    return out;
+  }
+
+  get counters(): Record<string, number> {
+    return {
+      ...this.stage?.counters,
+      ticks: this.loop?.ticks ?? 0,
+      software: Number(this.stage?.software ?? false),
+    };
+  }
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// For tests: a broker in memory, and pages that are connected to it.
+import type { Line, Outbox } from "./chat";
+import type { Entered, Role } from "./entry";
+import type { Dial, WireEvents } from "./link";
+import { MeetingClient } from "./meeting_client";
+
+export const TOPIC = "r/lab/main";
+
+/** A broker in memory: keeps what is retained, tells everybody, speaks last wills. */
+export class FakeBroker {
+  readonly kept = new Map<string, Uint8Array>();
+  private readonly there = new Set<{ topic: string; events: WireEvents; will: (() => void) | null }>();
+  up = true;
+  told = 0; // what is kept
+  deaf = false; // takes everything, says nothing
+
+  dialer =
+    (will: { topic: string; payload: (session: number) => Uint8Array } | null): Dial =>
+    (session, events) => {
+      const one = {
+        events,
+        topic: will?.topic ?? "",
+        will: will && (() => this.publish(will.topic, will.payload(session), true)),
+      };
+      queueMicrotask(() => {
+        if (!this.up) {
+          events.closed({ refused: false, words: "down" });
+          return;
+        }
+        this.there.add(one);
+        events.open();
+        const pulse = setInterval(() => {
+          if (this.there.has(one)) one.events.pulse();
+          else clearInterval(pulse);
+        }, 3000);
+        for (const [topic, bytes] of this.kept) this.deliver(one.events, topic, bytes, true);
+        const ping = setInterval(() => {
+          if (!this.there.has(one)) clearInterval(ping);
+          else if (!this.deaf) events.alive();
+        }, 1500);
+      });
+      return {
+        publish: (topic, bytes, retain) => {
+          if (!this.there.has(one)) return Promise.reject(new Error("gone"));
+          this.publish(topic, bytes, retain);
+          return Promise.resolve();
+        },
+        close: () => void this.there.delete(one),
+      };
+    };
+
+  publish(topic: string, bytes: Uint8Array, retain: boolean): void {
+    if (retain && bytes.length) this.kept.set(topic, bytes);
+    if (retain && !bytes.length) this.kept.delete(topic);
+    if (retain) this.told++;
+    // It takes a while, for who has said it, too.
+    setTimeout(() => {
+      for (const one of [...this.there]) this.deliver(one.events, topic, bytes, false);
+    }, 30);
+  }
+
+  presenceOf(id: string): unknown {
+    return JSON.parse(new TextDecoder().decode(this.kept.get(`${TOPIC}/p/${id}/presence`)));
+  }
+
+  private deliver(to: WireEvents, topic: string, bytes: Uint8Array, kept: boolean): void {
+    if (this.deaf) return;
+    to.alive();
+    to.message(topic, bytes, kept);
+  }
+
+  /** Dies with all that it knew; nobody's will is spoken. */
+  die(): void {
+    this.up = false;
+    this.kept.clear();
+    const all = [...this.there];
+    this.there.clear();
+    for (const one of all) one.events.closed({ refused: false, words: "lost" });
+  }
+
+  /** The newest connection's page vanishes: nobody is told. */
+  lose(): void {
+    this.there.delete([...this.there].at(-1)!);
+  }
+
+  /** The newest connection breaks; or that of a participant. */
+  cut(id = ""): void {
+    const one = [...this.there].filter((o) => o.topic.includes(`/${id}`)).at(-1)!;
+    this.there.delete(one);
+    one.events.closed({ refused: false, words: "lost" });
+    one.will?.();
+  }
+}
+
+export class Page {
+  readonly lines: Line[] = [];
+  readonly client: MeetingClient;
+  constructor(
+    broker: FakeBroker,
+    id: string | null,
+    name: string,
+    roles: Role[] = ["speak", "board"],
+    outbox?: Outbox,
+  ) {
+    const entered: Entered = {
+      user: `main.${id}`,
+      password: "x",
+      participant: id,
+      mqtt: "ws://localhost:1/",
+      tcp: null,
+      topic: TOPIC,
+      roles,
+      token: null,
+      looks: [],
+    };
+    this.client = new MeetingClient(
+      entered,
+      id ? { name, avatar: { look: "plain" }, seat: null } : null,
+      broker.dialer,
+      {
+        link: () => undefined,
+        event: () => undefined,
+        line: (l) => this.lines.push(l),
+        strokes: () => undefined,
+        mine: () => undefined,
+      },
+      outbox,
+    );
+    this.client.start();
+  }
+  get said(): string[] {
+    return this.lines.map((l) => (l.kind === "note" ? `* ${l.text}` : `${l.name}: ${l.text}`));
+  }
+  get names(): string[] {
+    return [...this.client.roster.names.values()];
+  }
+  get seats(): Record<string, number> {
+    return Object.fromEntries(this.client.roster.seats);
+  }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The participants, and how their motion arrives.
+
+import { byId, h } from "#web/shared/dom";
+import { qualityText, type Reading } from "../quality";
+
+export interface PersonRow {
+  id: string;
+  name: string;
+  me: boolean;
+  chair: boolean;
+  tracker: boolean;
+  reading: Reading;
+  /** JSON messages that were refused. */
+  refused: number;
+  /** Why the avatar is not shown, in words; else empty. */
+  complaint: string;
+}
+
+interface Row {
+  box: HTMLElement;
+  dot: HTMLElement;
+  name: HTMLElement;
+  badges: HTMLElement;
+  words: HTMLElement;
+  details: HTMLElement;
+  complaint: HTMLElement;
+}
+
+const set = (e: HTMLElement, text: string): void => {
+  if (e.textContent !== text) e.textContent = text;
+};
+
+const ms = (v: number): string => `${Math.round(v * 1000)} ms`;
+
+function detailWords(r: Reading, refused: number): string {
+  const parts = [
+    `jitter ${ms(r.jitter)}, buffer ${ms(r.buffer)}`,
+    `${r.outOfOrder} out of order`,
+    `${r.malformed + refused} malformed`,
+  ];
+  if (r.replayed) parts.push(`${r.replayed} replayed`);
+  if (r.flooded) parts.push(`${r.flooded} too many`);
+  return parts.join(" · ");
+}
+
+export class People {
+  details = false;
+  private readonly list = byId("people", HTMLElement);
+  private readonly rows = new Map<string, Row>();
+
+  show(people: readonly PersonRow[]): void {
+    byId("people-empty", HTMLElement).hidden = people.length > 0;
+    set(byId("count-people", HTMLElement), people.length ? String(people.length) : "");
+    const here = new Set(people.map((p) => p.id));
+    for (const [id, row] of this.rows) {
+      if (here.has(id)) continue;
+      row.box.remove();
+      this.rows.delete(id);
+    }
+    people.forEach((p, i) => {
+      const row = this.rows.get(p.id) ?? this.make(p.id);
+      if (this.list.children[i] !== row.box) this.list.insertBefore(row.box, this.list.children[i] ?? null);
+      this.fill(row, p);
+    });
+  }
+
+  private make(id: string): Row {
+    const dot = h("span", { class: "dot" });
+    const name = h("b", { dir: "auto" });
+    const badges = h("span", { class: "badges" });
+    const words = h("span", { class: "soft numbers" });
+    const details = h("span", { class: "soft numbers" });
+    const complaint = h("span", { class: "soft complaint" });
+    const text = h(
+      "div",
+      { class: "row-text" },
+      h("span", { class: "who" }, name, badges),
+      words,
+      details,
+      complaint,
+    );
+    const box = h("li", { class: "row person" }, dot, text);
+    const row = { box, dot, name, badges, words, details, complaint };
+    this.rows.set(id, row);
+    return row;
+  }
+
+  private fill(row: Row, p: PersonRow): void {
+    set(row.name, p.name);
+    const badges = [p.me ? "you" : "", p.chair ? "chair" : ""].filter(Boolean).join(", ");
+    set(row.badges, badges);
+    const q = qualityText(p.reading);
+    const quiet = p.reading.silent === null;
+    set(row.words, quiet ? (p.tracker ? "No motion yet" : "No tracker") : q.words);
+    row.dot.className = `dot ${quiet ? "" : q.level}`;
+    row.details.hidden = !this.details || (quiet && p.refused === 0 && p.reading.malformed === 0);
+    if (!row.details.hidden) set(row.details, detailWords(p.reading, p.refused));
+    row.complaint.hidden = !p.complaint;
+    set(row.complaint, p.complaint);
+  }
+}

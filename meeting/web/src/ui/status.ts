@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state of the meeting in the header.
+
+import { StateLine } from "#web/shared/state_line";
+import type { LinkState } from "../link";
+import type { LocalParticipant } from "../local_participant";
+
+const NAMES: Record<LinkState["kind"], string> = {
+  closed: "Not joined",
+  connecting: "Connecting",
+  open: "In the meeting",
+  lost: "Not connected",
+  refused: "Refused",
+};
+
+export class MeetingState extends StateLine {
+  private announced = "";
+
+  entry(): void {
+    this.show("entry", "Not joined", "");
+  }
+
+  update(link: LinkState, count: number, me: LocalParticipant | null, locked: boolean): void {
+    let words = "words" in link ? link.words : "";
+    if (link.kind === "open") {
+      words = count === 1 ? "One person is here." : `${count} people are here.`;
+      if (!me) words += " You are watching.";
+      else if (me.other?.kind === "tracker") words += " Your tracker moves your avatar.";
+      else if (me.other) words += " You are also here in another window.";
+      if (locked) words += " Locked: nobody new can join.";
+    }
+    this.show(link.kind, NAMES[link.kind], words);
+    const news = link.kind === "open" ? "You have joined the meeting." : `${NAMES[link.kind]}. ${words}`;
+    if (news !== this.announced && link.kind !== "connecting") this.announce(news);
+    this.announced = news;
+  }
+}

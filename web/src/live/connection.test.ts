@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type { ConnectionState } from "../shared/retry";
+import { Connection } from "./connection";
+
+class FakeSocket {
+  static readonly OPEN = 1;
+  static all: FakeSocket[] = [];
+  readyState = 0;
+  onopen = (): void => {};
+  onmessage = (_e: { data: unknown }): void => {};
+  onclose = (_e: { code: number; reason: string }): void => {};
+  constructor() {
+    FakeSocket.all.push(this);
+  }
+  close(): void {}
+  send(): void {}
+
+  opens(): void {
+    this.readyState = FakeSocket.OPEN;
+    this.onopen();
+  }
+  says(m: object): void {
+    this.onmessage({ data: JSON.stringify(m) });
+  }
+  closes(code: number, reason: string): void {
+    this.readyState = 3;
+    this.onclose({ code, reason });
+  }
+}
+
+let states: ConnectionState[];
+const last = (): ConnectionState => states.at(-1)!;
+const socket = (): FakeSocket => FakeSocket.all.at(-1)!;
+const FULL = "Too many pages are open. Close one.";
+const pong = { type: "pong", id: 1, stamp: 2 };
+
+/** ms to the next try, without the part that is left to chance. */
+function wait(): number {
+  const s = last();
+  if (s.kind !== "lost") throw new Error("it is not lost");
+  return s.retryAt - performance.now();
+}
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  vi.spyOn(Math, "random").mockReturnValue(0.5);
+  vi.stubGlobal("window", globalThis);
+  vi.stubGlobal("addEventListener", () => {});
+  vi.stubGlobal("WebSocket", FakeSocket);
+  FakeSocket.all = [];
+  states = [];
+  new Connection("ws://x/ws", {
+    message: () => {},
+    picture: () => {},
+    state: (s) => states.push(s),
+  });
+});
+afterEach(() => {
+  vi.clearAllTimers();
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+  vi.restoreAllMocks();
+});
+
+describe("the connection", () => {
+  it("is open when the program has spoken", () => {
+    socket().opens();
+    expect(last().kind).toBe("connecting");
+    socket().says(pong);
+    socket().says(pong);
+    expect(states.map((s) => s.kind)).toEqual(["connecting", "open"]);
+  });
+
+  it("that is turned away says why, is never open, and waits ever longer", () => {
+    for (const pause of [500, 1000, 2000]) {
+      socket().opens();
+      socket().closes(1013, FULL);
+      expect(last()).toMatchObject({ kind: "lost", words: FULL });
+      expect(wait()).toBeCloseTo(pause);
+      vi.advanceTimersByTime(pause + 1);
+    }
+    expect(states.some((s) => s.kind === "open")).toBe(false);
+    socket().opens();
+    socket().says(pong); // another page has gone
+    socket().closes(1006, "");
+    expect(last()).toMatchObject({ kind: "lost", words: "" });
+    expect(wait()).toBeCloseTo(500);
+  });
+
+  it("has no words of its own for what others say when it ends", () => {
+    socket().opens();
+    socket().says(pong);
+    socket().closes(1001, "going away");
+    expect(last()).toMatchObject({ kind: "lost", words: "" });
+  });
+});
