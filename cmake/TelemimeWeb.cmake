@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The page of `telemime live` inside the program. telemime_page(TARGET) builds web/ with npm, in a copy of it in the
-# build tree, and adds the files that come out to TARGET, as telemime/live/page_table.h has them.
+# The pages of the program: that of `telemime live`, and that of meetings when these are built. telemime_page(TARGET) builds
+# web/ and meeting/web/ with npm, in a copy in the build tree, and adds the files to TARGET (telemime/live/page_table.h).
 
 set(TELEMIME_WEB AUTO CACHE STRING "Build the page of `telemime live` into the program: ON, OFF, or AUTO, if there is npm")
 find_program(TELEMIME_NPM npm DOC "Node's package manager, for the page")
@@ -27,33 +27,31 @@ function(telemime_page target)
   set(table "${CMAKE_CURRENT_BINARY_DIR}/made/page_table.cpp")
   set(table_script "${scripts}/page_table.cmake")
   if(TELEMIME_WEB)
-    set(source "${PROJECT_SOURCE_DIR}/web")
+    set(source "${CMAKE_SOURCE_DIR}")
     set(folder "${PROJECT_BINARY_DIR}/web")
-    # Folder by folder: a developer's node_modules has too many files to look through at each build.
-    file(GLOB entries CONFIGURE_DEPENDS "${source}/*")
-    list(FILTER entries EXCLUDE REGEX "/(node_modules|dist)$")
-    set(sources)
-    foreach(entry IN LISTS entries)
-      if(IS_DIRECTORY "${entry}")
-        file(GLOB_RECURSE found CONFIGURE_DEPENDS "${entry}/*")
-        list(APPEND sources ${found})
-      else()
-        list(APPEND sources "${entry}")
-      endif()
+    set(parts web)
+    if(TELEMIME_MEETING)
+      list(APPEND parts meeting/web)
+    endif()
+    set(sources "${source}/package.json" "${source}/package-lock.json")
+    foreach(part IN LISTS parts)
+      file(GLOB_RECURSE found CONFIGURE_DEPENDS "${source}/${part}/*")
+      list(FILTER found EXCLUDE REGEX "/web/dist/")
+      list(APPEND sources ${found})
     endforeach()
     string(SHA256 names "${sources}")  # in the command: it must run again when a file is gone, too
     add_custom_command(
       OUTPUT "${folder}/packages.stamp"
       COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DFOLDER=${folder}" "-DNPM=${TELEMIME_NPM}"
               -P "${scripts}/page_packages.cmake"
-      DEPENDS "${source}/package-lock.json" "${scripts}/page_packages.cmake"
+      DEPENDS "${source}/package.json" "${source}/package-lock.json" "${scripts}/page_packages.cmake"
       COMMENT "Fetching the packages of the page"
       VERBATIM)
     add_custom_command(
       OUTPUT "${table}"
       COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DFOLDER=${folder}" "-DNPM=${TELEMIME_NPM}"
-              "-DNAMES=${names}" -P "${scripts}/page_build.cmake"
-      COMMAND "${CMAKE_COMMAND}" "-DFOLDER=${folder}/copy/dist" "-DTABLE=${table}" -P "${table_script}"
+              "-DPARTS=${parts}" "-DNAMES=${names}" -P "${scripts}/page_build.cmake"
+      COMMAND "${CMAKE_COMMAND}" "-DFOLDER=${folder}/copy/web/dist" "-DTABLE=${table}" -P "${table_script}"
       DEPENDS "${folder}/packages.stamp" ${sources} "${scripts}/page_build.cmake" "${table_script}"
       COMMENT "Building the page"
       VERBATIM)
@@ -68,4 +66,18 @@ function(telemime_page target)
   endif()
   target_sources(${target} PRIVATE "${table}")
   set_source_files_properties("${table}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# An end-to-end test of the built program in a real Chromium: FILE without ".test.mjs", from the top of the repository.
+function(telemime_page_test name file)
+  cmake_parse_arguments(TEST "" "" "LABELS;WHEN" ${ARGN})
+  set(page "${CMAKE_BINARY_DIR}/web/copy")  # with its packages
+  add_test(NAME ${name} COMMAND "${TELEMIME_NODE}" web/e2e/run.mjs ${file} WORKING_DIRECTORY "${page}" ${TEST_WHEN})
+  set(environment "TELEMIME_PROGRAM=$<TARGET_FILE:telemime>" "TELEMIME_DEMO=${CMAKE_SOURCE_DIR}/data/demo"
+                  "TELEMIME_MEETING_CLUSTER=${CMAKE_SOURCE_DIR}/meeting/scripts/cluster.py"
+                  "TELEMIME_MEETING_SESSION=${CMAKE_SOURCE_DIR}/meeting/scripts/recording.py"
+                  "TELEMIME_CLIPS=${CMAKE_SOURCE_DIR}/../shared/data/dev")
+  # Two processors: one for the program, one for a browser without a graphics card.
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77 PROCESSORS 2
+                                          ENVIRONMENT "${environment}")
 endfunction()

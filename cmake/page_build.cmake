@@ -1,16 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=web -DFOLDER=... -DNPM=npm -P page_build.cmake: FOLDER/copy becomes SOURCE as it is now (its packages
-# stay), and the page is built there, into FOLDER/copy/dist.
+# cmake -DSOURCE=... -DPARTS=web -DFOLDER=... -DNPM=npm -P page_build.cmake: copies the PARTS of the repository SOURCE to
+# FOLDER/copy, beside their packages, and builds the pages there, into FOLDER/copy/web/dist.
 cmake_minimum_required(VERSION 3.22)
 set(copy "${FOLDER}/copy")
-file(GLOB old LIST_DIRECTORIES ON "${copy}/*")
-list(FILTER old EXCLUDE REGEX "/node_modules$")
-file(REMOVE_RECURSE ${old})
-file(COPY "${SOURCE}/" DESTINATION "${copy}" PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
+file(REMOVE_RECURSE "${copy}/web" "${copy}/meeting")
+foreach(part IN LISTS PARTS)
+  file(COPY "${SOURCE}/${part}/" DESTINATION "${copy}/${part}" PATTERN dist EXCLUDE)
+endforeach()
+set(meeting OFF)
+if("meeting/web" IN_LIST PARTS)
+  set(meeting ON)
+endif()
 execute_process(
-  COMMAND "${CMAKE_COMMAND}" -E env --unset=NODE_ENV "${NPM}" run build --no-update-notifier
-  WORKING_DIRECTORY "${copy}" RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)
+  COMMAND "${CMAKE_COMMAND}" -E env --unset=NODE_ENV TELEMIME_MEETING=${meeting} "${NPM}" run build --no-update-notifier
+  WORKING_DIRECTORY "${copy}" RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(failed)
-  message("${words}")
-  message(FATAL_ERROR "the page could not be built (npm's words are above)")
+  message("${output}")
+  message(FATAL_ERROR "the pages could not be built (see the output of npm above)")
 endif()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSOURCE=web -DFOLDER=... -DNPM=npm -P page_packages.cmake: the packages that SOURCE's lock file names, in
+# cmake -DSOURCE=... -DFOLDER=... -DNPM=npm -P page_packages.cmake: the packages that SOURCE's lock file names, in
 # FOLDER/copy. Their install scripts do not run.
 cmake_minimum_required(VERSION 3.22)
 set(copy "${FOLDER}/copy")
@@ -7,10 +7,10 @@ file(MAKE_DIRECTORY "${copy}")
 file(COPY "${SOURCE}/package.json" "${SOURCE}/package-lock.json" DESTINATION "${copy}")
 execute_process(
   COMMAND "${NPM}" ci --include=dev --ignore-scripts --no-audit --no-fund --no-update-notifier
-  WORKING_DIRECTORY "${copy}" RESULT_VARIABLE failed OUTPUT_VARIABLE words ERROR_VARIABLE words)
+  WORKING_DIRECTORY "${copy}" RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(failed)
-  message("${words}")
-  message(FATAL_ERROR "npm could not fetch the packages of the page (its words are above). It needs the network once. "
-                      "To do without the page, configure with -DTELEMIME_WEB=OFF")
+  message("${output}")
+  message(FATAL_ERROR "npm could not download the packages of the pages (see its output above). It needs the network once. "
+                      "To build without the pages, configure with -DTELEMIME_WEB=OFF")
 endif()
 file(TOUCH "${FOLDER}/packages.stamp")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trackers for a meeting: synthetic people whose motion goes to the broker as docs/room-protocol.md says.
+// Trackers for a meeting: synthetic people whose motion goes to the broker as meeting/docs/protocol.md says.
 
 import mqtt from "mqtt";
 import { createServer } from "vite";

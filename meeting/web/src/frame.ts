@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary format of poses: at most 18 bones in at most 256 bytes (docs/room-protocol.md).
+// The binary format of poses: at most 18 bones in at most 256 bytes (meeting/docs/protocol.md).
 
 import type { Quat, Vec3 } from "#web/shared/quaternion";
 

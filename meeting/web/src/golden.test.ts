@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same golden frames as those of the C++ part; docs/room-protocol.md explains the file.
+// The same golden frames as those of the C++ part; meeting/docs/protocol.md explains the file.
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { angleBetween, type Quat } from "#web/shared/quaternion";

@@ -51,7 +51,7 @@ std::optional<WebContent> room_file(const std::string& path, const AvatarFolder&
     return avatar;
   }
   if (path == "/" || path == "/room") {
-    auto page = page_file("/room.html");
+    auto page = page_file("/meeting.html");
     return page ? page : page_file("/");  // built without pages: the note that says so
   }
   return path == "/index.html" ? std::nullopt : page_file(path);

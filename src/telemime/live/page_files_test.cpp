@@ -33,7 +33,7 @@ TEST(PageFiles, EveryFileIsThereUnderItsPathAlone) {
 
 TEST(PageFiles, ThePageNamesOnlyFilesThatAreThere) {
   int named = 0;
-  for (const char* const name : {"/", "/room.html"}) {
+  for (const char* const name : {"/", "/meeting.html"}) {
     const std::optional<WebContent> file = page_file(name);
     if (!file) {
       continue;  // built without the pages (TELEMIME_WEB): there is one, and it names none
