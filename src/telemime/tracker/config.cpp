@@ -23,15 +23,17 @@ struct Preset {
   const char* setting;
   std::array<double, 3> values;
 };
-constexpr std::array<Preset, 4> kPresets = {{
-    {"image.width", {240, 320, 480}},
-    {"image.height", {180, 240, 360}},
+constexpr std::array<Preset, 5> kPresets = {{
+    {"offline", {0, 0, 1}},
+    {"image.width", {240, 320, 320}},
+    {"image.height", {180, 240, 240}},
     {"particles", {800, 2000, 4000}},
     {"registration.iterations", {800, 2000, 4000}},
 }};
 
 Json preset_value(const Preset& preset, std::size_t quality) {
-  return static_cast<int>(preset.values.at(quality));
+  const double value = preset.values.at(quality);
+  return preset.setting == std::string_view("offline") ? Json(value > 0.0) : Json(static_cast<int>(value));
 }
 
 std::vector<std::string> back_end_choices() {
@@ -80,7 +82,7 @@ SettingTable settings_of(Config& c) {
              "Seed of all random numbers."),
       number("fov", &c.field_of_view, {1, 179}, "degrees",
              "Horizontal field of view of the camera, when there is no camera file."),
-      number("budget", &c.budget_ms, {1e-3, 1e5}, "ms",
+      number("budget", &c.budget_ms, {1e-6, 1e5}, "ms",
              "Time for the search of a frame, in place of particles or iterations; null: no limit."),
       flag("offline", c.look_back, "Track a file backward, too: slower, with a more accurate depth."),
       number("threads", &c.threads, {0, 1024}, "",
