@@ -10,7 +10,7 @@ describe("resolution", () => {
   it("is bounded, and starts coarser in software", () => {
     expect(new Resolution(3, false).ratio).toBe(2);
     expect(new Resolution(1, false).ratio).toBe(1);
-    expect(new Resolution(2, true).ratio).toBe(0.75);
+    expect(new Resolution(2, true).ratio).toBe(1);
   });
   it("stays when the computer keeps up, and in pauses", () => {
     const r = new Resolution(2, false);
@@ -21,7 +21,7 @@ describe("resolution", () => {
   it("goes down sooner where every picture takes long", () => {
     const r = new Resolution(1, true);
     draw(r, 700, 3);
-    expect(r.ratio).toBe(0.6);
+    expect(r.ratio).toBe(0.75);
   });
   it("goes down step by step, to a bound", () => {
     const r = new Resolution(2, false);

@@ -18,7 +18,7 @@ export class Resolution {
     private readonly device: number,
     software: boolean,
   ) {
-    this.ceiling = software ? 0.75 : 2;
+    this.ceiling = software ? 1 : 2;
     this.slow = software ? SLOW_SOFTWARE : SLOW;
   }
 
