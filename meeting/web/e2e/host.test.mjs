@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import mqtt from "mqtt";
 import { startBrowser, PATIENCE, tabTo } from "#e2e/program";
-import { atTheEntryForm, inTheMeeting, isIn, openMeeting, shows } from "./meeting.mjs";
+import { atTheEntry, inTheMeeting, isIn, openMeeting, shows } from "./meeting.mjs";
 
 const LONG = { timeout: 4 * PATIENCE };
 

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { startBrowser, PATIENCE, tabTo } from "#e2e/program";
 import {
-  atTheEntryForm,
+  atTheEntry,
   dressed,
   drawLine,
   inTheMeeting,

@@ -90,10 +90,7 @@ constexpr std::array<std::pair<const char*, Command (*)(const Json&)>, 9> kComma
     {"record", [](const Json& m) -> Command { return Record{truth(m, "on")}; }},
     {"forget",
      [](const Json& m) -> Command { return Forget{static_cast<int>(whole(m, "recording", 1000000))}; }},
-    {"pictures",
-     [](const Json& m) -> Command {
-       return Pictures{truth(m, "on"), m.contains("half") && truth(m, "half")};
-     }},
+    {"pictures", [](const Json& m) -> Command { return Pictures{truth(m, "on")}; }},
     {"poses", [](const Json& m) -> Command { return Poses{truth(m, "on")}; }},
     {"drawn", drawn},
     {"ping", [](const Json& m) -> Command { return Ping{whole(m, "id", std::int64_t{1} << 53)}; }},

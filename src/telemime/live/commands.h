@@ -32,7 +32,6 @@ struct Forget {
 };
 struct Pictures {
   bool on;
-  bool half;  ///< only every second picture
 };
 struct Poses {
   bool on;

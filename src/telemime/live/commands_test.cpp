@@ -29,8 +29,6 @@ TEST(Commands, AreRead) {
   EXPECT_TRUE(std::get<Record>(parse_command(R"({"type":"record","on":true})")).on);
   EXPECT_EQ(std::get<Forget>(parse_command(R"({"type":"forget","recording":3})")).number, 3);
   EXPECT_FALSE(std::get<Pictures>(parse_command(R"({"type":"pictures","on":false})")).on);
-  EXPECT_FALSE(std::get<Pictures>(parse_command(R"({"type":"pictures","on":true})")).half);
-  EXPECT_TRUE(std::get<Pictures>(parse_command(R"({"type":"pictures","on":true,"half":true})")).half);
   EXPECT_TRUE(std::get<Poses>(parse_command(R"({"type":"poses","on":true})")).on);
   const auto drawn = std::get<Drawn>(parse_command(R"({"type":"drawn","frame":12,"stamp":1234.5})"));
   EXPECT_EQ(drawn.frame, 12);

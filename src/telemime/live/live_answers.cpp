@@ -96,7 +96,6 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Forge
 
 LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const Pictures& command) {
   hooks_.topic(client, kPicture, command.on);
-  hooks_.topic(client, kPictureBetween, command.on && !command.half);
   return std::nullopt;
 }
 

@@ -15,9 +15,8 @@
 namespace telemime {
 
 /// Topics of the web server (web_server.h). For a slow page only the newest message of a topic is queued,
-/// except for kWords. Camera pictures alternate between two topics that share a queue, so that a page can
-/// request every second one.
-enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3, kPictureBetween = 4 };
+/// except for kWords.
+enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3 };
 
 /// The messages of docs/live-protocol.md other than poses, as JSON in one line.
 

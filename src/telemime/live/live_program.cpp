@@ -159,13 +159,12 @@ struct LiveProgram::State {
 
   // The image side: only leaves the picture for the painter.
   void show(const Frame& frame) {
-    picture_topic = picture_topic == kPicture ? kPictureBetween : kPicture;
-    if (!server->wanted(picture_topic)) {
+    if (!server->wanted(kPicture)) {
       return;
     }
     {
       const std::lock_guard lock(mutex);
-      picture = {frame, picture_topic};
+      picture = frame;
     }
     changed.notify_all();
   }
@@ -173,18 +172,16 @@ struct LiveProgram::State {
   void paint() {
     while (true) {
       Frame frame;
-      PageTopic topic = kPicture;
       {
         std::unique_lock lock(mutex);
         changed.wait(lock, [this] { return stop || picture; });
         if (stop) {
           return;
         }
-        std::tie(frame, topic) = *std::exchange(picture, std::nullopt);
+        frame = *std::exchange(picture, std::nullopt);
       }
       attempt([&] {
-        server->send_binary(topic, shared(picture_message(frame.image, frame.index, kMs * frame.taken)),
-                            kPicture);
+        server->send_binary(kPicture, shared(picture_message(frame.image, frame.index, kMs * frame.taken)));
         ++pictures;
       });
     }
@@ -349,8 +346,7 @@ struct LiveProgram::State {
   std::string hello;
   std::string body;
   std::string session_error;
-  std::optional<std::pair<Frame, PageTopic>> picture;
-  PageTopic picture_topic = kPicture;  // of the last one, for the image side alone
+  std::optional<Frame> picture;
   CoresInUse cores{began, cpu_at_start};
 
   std::unique_ptr<WebServer> server;
