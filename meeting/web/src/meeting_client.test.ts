@@ -279,7 +279,7 @@ describe("those who chair the meeting", () => {
     ana.client.wipe();
     await wait(500);
     expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true, epoch: 5 });
-    expect(await bo.client.alter({ title: "Mine" })).toContain("Only those who chair");
+    expect(await bo.client.alter({ title: "Mine" })).toContain("Only chairs");
     expect(kept().title).toBe("Red");
   });
   it("hear in words when the meeting does not take it", async () => {

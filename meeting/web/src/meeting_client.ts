@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that this page is in a meeting but pictures: what it hears, what it says, and what it says again when the connection
-// was lost. Knows neither the document nor three.js.
+// The state of this page in a meeting: what it receives, what it publishes, and what it publishes again after a lost connection.
+// It uses neither the document nor three.js.
 
 import { Board, OwnStrokes } from "./board";
 import { ChatLog, Outbox, type Line } from "./chat";
@@ -13,15 +13,15 @@ import { Roster, type MeetingEvent } from "./roster";
 import { freeSeat } from "./seats";
 import { boardTopic, parseTopic, topicOf } from "./topics";
 
-/** The broker tells what it keeps at once; after so long it is taken to have told all, ms. */
+/** The broker sends retained messages at once: after this time all have arrived, ms. */
 const SETTLE = 500;
-/** After a lost connection what was written meanwhile waits so long for the others to be back, s. */
+/** After a lost connection, waiting messages are sent once the others are back, or after this time, s. */
 const GATHER = 12;
-/** Between messages with pages of the board, ms. */
+/** Interval of messages with pages of the board, ms. */
 const PAGES = 200;
 const STEP = 500; // ms
 const JUST_NOW = 1e-3; // s
-/** Of one participant so much coming and going is told at once, and one more every so many seconds. */
+/** Notes about joining and leaving of one participant: this number at once, and one more in each interval, s. */
 const NOTES = 6;
 const NOTE_EVERY = 20;
 
@@ -29,9 +29,9 @@ export interface MeetingListener {
   link(s: LinkState): void;
   event(e: MeetingEvent): void;
   line(l: Line): void;
-  /** Strokes that came on top; null: all is to be drawn anew. */
+  /** Strokes that were added; null: everything must be redrawn. */
   strokes(s: readonly Stroke[] | null): void;
-  /** What waits to be said, or who speaks for this seat, has changed. */
+  /** The waiting messages, or the client that is active for this participant, have changed. */
   mine(): void;
 }
 
@@ -48,7 +48,7 @@ export class MeetingClient {
     () => this.roster.meeting,
     (meeting) => this.publishMeeting(meeting),
   );
-  /** What the broker keeps of the meeting is known. */
+  /** The retained messages have arrived. */
   settled = false;
   private readonly link: Link;
   private readonly base: string;
@@ -58,23 +58,23 @@ export class MeetingClient {
   private meetingReceived = false;
   private meetingKnown = false;
   private seatAsked = false;
-  private readonly told = new Map<string, { left: number; at: number }>();
-  private readonly greeted = new Map<string, number>(); // who came and is not announced yet: since when
+  private readonly noteLimits = new Map<string, { left: number; at: number }>();
+  private readonly joining = new Map<string, number>(); // participants without a note yet: since when
   private everSettled = false;
   private gatherUntil = 0;
-  /** It has words for people whom it has not met: who of them is not back yet cannot be told. */
+  /** There are messages from before this client was made: it does not know who is not back yet. */
   private blind: boolean;
   private readonly sending = new Set<string>(); // messages on their way
-  /** What those who are here were called last. */
+  /** The last displayed names of those who are here. */
   private readonly names = new Map<string, string>();
 
-  /** `state`: null when the person only watches, whatever the account may do. */
+  /** `state`: null when the user only watches, whatever the account allows. */
   constructor(
     readonly entered: Entered,
     state: OwnState | null,
     dialer: (will: LocalParticipant["will"] | null) => Dial,
     private readonly listener: MeetingListener,
-    /** What still waited when this page was in the meeting before. */
+    /** Messages that still wait from an earlier connection of this page. */
     readonly outbox = new Outbox(anySession()),
   ) {
     this.base = entered.topic;
@@ -92,10 +92,10 @@ export class MeetingClient {
         : null;
     this.link = new Link(dialer(this.me?.will ?? null), {
       state: (s) => this.linked(s),
-      message: (topic, payload, kept) => this.hear(topic, payload, kept),
+      message: (topic, payload, kept) => this.receive(topic, payload, kept),
       alive: () => this.roster.alive(seconds()),
       pulse: () => {
-        this.step(); // in a hidden page the other timer may rest
+        this.step(); // in a hidden page the other timer may be delayed
         this.me?.signalPresence();
       },
     });
@@ -109,7 +109,7 @@ export class MeetingClient {
     return this.me !== null && this.entered.roles.includes("board");
   }
 
-  /** Those who may say what the meeting is. */
+  /** Whether this participant may change the meeting. */
   get mayChair(): boolean {
     return this.me !== null && this.entered.roles.includes("chair");
   }
@@ -127,13 +127,13 @@ export class MeetingClient {
     this.link.tryNow();
   }
 
-  /** Says goodbye and closes. */
+  /** Announces that this page leaves, and closes. */
   leave(): void {
     this.me?.leave();
     this.stop();
   }
 
-  /** As if this page had never been. */
+  /** Closes without an announcement. */
   stop(): void {
     clearInterval(this.stepTimer);
     clearTimeout(this.settleTimer);
@@ -141,18 +141,18 @@ export class MeetingClient {
     this.link.close();
   }
 
-  /** Empty when it is on its way, or why not in words. */
+  /** Sends a chat message. Gives an empty string, or the reason why it cannot be sent. */
   say(text: string): string {
-    if (!this.me) return "You only watch: enter with a name to say something.";
+    if (!this.me) return "You only watch. Join with a name to write.";
     const message = this.outbox.add(text);
     if (typeof message === "string") return message;
     this.sendChat();
     return "";
   }
 
-  /** A line drawn by this person: x, y from 0 to 1 of the board's width and height. False when no more fits. */
-  draw(colour: string, width: number, way: readonly number[]): boolean {
-    const fits = this.own.draw(colour, width, way);
+  /** Draws a line: x, y from 0 to 1 of the board's width and height. False when the board is full. */
+  draw(colour: string, width: number, path: readonly number[]): boolean {
+    const fits = this.own.draw(colour, width, path);
     this.showOwn();
     this.sendPages();
     return fits;
@@ -165,16 +165,16 @@ export class MeetingClient {
     return done;
   }
 
-  /** For chairs: everybody's strokes go. */
+  /** For chairs: removes the strokes of all participants. */
   wipe(): void {
     void this.alter({ epoch: this.roster.meeting.epoch + 1 });
   }
 
-  /** For chairs: changes what the meeting is. Empty when the meeting has taken it, or why not in words. */
+  /** For chairs: changes the meeting. Gives an empty string when it is done, or the reason why not. */
   alter(change: MeetingChange): Promise<string> {
-    if (!this.mayChair) return Promise.resolve("Only those who chair the meeting can change it.");
+    if (!this.mayChair) return Promise.resolve("Only chairs can change the meeting.");
     if (!this.settled || this.link.state.kind !== "open")
-      return Promise.resolve("There is no connection to the meeting now. Try again when it is back.");
+      return Promise.resolve("There is no connection to the meeting. Try again later.");
     return this.requests.request(change);
   }
 
@@ -182,12 +182,12 @@ export class MeetingClient {
     this.me?.change(state);
   }
 
-  private tell(topic: string, bytes: Uint8Array): Promise<boolean> {
+  private retain(topic: string, bytes: Uint8Array): Promise<boolean> {
     return this.link.publish(topic, bytes, true);
   }
 
   private publishMeeting(meeting: MeetingMessage): Promise<boolean> {
-    return this.tell(`${this.base}/room`, writeMeeting(meeting));
+    return this.retain(`${this.base}/room`, writeMeeting(meeting));
   }
 
   private linked(s: LinkState): void {
@@ -207,7 +207,7 @@ export class MeetingClient {
   }
 
   private settle(): void {
-    if (!this.everSettled) this.greeted.clear(); // they were here before
+    if (!this.everSettled) this.joining.clear(); // they joined earlier
     this.settled = this.everSettled = true;
     if (this.me) {
       if (!this.seatAsked) this.askSeat();
@@ -215,7 +215,7 @@ export class MeetingClient {
       this.own.settled();
       this.sendPages();
       this.sendChat();
-      // A broker that has lost what the meeting is hears it from its chairs.
+      // Chairs publish the meeting again to a broker that has lost it.
       if (!this.meetingReceived && this.meetingKnown && this.mayChair)
         void this.publishMeeting(this.roster.meeting);
     }
@@ -232,7 +232,7 @@ export class MeetingClient {
     me.change({ ...me.state, seat: freeSeat(others, this.roster.meeting.seats, before) });
   }
 
-  private hear(topic: string, payload: Uint8Array, kept: boolean): void {
+  private receive(topic: string, payload: Uint8Array, kept: boolean): void {
     const now = seconds();
     const place = parseTopic(this.base, topic);
     const own =
@@ -241,7 +241,7 @@ export class MeetingClient {
       this.me!.receive(own, payload);
       this.listener.mine();
     }
-    for (const e of this.roster.hear(topic, payload, now, kept)) this.happened(e, now);
+    for (const e of this.roster.receive(topic, payload, now, kept)) this.happened(e, now);
     if (own === "pose") this.tracked(now);
   }
 
@@ -256,10 +256,10 @@ export class MeetingClient {
   private happened(e: MeetingEvent, now: number): void {
     switch (e.kind) {
       case "came":
-        this.greeted.set(e.id, now);
+        this.joining.set(e.id, now);
         break;
       case "left":
-        this.farewell(e.id);
+        this.onLeft(e.id);
         break;
       case "changed":
         break;
@@ -285,10 +285,10 @@ export class MeetingClient {
     this.listener.event(e);
   }
 
-  /** Somebody with a smaller id has this person's seat: the one that was given instead is asked for from now on. */
+  /** A participant with a smaller id has this seat: requests the assigned one from now on. */
   private keepSeat(): void {
     const me = this.me;
-    // Before the wish has come back from the broker, nobody has answered it.
+    // The request counts only once it has come back from the broker.
     if (!me?.announced || me.other || this.roster.get(me.id)?.state?.seat !== me.state.seat) return;
     const seat = this.roster.seats.get(me.id);
     if (seat !== undefined && seat < this.roster.meeting.seats && seat !== me.state.seat)
@@ -313,29 +313,29 @@ export class MeetingClient {
       this.listener.mine();
     }
     if (this.outbox.waiting.length > this.sending.size) this.sendChat();
-    for (const [id, since] of [...this.greeted]) {
-      // Whose name is not known yet gets a moment to tell it.
+    for (const [id, since] of [...this.joining]) {
+      // A participant without a name has a moment to publish it.
       if (!this.roster.get(id)?.state && now < since + 2) continue;
-      this.greeted.delete(id);
+      this.joining.delete(id);
       if (id !== this.me?.id) this.note(id, `${this.nameOf(id)} joined.`);
     }
   }
 
-  private farewell(id: string): void {
-    const unseen = this.greeted.delete(id);
-    // Of whom only the broker had told may have gone long before.
+  private onLeft(id: string): void {
+    const unseen = this.joining.delete(id);
+    // A participant known only from retained messages may have left long before.
     const met = this.roster.get(id)?.met ?? false;
     if (!unseen && met && id !== this.me?.id) this.note(id, `${this.names.get(id) ?? id} left.`);
     this.names.delete(id);
   }
 
-  /** Who comes and goes all the time is not told all the time. */
+  /** Adds a note, with a limit on the notes about one participant. */
   private note(id: string, text: string): void {
     const now = seconds();
-    const r = this.told.get(id) ?? { left: NOTES, at: now };
+    const r = this.noteLimits.get(id) ?? { left: NOTES, at: now };
     r.left = Math.min(NOTES, r.left + (now - r.at) / NOTE_EVERY);
     r.at = now;
-    this.told.set(id, r);
+    this.noteLimits.set(id, r);
     if (r.left < 1) return;
     r.left--;
     this.listener.line(this.log.note(text));
@@ -357,7 +357,7 @@ export class MeetingClient {
     if (!this.me || !this.settled || this.pageTimer !== undefined || !this.own.waiting) return;
     if (this.link.state.kind !== "open") return;
     for (const { page, bytes } of this.own.take()) {
-      void this.tell(boardTopic(this.base, this.me.id, page), bytes);
+      void this.retain(boardTopic(this.base, this.me.id, page), bytes);
     }
     this.pageTimer = setTimeout(() => {
       this.pageTimer = undefined;

@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { encodeFrame } from "./frame";
 import { toBytes } from "./messages";
-import { COME_BACK, MOST_PARTICIPANTS, Roster, type MeetingEvent } from "./roster";
+import { COME_BACK, MAX_PARTICIPANTS, Roster, type MeetingEvent } from "./roster";
 
 const BASE = "r/lab/main";
 const NOTHING = new Uint8Array(0);
@@ -24,7 +24,7 @@ class Meeting {
 
   say(id: string, what: string, payload: object | Uint8Array, kept = false): MeetingEvent[] {
     const bytes = payload instanceof Uint8Array ? payload : toBytes(payload);
-    return this.roster.hear(`${BASE}/p/${id}/${what}`, bytes, this.now, kept);
+    return this.roster.receive(`${BASE}/p/${id}/${what}`, bytes, this.now, kept);
   }
 
   /** What the broker has kept. */
@@ -102,8 +102,8 @@ describe("who is here", () => {
   });
   it("is bounded; who left makes room", () => {
     const r = new Meeting();
-    for (let i = 0; i < MOST_PARTICIPANTS + 50; i++) r.enter(`p${i}`, "X");
-    expect(r.roster.here.length).toBe(MOST_PARTICIPANTS);
+    for (let i = 0; i < MAX_PARTICIPANTS + 50; i++) r.enter(`p${i}`, "X");
+    expect(r.roster.here.length).toBe(MAX_PARTICIPANTS);
     expect(r.roster.ignored).toBeGreaterThan(0);
     r.say("p3", "presence", { here: false, session: 5 });
     expect(r.enter("new", "N")).toEqual([{ kind: "came", id: "new" }]);
@@ -111,7 +111,7 @@ describe("who is here", () => {
   it("hears topics of no meeting without harm", () => {
     const r = new Meeting();
     for (const topic of ["", "x", `${BASE}/p/../pose`, `${BASE}/p/__proto__/state`, "r/lab/other/room"]) {
-      r.roster.hear(topic, NOTHING, 0);
+      r.roster.receive(topic, NOTHING, 0);
     }
     expect(r.roster.here).toEqual([]);
   });
@@ -250,9 +250,9 @@ describe("the meeting", () => {
   it("is what its topic says", () => {
     const r = new Meeting();
     const message = toBytes({ title: "Blue", seats: 3, epoch: 7, chairs: ["p01"], locked: false });
-    expect(r.roster.hear(`${BASE}/room`, message, 0)).toEqual([{ kind: "meeting" }]);
+    expect(r.roster.receive(`${BASE}/room`, message, 0)).toEqual([{ kind: "meeting" }]);
     expect(r.roster.meeting).toMatchObject({ title: "Blue", seats: 3, epoch: 7 });
-    r.roster.hear(`${BASE}/room`, toBytes({ epoch: "x" }), 0);
+    r.roster.receive(`${BASE}/room`, toBytes({ epoch: "x" }), 0);
     expect(r.roster.refused).toBe(1);
     expect(r.roster.meeting.epoch).toBe(7);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is in the meeting, and what each has said of itself: built from messages alone, each from its own topic.
+// The participants of the meeting and what they have published: built from messages alone, by their topics.
 
 import {
   readBoard,
@@ -16,36 +16,36 @@ import { assignSeats } from "./seats";
 import { PoseStream } from "./stream";
 import { parseTopic } from "./topics";
 
-export const MOST_PARTICIPANTS = 128;
-/** Whose presence nobody has told is here as long as frames come, s. */
-const UNTOLD = 5;
-/** Who promised to say something every so many seconds and was silent for so many times that has gone. */
+export const MAX_PARTICIPANTS = 128;
+/** A participant without presence is here while frames arrive, with gaps up to this, s. */
+const FRAME_GAP = 5;
+/** A participant that has been silent for this number of its promised intervals has gone. */
 const MISSED = 3;
-/** A page that stood still heard nothing: of the time between two of its steps so much counts, s. */
+/** A suspended page receives nothing: at most this much of the time between two steps counts as silence, s. */
 const LONGEST_STEP = 1;
-/** Nor did one whose connection is dead and not known to be: so long after the broker's last word time counts, s. */
+/** The connection may be dead: time counts as silence up to this long after the last message of the broker, s. */
 const DEAF = 2;
-/** What a session still says so soon after another has taken its place was on its way, s. */
+/** Messages of a session this soon after another one has replaced it were sent before, s. */
 const LEFTOVERS = 1;
-/** After a lost connection the others, whose connection may be lost too, have so long to come back, s. */
+/** After a lost connection the others, whose connections may be lost too, have this time to return, s. */
 export const COME_BACK = 25;
 
 export interface Participant {
   readonly id: string;
   readonly stream: PoseStream;
   state: StateMessage | null;
-  /** The session that says that it is here. */
+  /** The session that has announced its presence. */
   presence: number | null;
-  /** It has promised to say something as often, s. */
+  /** The promised interval of its messages, s. */
   every: number | null;
-  /** When it said something last, s of the roster's own clock. */
+  /** Time of its last message, s of the roster's clock. */
   heard: number;
-  /** It said something while this page was there: not all that is known of it is what the broker kept. */
+  /** It has published something since this page joined: not all that is known of it was retained. */
   met: boolean;
-  /** The session whose place another has taken last. */
+  /** The last session that was replaced by another one. */
   replaced: { session: number; at: number } | null;
   here: boolean;
-  /** Its presence was told since the connection is there. */
+  /** Its presence has arrived since the connection opened. */
   confirmed: boolean;
   /** JSON messages that were refused. */
   refused: number;
@@ -70,23 +70,23 @@ export const DEFAULT_MEETING: Readonly<MeetingMessage> = {
 
 export class Roster {
   meeting: MeetingMessage = { ...DEFAULT_MEETING };
-  /** Messages on topics that are none of the meeting's, or of more participants than are taken. */
+  /** Messages on unknown topics, or of more participants than are accepted. */
   ignored = 0;
-  /** Refused messages about the meeting itself. */
+  /** Refused messages of the meeting itself. */
   refused = 0;
   private readonly all = new Map<string, Participant>();
-  /** Until then those who were here before the connection was lost count as here. */
+  /** Until this time, those who were here before the connection was lost count as here. */
   private deadline = Infinity;
-  /** Until then nobody is taken for gone because of silence. */
+  /** Until this time nobody counts as gone because of silence. */
   private patientUntil = -Infinity;
-  /** A clock that stands still while this page does, or hears nothing of the broker. */
+  /** A clock that stops while this page is suspended or receives nothing from the broker. */
   private awake = { seconds: 0, at: 0 };
-  /** When the broker was heard last. */
-  private brokerHeard = -Infinity;
+  /** Time of the last message of the broker. */
+  private lastMessage = -Infinity;
 
   constructor(private readonly base: string) {}
 
-  /** Those who are here, by id. */
+  /** The participants who are here, sorted by id. */
   get here(): Participant[] {
     return [...this.all.values()].filter((p) => p.here).sort((a, b) => (a.id < b.id ? -1 : 1));
   }
@@ -95,7 +95,7 @@ export class Roster {
     return this.all.get(id) ?? null;
   }
 
-  /** What those who are here are called. */
+  /** The displayed names of those who are here. */
   get names(): Map<string, string> {
     return shownNames(new Map(this.here.map((p) => [p.id, p.state?.name ?? p.id])));
   }
@@ -107,14 +107,14 @@ export class Roster {
     );
   }
 
-  /** Anything came from the broker, if only an answer to a ping; `now` in s of our clock, here and below. */
+  /** Something arrived from the broker, at least an answer to a ping; `now` in s of the local clock, here and below. */
   alive(now: number): void {
     this.tick(now);
-    this.brokerHeard = now;
+    this.lastMessage = now;
   }
 
-  /** A message of the broker. `kept`: not said now, but what it has kept for those who come. */
-  hear(topic: string, payload: Uint8Array, now: number, kept = false): MeetingEvent[] {
+  /** Takes a message of the broker. `retained`: stored for new subscribers, not published now. */
+  receive(topic: string, payload: Uint8Array, now: number, retained = false): MeetingEvent[] {
     this.alive(now);
     const place = parseTopic(this.base, topic);
     if (!place) {
@@ -127,18 +127,18 @@ export class Roster {
       this.ignored++;
       return [];
     }
-    if (!kept) p.met = true;
+    if (!retained) p.met = true;
     switch (place.kind) {
       case "pose":
-        return p.stream.receive(payload, now) === "taken" ? this.saidSomething(p, now) : [];
+        return p.stream.receive(payload, now) === "taken" ? this.signOfLife(p, now) : [];
       case "state":
-        return this.hearState(p, payload, now, kept);
+        return this.onState(p, payload, now, retained);
       case "presence":
-        return this.hearPresence(p, payload, now, kept);
+        return this.onPresence(p, payload, now, retained);
       case "chat": {
         const message = readChat(payload);
         if (!message) p.refused++;
-        return message ? [...this.saidSomething(p, now), { kind: "said", id: p.id, message }] : [];
+        return message ? [...this.signOfLife(p, now), { kind: "said", id: p.id, message }] : [];
       }
       case "board": {
         const content = payload.byteLength ? readBoard(payload) : null;
@@ -147,18 +147,18 @@ export class Roster {
           return [];
         }
         const event: MeetingEvent = { kind: "page", id: p.id, page: place.page, content };
-        return kept || !content ? [event] : [...this.saidSomething(p, now), event];
+        return retained || !content ? [event] : [...this.signOfLife(p, now), event];
       }
     }
   }
 
-  /** A sign of life. What is kept is none, nor what is cleared: others may do that for somebody who has gone. */
-  private saidSomething(p: Participant, now: number): MeetingEvent[] {
+  /** Counts a message as a sign of life. Retained and clearing messages are none: others may send the latter. */
+  private signOfLife(p: Participant, now: number): MeetingEvent[] {
     p.heard = this.awake.seconds;
-    return this.look(p, now);
+    return this.update(p, now);
   }
 
-  /** Who has gone without a word. To be asked while the meeting is connected. */
+  /** Finds those who have gone without a message. Call it while connected. */
   step(now: number): MeetingEvent[] {
     this.tick(now);
     const late = now > this.deadline;
@@ -166,20 +166,20 @@ export class Roster {
     const events: MeetingEvent[] = [];
     for (const p of this.all.values()) {
       if (late && !p.confirmed) p.presence = null;
-      if (p.here) events.push(...this.look(p, now));
+      if (p.here) events.push(...this.update(p, now));
     }
     return events;
   }
 
-  /** Everybody who was here has told so since the connection is there. */
+  /** Everybody who was here has confirmed it since the connection opened. */
   get complete(): boolean {
     return [...this.all.values()].every((p) => p.presence === null || p.confirmed);
   }
 
-  /** The connection is there anew. What was known of the others holds until they had time to tell it again. */
+  /** The connection has opened. What is known of the others stays valid until they had time to confirm it. */
   connected(now: number): void {
     this.deadline = now + COME_BACK;
-    // What the broker has kept of them is said in their place: their silence counts later.
+    // The broker sends what it has retained of them, so their silence counts later.
     if (this.all.size > 0) this.patientUntil = this.deadline;
     for (const p of this.all.values()) p.confirmed = false;
   }
@@ -187,7 +187,7 @@ export class Roster {
   private participant(id: string): Participant | null {
     const known = this.all.get(id);
     if (known) return known;
-    if (this.all.size >= MOST_PARTICIPANTS) {
+    if (this.all.size >= MAX_PARTICIPANTS) {
       const gone = [...this.all.values()].find((p) => !p.here);
       if (!gone) return null;
       this.all.delete(gone.id);
@@ -219,44 +219,44 @@ export class Roster {
     return [{ kind: "meeting" }];
   }
 
-  private hearState(p: Participant, payload: Uint8Array, now: number, kept: boolean): MeetingEvent[] {
+  private onState(p: Participant, payload: Uint8Array, now: number, retained: boolean): MeetingEvent[] {
     const state = payload.byteLength ? readState(payload) : null;
     if (payload.byteLength && !state) {
       p.refused++;
       return [];
     }
-    // An empty one comes when somebody leaves: their name is still needed to say so.
+    // An empty state arrives when somebody leaves: the name is still needed for the note.
     if (!state && p.here) return [];
     p.state = state;
-    const seen = state && !kept ? this.saidSomething(p, now) : this.look(p, now);
+    const seen = state && !retained ? this.signOfLife(p, now) : this.update(p, now);
     return seen.length || !p.here ? seen : [{ kind: "changed", id: p.id }];
   }
 
-  private hearPresence(p: Participant, payload: Uint8Array, now: number, kept: boolean): MeetingEvent[] {
+  private onPresence(p: Participant, payload: Uint8Array, now: number, retained: boolean): MeetingEvent[] {
     const m = payload.byteLength ? readPresence(payload) : null;
     if (payload.byteLength && !m) {
       p.refused++;
       return [];
     }
     if (!m?.here) {
-      // Of an older session: the newer one stays. An empty one clears whoever is there.
+      // An older session leaves: the newer one stays. An empty message clears any session.
       if (!m || m.session === p.presence) p.presence = null;
       if (m) p.stream.leave(m.session, now);
-      return this.look(p, now);
+      return this.update(p, now);
     }
     const late = p.replaced?.session === m.session && now < p.replaced.at + LEFTOVERS;
     if (m.session !== p.presence && !(late && p.here && p.presence !== null)) {
       if (p.presence !== null) p.replaced = { session: p.presence, at: now };
       p.presence = m.session;
-      p.heard = this.awake.seconds; // even when it is kept: nobody knows for how long
+      p.heard = this.awake.seconds; // also when it is retained: its age is unknown
     }
     if (m.session === p.presence) p.every = m.every;
     p.confirmed = true;
-    return kept ? this.look(p, now) : this.saidSomething(p, now);
+    return retained ? this.update(p, now) : this.signOfLife(p, now);
   }
 
-  private look(p: Participant, now: number): MeetingEvent[] {
-    const here = p.presence !== null ? !this.silent(p, now) : p.stream.alive(now, UNTOLD);
+  private update(p: Participant, now: number): MeetingEvent[] {
+    const here = p.presence !== null ? !this.silent(p, now) : p.stream.alive(now, FRAME_GAP);
     if (here === p.here) return [];
     p.here = here;
     return [{ kind: here ? "came" : "left", id: p.id }];
@@ -268,7 +268,7 @@ export class Roster {
   }
 
   private tick(now: number): void {
-    const step = Math.min(now, this.brokerHeard + DEAF) - this.awake.at;
+    const step = Math.min(now, this.lastMessage + DEAF) - this.awake.at;
     this.awake = { seconds: this.awake.seconds + Math.min(Math.max(step, 0), LONGEST_STEP), at: now };
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures in the meeting, kept as the roster has them: who came gets one, avatars are fetched, who left goes.
+// The figures of the participants. They follow the roster: avatars are loaded for those who join and released when they leave.
 
 import { AvatarError } from "#web/avatar/inspect";
 import type { Avatar, BoneReading } from "#web/avatar/load";
@@ -13,27 +13,27 @@ import { Figure } from "./figure";
 import type { MeetingStage } from "./meeting_stage";
 import type { Tags } from "./tags";
 
-/** Who changes the avatar all the time keeps the others' computers busy: not more often than this, ms. */
+/** Least time between changes of one avatar, ms: each costs all participants time. */
 const CHANGE_PAUSE = 2000;
-const MOST_FAILED = 20;
-/** For those whose own cannot be had, and for trackers that name none. */
-const STAND_IN: AvatarChoice = { look: LOOKS[0] };
+const MAX_FAILED = 20;
+/** For avatars that cannot be loaded, and for trackers that name none. */
+const SUBSTITUTE: AvatarChoice = { look: LOOKS[0] };
 
 interface Member {
   figure: Figure;
-  /** The choice that is shown or on its way; empty: none. */
+  /** The choice that is shown or being loaded; empty: none. */
   wanted: string;
-  /** Choices that could not be had or broke, and why: they are not tried again. */
+  /** Choices that failed, and why: they are not tried again. */
   failed: Map<string, string>;
   complaint: string;
-  /** No other choice before this one is done, and a pause is over. */
+  /** A choice is being loaded, or the pause after it is not over. */
   busy: boolean;
 }
 
 export class Cast {
-  /** Fetch avatars from other web sites. */
+  /** Download avatars from other websites. */
   strangers = true;
-  /** Nobody breathes. */
+  /** Resting avatars do not breathe. */
   still = false;
   private readonly all = new Map<string, Member>();
   private lastShow = 0;
@@ -47,7 +47,7 @@ export class Cast {
     private readonly loading: (count: number) => void,
   ) {}
 
-  /** After anything has changed: who is here, where, as what. */
+  /** Call it after a change of participants, seats or avatars. */
   follow(roster: Roster, me: string | null): void {
     const seats = roster.seats;
     const names = roster.names;
@@ -86,22 +86,22 @@ export class Cast {
     this.put(member, null);
   }
 
-  /** What is to be shown of a participant; the reason when it is not what it chose. */
+  /** The avatar to show for a participant, and the reason when it is not the chosen one. */
   private choiceFor(
     member: Member,
     state: StateMessage | null,
   ): { choice: AvatarChoice | null; why: string } {
     const own = state?.avatar ?? null;
-    const standIn = member.failed.has(keyOf(STAND_IN)) ? null : STAND_IN;
-    if (!own) return { choice: state?.kind === "tracker" ? standIn : null, why: "" };
+    const substitute = member.failed.has(keyOf(SUBSTITUTE)) ? null : SUBSTITUTE;
+    if (!own) return { choice: state?.kind === "tracker" ? substitute : null, why: "" };
     if ("url" in own && !this.strangers)
-      return { choice: standIn, why: `The avatar is at ${new URL(own.url).host}: not fetched.` };
+      return { choice: substitute, why: `The avatar at ${new URL(own.url).host} is not downloaded.` };
     const why = member.failed.get(keyOf(own));
-    return why === undefined ? { choice: own, why: "" } : { choice: standIn, why };
+    return why === undefined ? { choice: own, why: "" } : { choice: substitute, why };
   }
 
   private dress(id: string, member: Member, roster: Roster): void {
-    if (member.busy) return; // it is looked at again when that is done
+    if (member.busy) return; // it is called again when that is done
     const { choice, why } = this.choiceFor(member, roster.get(id)?.state ?? null);
     member.complaint = why;
     const wanted = choice ? keyOf(choice) : "";
@@ -121,8 +121,8 @@ export class Cast {
         else this.library.release(avatar);
       })
       .catch((e: unknown) => {
-        member.complaint = e instanceof AvatarError ? e.message : "The avatar could not be fetched.";
-        if (member.failed.size >= MOST_FAILED) member.failed.clear();
+        member.complaint = e instanceof AvatarError ? e.message : "The avatar could not be loaded.";
+        if (member.failed.size >= MAX_FAILED) member.failed.clear();
         member.failed.set(wanted, member.complaint);
       })
       .finally(() => {
@@ -146,7 +146,7 @@ export class Cast {
     this.stage.touch();
   }
 
-  /** Shows everybody's pose at `now` (s); true when something moved. */
+  /** Shows the poses of all participants at `now` (s); true when something has moved. */
   show(roster: Roster, now: number): boolean {
     const dt = Math.min(0.1, Math.max(0, now - this.lastShow));
     this.lastShow = now;
@@ -159,9 +159,9 @@ export class Cast {
         const breath = this.still ? 0 : 1;
         if (member.figure.show(pose, p.state?.bones.get("hips"), now, dt, breath)) moved = true;
       } catch (e) {
-        // A file that could be built but not moved harms nobody else.
+        // An avatar that cannot be moved does not affect the others.
         console.warn("avatar:", e);
-        member.failed.set(member.wanted, "The avatar broke.");
+        member.failed.set(member.wanted, "The avatar failed.");
         member.wanted = "";
         this.put(member, null);
         this.dress(id, member, roster);
@@ -170,7 +170,7 @@ export class Cast {
     return moved;
   }
 
-  /** Whose head is hidden, as the picture is from its eyes. */
+  /** Hides the head of the participant whose eyes the picture is from. */
   hide(id: string | null): void {
     if (id === this.hidden) return;
     for (const [who, on] of [
@@ -190,7 +190,7 @@ export class Cast {
     return { ...seatPlace(seat, roster.meeting.seats), eyes: this.all.get(id)?.figure.eyes ?? null };
   }
 
-  /** Bones as they stand now; of who has no avatar, none. */
+  /** The current bones; empty without an avatar. */
   read(id: string): Record<string, BoneReading> {
     return this.all.get(id)?.figure.avatar?.read() ?? {};
   }
@@ -200,6 +200,6 @@ export class Cast {
   }
 }
 
-/** Further chairs than the meeting has, for those who came beyond. */
+/** Number of participants beyond the seats of the meeting. */
 export const furtherSeats = (roster: Roster): number =>
   Math.max(0, ...[...roster.seats.values()].map((s) => s + 1 - roster.meeting.seats));
