@@ -86,12 +86,11 @@ class BapTcpLink final : public Link {
 
 std::unique_ptr<Sender> make_bap_tcp_sender(const SendUrl& url) {
   check_options(url, {"profile", "mirror"});
-  require_host(url);
-  if (url.port.value_or(0) == 0 || url.path.size() > 1) {
+  if (!url.port || url.path.size() > 1) {
     throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not say at which port",
                 "Write it like bap+tcp://localhost:5000.");
   }
-  const std::string profile = free_option(url, "profile").value_or("iso");
+  const std::string profile = find_option(url, "profile").value_or("iso");
   make_bap_encoder(profile);  // refuses an unknown one now, not in the thread
   return make_queued_sender(url,
                             [&](SendLoop& loop) { return std::make_unique<BapTcpLink>(loop, url, profile); });

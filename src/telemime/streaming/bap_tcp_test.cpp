@@ -3,22 +3,62 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "telemime/outputs/encoders/bap.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/send_queue.h"
 #include "telemime/streaming/sender.h"
-#include "telemime/streaming/testing_bap.h"
 #include "telemime/streaming/testing_receivers.h"
 
 namespace telemime {
 namespace {
 
-using testing_bap::BapText;
 using testing_receivers::comes_true;
 using testing_receivers::ends_at_once;
 using testing_receivers::kTaken;
 using testing_receivers::TcpListener;
 using testing_receivers::TcpPeer;
+
+/// A frame of BAP text, parsed by the description of the format alone: the mask has a 0 or 1 for each
+/// parameter from 1 on, then come the frame's number and a value for each 1.
+struct BapText {
+  std::size_t mask_length = 0;
+  long number = -1;
+  std::map<int, int> values;  ///< by id
+
+  BapText(const std::string& mask, const std::string& rest) {
+    std::vector<int> ids;
+    for (const std::string& bit : words(mask)) {
+      EXPECT_TRUE(bit == "0" || bit == "1") << bit;
+      ++mask_length;
+      if (bit == "1") {
+        ids.push_back(static_cast<int>(mask_length));
+      }
+    }
+    const std::vector<std::string> numbers = words(rest);
+    EXPECT_EQ(numbers.size(), ids.size() + 1);
+    for (std::size_t i = 0; i < numbers.size() && i <= ids.size(); ++i) {
+      if (i == 0) {
+        number = std::stol(numbers[0]);
+      } else {
+        values[ids[i - 1]] = std::stoi(numbers[i]);
+      }
+    }
+  }
+
+  static std::vector<std::string> words(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> found;
+    for (std::string word; stream >> word;) {
+      found.push_back(word);
+    }
+    return found;
+  }
+};
 
 std::string url_of(std::uint16_t port, const std::string& options = "") {
   return "bap+tcp://127.0.0.1:" + std::to_string(port) + options;

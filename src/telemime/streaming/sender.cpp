@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <boost/asio/ip/address.hpp>
-#include <cctype>
 #include <map>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/streaming/all.h"
 
 namespace telemime {
@@ -18,22 +18,19 @@ struct KnownUrl {
 };
 
 KnownUrl known(const std::string& text, SenderKinds kinds) {
-  const SendUrl parts = parse_url(text, kinds.front().example, UrlUser::taken);
-  std::string examples;
+  const SendUrl parts = parse_url(text, kinds.front().example, UrlCredentials::accepted);
   for (const SenderKind& kind : kinds) {
     if (kind.scheme == parts.scheme) {
-      return {kind, parse_url(text, kind.example, kind.user)};
+      return {kind, parse_url(text, kind.example, kind.credentials)};
     }
-    examples += (examples.empty() ? "" : ", ") + std::string(kind.example);
   }
   throw Error(ErrorKind::usage, "there is no output \"" + parts.scheme + "\" over the network",
-              "Use one of " + examples + ".");
+              "Use one of " + joined(kinds, &SenderKind::example) + ".");
 }
 
 std::string plain_host(std::string host) {
-  std::transform(host.begin(), host.end(), host.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (host.empty() || host == "localhost") {
+  host = lower_case(host);
+  if (host == "localhost") {
     return "127.0.0.1";
   }
   boost::system::error_code no_address;
@@ -69,8 +66,7 @@ std::unique_ptr<Sender> make_sender(const std::string& url, SenderKinds kinds) {
 std::string meaning_of(const std::string& text, SenderKinds kinds) {
   const auto& [kind, url] = known(text, kinds);
   std::string meaning = url.scheme + "://" + (url.user.empty() ? "" : url.user + "@") +
-                        host_and_port(plain_host(url.host), url.port.value_or(kind.port)) +
-                        (url.path.empty() ? "/" : url.path);
+                        host_and_port(plain_host(url.host), url.port.value_or(kind.port)) + url.path;
   std::map<std::string, std::string> ours = defaults_of(kind.options);
   std::string others;  // the receiver's own: their order may matter to it
   for (auto option = url.options.rbegin(); option != url.options.rend(); ++option) {

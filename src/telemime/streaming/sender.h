@@ -57,7 +57,7 @@ struct SenderKind {
   std::string_view summary;
   /// Throws Error(usage) when the URL cannot be used.
   std::unique_ptr<Sender> (*make)(const SendUrl&);
-  UrlUser user = UrlUser::refused;
+  UrlCredentials credentials = UrlCredentials::rejected;
 };
 
 using SenderKinds = std::span<const SenderKind>;
@@ -70,7 +70,7 @@ SenderKinds sender_kinds();
 std::unique_ptr<Sender> make_sender(const std::string& url, SenderKinds kinds = sender_kinds());
 
 /// What the URL means, as text: two that mean the same output have the same one. The scheme, the user, the
-/// host (localhost is 127.0.0.1; none, where that is allowed, too), port, path and options, with what the URL
+/// host (localhost is 127.0.0.1), port, path and options, with what the URL
 /// leaves out filled in; a password does not count. Throws as make_sender does for a URL that cannot be
 /// parsed or has an unknown scheme.
 std::string meaning_of(const std::string& url, SenderKinds kinds = sender_kinds());

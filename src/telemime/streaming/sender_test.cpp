@@ -53,11 +53,10 @@ TEST(Senders, BadUrlsAreRefusedInWords) {
   EXPECT_NE(refusal("vmc://localhost?mirror=yes").find("0, 1"), std::string::npos);
   EXPECT_NE(refusal("bap+tcp://localhost").find("bap+tcp://localhost:5000"), std::string::npos);
   EXPECT_NE(refusal("bap+tcp://localhost:5000?profile=poser").find("vreng-3.1"), std::string::npos);
-  EXPECT_NE(refusal("bap+serve://:4150?profile=poser").find("vreng-3.1"), std::string::npos);
-  EXPECT_NE(refusal("bap+serve://:4150/x").find("path"), std::string::npos);
   EXPECT_NE(refusal("ws://:80/").find("which computer"), std::string::npos);
   EXPECT_NE(refusal("wss://localhost").find("ws://localhost:8080/motion"), std::string::npos);
   EXPECT_NE(refusal("vmc://user:word@localhost").find("vmc://user@localhost"), std::string::npos);
+  EXPECT_EQ(refusal("vmc://h#k=secret").find("secret"), std::string::npos);
 }
 
 TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
@@ -67,63 +66,15 @@ TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
   EXPECT_TRUE(same("vmc://h?root=moves&bundle=0", "vmc://h?bundle=0&root=moves&positions=all"));
   EXPECT_TRUE(same("vmc://h?bundle=0&bundle=1", "vmc://h?bundle=0")) << "the first one counts";
   EXPECT_TRUE(same("vmc://[0:0::1]", "vmc://[::1]:39539"));
-  EXPECT_TRUE(same("bap+serve://:4150", "bap+serve://127.0.0.1?profile=vreng-3.1"));
   EXPECT_TRUE(same("ws://h:80", "ws://h/?mirror=0"));
   EXPECT_TRUE(same("bap+tcp://h:5000", "bap+tcp://h:5000?profile=iso"));
-  EXPECT_TRUE(same("mqtt://h/a/b", "mqtt://h:1883/a/b?mirror=0"));
-  EXPECT_TRUE(same("mqtt://h/a/b", "mqtt://h/a/b?look=plain"));
-  EXPECT_FALSE(same("mqtt://h/a/b", "mqtt://h/a/b?look=robot"));
-  EXPECT_TRUE(same("http://h/room", "http://h/room?look=plain#k=a"));
-  EXPECT_TRUE(same("mqtts://u:one@h/a/b", "mqtts://u:two@h:8883/a/b"));
-  EXPECT_TRUE(same("mqtts://u:one@h/a/b", "mqtts://u@h/a/b"));
 
-  EXPECT_TRUE(same("http://h/room#k=a", "http://h:80/room#k=b")) << "a secret says nothing of where";
-  EXPECT_TRUE(same("http://h/room#k=a", "http://h/room"));
-
-  EXPECT_FALSE(same("mqtt://u:x@h/a/b", "mqtt://v:x@h/a/b")) << "another participant";
-  EXPECT_FALSE(same("mqtt://h/a/b", "mqtt://h/a/c"));
   EXPECT_FALSE(same("vmc://localhost", "vmc://localhost:39540"));
   EXPECT_FALSE(same("vmc://localhost", "vmc://localhost?mirror=1"));
   EXPECT_FALSE(same("vmc://a", "vmc://b"));
-  EXPECT_FALSE(same("bap+tcp://h:4150", "bap+serve://h:4150"));
-  EXPECT_FALSE(same("bap+serve://:4150", "bap+serve://0.0.0.0:4150"));
+  EXPECT_FALSE(same("bap+tcp://h:4150", "ws://h:4150"));
   EXPECT_FALSE(same("ws://h:80/a", "ws://h:80/A")) << "only a host is the same in capitals";
   EXPECT_FALSE(same("ws://h:80/?a=1&b=2", "ws://h:80/?b=2&a=1")) << "what order means is the receiver's";
-}
-
-TEST(Senders, PasswordsAreInNothingThatIsShown) {
-  const std::string url = "mqtt://studio.p01:secret@127.0.0.1:9/home/studio?name=Ana";
-  EXPECT_EQ(meaning_of(url).find("secret"), std::string::npos);
-  EXPECT_EQ(make_sender(url)->status().url, "mqtt://studio.p01@127.0.0.1:9/home/studio?name=Ana");
-  for (const char* const bad : {"mqtt://u:secret@h",
-                                "mqtt://u:secret@h/a",
-                                "mqtt://u:secret@h/a/b?x=1",
-                                "mqtt://u:secret@h:0/a/b",
-                                "mqtt://u:secret@/a/b",
-                                "mqtt://u:secret@h:x/a/b",
-                                "mqtt://u:secret@h/a/b#c",
-                                "mqtt://u:sec/secret@h/a/b",
-                                "mqtt://u:1/secret@h/a/b",
-                                "mqtt://u:%zzsecret@h/a/b",
-                                "mqtt://u:secret@h/a/b?mirror=2",
-                                "mqtt://u:secret@h/a/b?name=",
-                                "mqtt://u:secret@h/a/b?name=%0a",
-                                "mqtt://u:secret@h/a/b?seat=x",
-                                "mqtt://u:secret@h/a/b?ca=x",
-                                "mqtts://u:secret@h/a/b?ca=/none",
-                                "mqtt://h/a/b?password=secret",
-                                "mqttx://u:secret@h/a/b",
-                                "http://h/room#secret",
-                                "http://h/room#k=secret!",
-                                "http://h/else#k=secret",
-                                "http://h:0x/room#k=secret",
-                                "https://h/room?ca=/none&x=1#k=secret",
-                                "http://h/room?seat=x#k=secret",
-                                "vmc://h#k=secret",
-                                "htp://h/room#k=secret"}) {
-    EXPECT_EQ(refusal(bad).find("secret"), std::string::npos) << refusal(bad);
-    EXPECT_NE(refusal(bad), "nothing was refused") << bad;
-  }
 }
 
 TEST(Senders, EveryOptionOfTheTableIsOneAndItsFirstValueTheDefault) {

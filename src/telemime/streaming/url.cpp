@@ -1,98 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/streaming/url.h"
 
+#include <curl/curl.h>
+
 #include <algorithm>
-#include <cctype>
-#include <charconv>
+#include <memory>
+#include <new>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
 
 constexpr std::size_t kLongestUrl = 2000;
-constexpr std::size_t kLongestHost = 253;  // RFC 1035, 2.3.4
+constexpr std::size_t kLongestKey = 200;
+constexpr std::string_view kKeyMark = "#k=";
+constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
 
-bool is_letter_or_digit(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+/// Links to web pages carry their access key in the fragment, which browsers never send to the server.
+bool has_key_in_fragment(std::string_view url) {
+  return lower_case(url.substr(0, 4)) == "http";
 }
 
-bool is_host(std::string_view host, bool ipv6) {
-  const std::string_view others = ipv6 ? ":.%" : ".-_";
-  return host.size() <= kLongestHost && std::all_of(host.begin(), host.end(), [&](char c) {
-           return is_letter_or_digit(c) || others.find(c) != std::string_view::npos;
-         });
+/// Addresses of brokers often carry "user:password@".
+bool has_credentials_often(std::string_view url) {
+  return lower_case(url.substr(0, 4)) == "mqtt";
 }
 
-/// Takes what stands before the first of `ends` off the front of `rest`.
-std::string_view take_until(std::string_view& rest, std::string_view ends) {
-  const std::string_view taken = rest.substr(0, rest.find_first_of(ends));
-  rest.remove_prefix(taken.size());
-  return taken;
-}
+/// A URL as libcurl parses it.
+class CurlUrl {
+ public:
+  CurlUrl() {
+    if (!url_) {
+      throw std::bad_alloc();
+    }
+  }
+  CURLUcode parse(const std::string& text, unsigned flags) {
+    return curl_url_set(url_.get(), CURLUPART_URL, text.c_str(), flags);
+  }
+  /// Empty when the URL does not have the part.
+  std::string part(CURLUPart part) const {
+    char* text = nullptr;
+    if (curl_url_get(url_.get(), part, &text, 0) != CURLUE_OK) {
+      return {};
+    }
+    const std::unique_ptr<char, decltype(&curl_free)> owner(text, curl_free);
+    return text;
+  }
+  std::string host() const {
+    std::string host = part(CURLUPART_HOST);
+    if (!host.starts_with('[')) {
+      return host;
+    }
+    const std::string zone = part(CURLUPART_ZONEID);
+    return host.substr(1, host.size() - 2) + (zone.empty() ? "" : "%" + zone);
+  }
+  std::optional<std::uint16_t> port() const {
+    const std::string port = part(CURLUPART_PORT);
+    return port.empty() ? std::nullopt : std::optional(static_cast<std::uint16_t>(std::stoi(port)));
+  }
 
-bool is_port(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-bool begins_with(std::string_view scheme, std::string_view word) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return scheme.size() >= word.size() &&
-         std::equal(word.begin(), word.end(), scheme.begin(), [&](char b, char a) { return same(a, b); });
-}
-
-bool is_room_scheme(std::string_view scheme) {
-  return begins_with(scheme, "mqtt");
-}
-
-/// Of a room's page: its links have their secret behind "#".
-bool is_page_scheme(std::string_view scheme) {
-  return begins_with(scheme, "http");
-}
-
-constexpr std::string_view kInvite = "#k=";
-
-/// Where the secret of a room's link begins, "#" included.
-std::size_t secret_of_link(std::string_view url) {
-  return url.find(is_page_scheme(url) ? std::string_view("#") : kInvite);
-}
+ private:
+  std::unique_ptr<CURLU, decltype(&curl_url_cleanup)> url_{curl_url(), curl_url_cleanup};
+};
 
 class Parser {
  public:
-  Parser(const std::string& text, std::string_view example, UrlUser user)
-      : text_(text), shown_(without_password(text)), example_(example), user_(user) {}
+  Parser(const std::string& text, std::string_view example)
+      : text_(text), shown_(without_password(text)), example_(example) {}
 
-  SendUrl parse() const {
+  SendUrl parse(UrlCredentials credentials) const {
+    // What libcurl would accept or change.
     if (text_.size() > kLongestUrl) {
       throw Error(ErrorKind::usage, "the address of an output is longer than 2000 characters");
     }
     if (!std::all_of(text_.begin(), text_.end(), [](char c) { return c > ' ' && c < '\x7f'; })) {
-      fail("holds characters that do not belong in an address");
+      fail("contains characters that are not allowed in an address");
     }
-    SendUrl url;
-    url.text = shown_;
-    std::string_view rest = text_;
-    const std::size_t end = rest.find("://");
-    if (end == std::string_view::npos || end == 0) {
+    const std::size_t scheme_end = text_.find("://");
+    if (scheme_end == std::string::npos || scheme_end == 0) {
       fail("has no scheme (the word before \"://\")");
     }
-    url.scheme = rest.substr(0, end);
-    std::transform(url.scheme.begin(), url.scheme.end(), url.scheme.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    rest.remove_prefix(end + 3);
-    if (is_page_scheme(url.scheme)) {
-      invite(rest, url);
+    if (text_.substr(scheme_end + 3, 1) == "/") {
+      fail_without_host();
     }
-    if (user_ == UrlUser::taken) {
-      user(rest, url);
+
+    CurlUrl parts;
+    const bool accepted = credentials == UrlCredentials::accepted;
+    check(parts.parse(text_, CURLU_NON_SUPPORT_SCHEME | CURLU_PATH_AS_IS |
+                                 (accepted ? 0U : static_cast<unsigned>(CURLU_DISALLOW_USER))));
+    SendUrl url;
+    url.text = shown_;
+    url.scheme = parts.part(CURLUPART_SCHEME);
+    set_credentials(parts, url);
+    url.host = parts.host();
+    url.port = parts.port();
+    if (url.port == 0) {
+      fail("has a port that is not a number from 1 to 65535");
     }
-    url.host = host(rest);
-    url.port = port(rest);
-    if (is_room_scheme(url.scheme) && rest.find('@') != std::string_view::npos) {
-      fail("has an \"@\" behind its host; %40 stands for one");  // or a password was mistaken for a path
+    url.path = parts.part(CURLUPART_PATH);
+    const std::string query = parts.part(CURLUPART_QUERY);
+    if (has_credentials_often(url.scheme) && (url.path + query).find('@') != std::string::npos) {
+      fail("has an \"@\" behind its host; write %40");  // or part of a password was taken for the path
     }
-    url.path = take_until(rest, "?#");
-    url.options = options(rest);
+    set_options(query, url);
     return url;
   }
 
@@ -102,120 +114,81 @@ class Parser {
                 "Write it like " + std::string(example_) + ".");
   }
 
-  /// Takes the secret of a room's link off.
-  void invite(std::string_view& rest, SendUrl& url) const {
-    const std::size_t start = rest.find('#');
-    if (start == std::string_view::npos) {
-      return;
-    }
-    const std::string_view fragment = rest.substr(start);
-    constexpr std::size_t kLongestInvite = 200;
-    const auto may_stand = [](char c) {
-      return is_letter_or_digit(c) || std::string_view("_.~-").find(c) != std::string_view::npos;
-    };
-    url.password = fragment.starts_with(kInvite) ? fragment.substr(kInvite.size()) : "";
-    if (url.password.empty() || url.password.size() > kLongestInvite ||
-        !std::all_of(url.password.begin(), url.password.end(), may_stand)) {
-      fail("has behind \"#\" what no room's link has; it may be cut off");
-    }
-    rest = rest.substr(0, start);
+  [[noreturn]] void fail_without_host() const {
+    throw Error(ErrorKind::usage, "the output \"" + shown_ + "\" does not say which computer it sends to",
+                "Put its name or address behind \"://\", localhost for this one, like " +
+                    std::string(example_) + ".");
   }
 
-  void user(std::string_view& rest, SendUrl& url) const {
-    const std::string_view authority = rest.substr(0, rest.find_first_of("/?#"));
-    const std::size_t at = authority.rfind('@');
-    if (at == std::string_view::npos) {
-      return;
+  void check(CURLUcode result) const {
+    switch (result) {
+      case CURLUE_OK:
+        return;
+      case CURLUE_NO_HOST:
+        fail_without_host();
+      case CURLUE_BAD_PORT_NUMBER:
+        fail("has a port that is not a number from 1 to 65535");
+      case CURLUE_USER_NOT_ALLOWED:
+        fail("cannot have a user name before its host");
+      case CURLUE_BAD_LOGIN:
+      case CURLUE_BAD_USER:
+      case CURLUE_BAD_PASSWORD:
+        fail("has an invalid user name or password");
+      default:
+        fail("has an invalid host");
     }
-    const std::string_view both = authority.substr(0, at);
-    const std::string_view name = both.substr(0, both.find(':'));
-    const auto user = percent_decoded(name);
-    const auto password = percent_decoded(both.substr(std::min(name.size() + 1, both.size())));
-    if (!user || !password || user->empty()) {
-      fail("has a user or password that cannot be understood");
+  }
+
+  void set_credentials(const CurlUrl& parts, SendUrl& url) const {
+    const auto user = percent_decoded(parts.part(CURLUPART_USER));
+    const auto password = percent_decoded(parts.part(CURLUPART_PASSWORD));
+    if (!user || !password || (user->empty() && !password->empty())) {
+      fail("has an invalid user name or password");
     }
     url.user = *user;
     url.password = *password;
-    rest.remove_prefix(at + 1);
+    const std::size_t mark = text_.find('#');
+    if (mark == std::string::npos) {
+      return;
+    }
+    if (!has_key_in_fragment(url.scheme)) {
+      fail("has a \"#\", which has no meaning here");
+    }
+    const std::string_view fragment = std::string_view(text_).substr(mark);
+    url.password = fragment.starts_with(kKeyMark) ? fragment.substr(kKeyMark.size()) : "";
+    if (url.password.empty() || url.password.size() > kLongestKey ||
+        url.password.find_first_not_of(std::string(kLetters) + "_.~-") != std::string::npos) {
+      fail("has an invalid access key behind \"#\"; the link may be cut off");
+    }
   }
 
-  std::string host(std::string_view& rest) const {
-    const bool ipv6 = rest.starts_with('[');
-    if (ipv6) {
-      rest.remove_prefix(1);
-    }
-    const std::string_view host = take_until(rest, ipv6 ? "]" : ":/?#");
-    if (!is_host(host, ipv6) || (ipv6 && rest.empty())) {
-      fail("has no host that can be understood");
-    }
-    if (ipv6) {
-      rest.remove_prefix(1);
-    }
-    return std::string(host);
-  }
-
-  std::optional<std::uint16_t> port(std::string_view& rest) const {
-    if (!rest.starts_with(':')) {
-      if (!rest.empty() && rest.front() != '/' && rest.front() != '?') {
-        fail("has something behind its host that cannot be understood");
-      }
-      return std::nullopt;
-    }
-    rest.remove_prefix(1);
-    const std::string_view digits = take_until(rest, "/?#");
-    std::uint16_t port = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
-    if (digits.empty() || error != std::errc() || end != digits.data() + digits.size()) {
-      fail("has a port that is not a number from 0 to 65535");
-    }
-    return port;
-  }
-
-  std::vector<std::pair<std::string, std::string>> options(std::string_view rest) const {
-    std::vector<std::pair<std::string, std::string>> found;
-    if (rest.empty()) {
-      return found;
-    }
-    if (rest.front() != '?') {
-      fail("has a \"#\", which means nothing here");
-    }
-    do {
-      rest.remove_prefix(1);
-      std::string_view item = take_until(rest, "&#");
-      const std::string_view name = take_until(item, "=");
-      if (name.empty() || item.empty()) {
+  void set_options(std::string_view query, SendUrl& url) const {
+    while (!query.empty()) {
+      const std::string_view item = query.substr(0, query.find('&'));
+      const std::size_t equals = item.find('=');
+      if (equals == std::string_view::npos || equals == 0 || query.ends_with('&')) {
         fail("has an option that is not name=value");
       }
-      found.emplace_back(name, item.substr(1));
-    } while (rest.starts_with('&'));
-    if (!rest.empty()) {
-      fail("has a \"#\", which means nothing here");
+      url.options.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+      query.remove_prefix(std::min(item.size() + 1, query.size()));
     }
-    return found;
   }
 
   const std::string& text_;
   std::string shown_;
   std::string_view example_;
-  UrlUser user_;
 };
-
-std::string listed(std::initializer_list<std::string_view> words) {
-  std::string list;
-  for (const std::string_view word : words) {
-    list += (list.empty() ? "" : ", ") + std::string(word);
-  }
-  return list;
-}
 
 }  // namespace
 
-SendUrl parse_url(const std::string& text, std::string_view example, UrlUser user) {
-  return Parser(text, example, user).parse();
+SendUrl parse_url(const std::string& text, std::string_view example, UrlCredentials credentials) {
+  return Parser(text, example).parse(credentials);
 }
 
+// By hand: secrets must be removed from text that no parser accepts, too, before it is shown in a message.
 std::string without_password(const std::string& given) {
-  std::string url = given.substr(0, secret_of_link(given));
+  const std::string url =
+      given.substr(0, given.find(has_key_in_fragment(given) ? std::string_view("#") : kKeyMark));
   const std::size_t scheme = url.find("://");
   if (scheme == std::string::npos) {
     return url;
@@ -225,46 +198,27 @@ std::string without_password(const std::string& given) {
   const std::size_t colon = url.find(':', start);
   std::size_t at = url.substr(0, end).rfind('@');
   if (at == std::string::npos || at < start) {
-    // No user in the right place. A password with a "/" in it would be one in the wrong place.
-    const bool host_and_path = colon == std::string::npos || colon > end ||
-                               is_port(std::string_view(url).substr(colon + 1, end - colon - 1));
-    at = host_and_path && !is_room_scheme(url) ? std::string::npos : url.rfind('@');
+    // There is no user where one belongs. A password that contains "/" puts its "@" elsewhere.
+    const bool has_port = colon != std::string::npos && colon + 1 < end &&
+                          url.find_first_not_of("0123456789", colon + 1) >= end;
+    const bool is_host_and_path = colon == std::string::npos || colon > end || has_port;
+    at = is_host_and_path && !has_credentials_often(url) ? std::string::npos : url.rfind('@');
   }
   return at == std::string::npos || colon == std::string::npos || colon > at
              ? url
              : url.substr(0, colon) + url.substr(at);
 }
 
-std::optional<std::string> percent_decoded(std::string_view text) {
-  std::string decoded;
-  while (!text.empty()) {
-    const std::string_view plain = take_until(text, "%");
-    decoded += plain;
-    if (text.empty()) {
-      break;
-    }
-    unsigned byte = 0;
-    const std::string_view digits = text.substr(1, 2);
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
-    if (digits.size() != 2 || error != std::errc() || end != digits.data() + 2) {
-      return std::nullopt;
-    }
-    decoded += static_cast<char>(byte);
-    text.remove_prefix(3);
-  }
-  return decoded;
-}
-
 void check_options(const SendUrl& url, std::initializer_list<std::string_view> names) {
   for (const auto& [name, value] : url.options) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no option \"" + name + "\"",
-                  "Its options are " + listed(names) + ".");
+                  "Its options are " + joined(names) + ".");
     }
   }
 }
 
-std::optional<std::string> free_option(const SendUrl& url, std::string_view name) {
+std::optional<std::string> find_option(const SendUrl& url, std::string_view name) {
   for (const auto& [given, value] : url.options) {
     if (given == name) {
       return value;
@@ -275,26 +229,34 @@ std::optional<std::string> free_option(const SendUrl& url, std::string_view name
 
 std::string option(const SendUrl& url, std::string_view name,
                    std::initializer_list<std::string_view> values) {
-  std::string value = free_option(url, name).value_or(std::string(*values.begin()));
+  std::string value = find_option(url, name).value_or(std::string(*values.begin()));
   if (std::find(values.begin(), values.end(), value) == values.end()) {
     throw Error(
         ErrorKind::usage,
         "the option \"" + std::string(name) + "\" of \"" + url.text + "\" cannot be \"" + value + "\"",
-        "It is one of " + listed(values) + ".");
+        "It is one of " + joined(values) + ".");
   }
   return value;
+}
+
+std::optional<HostAndPort> parse_host_and_port(std::string_view text) {
+  CurlUrl url;
+  if (text.find_first_of("/?#@\\%, ") != std::string_view::npos || text.ends_with(':') ||
+      url.parse("http://" + std::string(text), 0) != CURLUE_OK) {
+    return std::nullopt;
+  }
+  HostAndPort result{lower_case(url.host()), url.port()};
+  // libcurl reads "127.1" as 127.0.0.1; a header that says so was not written by a browser.
+  const bool as_written = text.starts_with('[') || lower_case(text.substr(0, text.find(':'))) == result.host;
+  if (result.port == 0 || !as_written) {
+    return std::nullopt;
+  }
+  return result;
 }
 
 std::string host_and_port(const std::string& host, std::uint16_t port) {
   const bool ipv6 = host.find(':') != std::string::npos;
   return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
-}
-
-void require_host(const SendUrl& url) {
-  if (url.host.empty()) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not say to which computer",
-                "Put its name or address behind \"://\", localhost for this one.");
-  }
 }
 
 }  // namespace telemime

@@ -166,9 +166,8 @@ class VmcLink final : public Link {
 
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url) {
   check_options(url, {"bundle", "positions", "root", "mirror"});
-  require_host(url);
-  if (url.port == 0 || url.path.size() > 1) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not name a port of a computer",
+  if (url.path.size() > 1) {
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has a path, which has no meaning here",
                 "Write it like vmc://localhost:39539.");
   }
   VmcOptions options;

@@ -2,27 +2,15 @@
 #include "telemime/streaming/web_origin.h"
 
 #include <algorithm>
-#include <boost/asio/ip/address_v6.hpp>
-#include <charconv>
 
 #include "telemime/core/errors.h"
+#include "telemime/streaming/url.h"
 
 namespace telemime {
 namespace {
 
 constexpr std::uint16_t http_port = 80;
 constexpr std::uint16_t https_port = 443;
-
-bool in_a_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_';
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return result;
-}
 
 }  // namespace
 
@@ -43,35 +31,8 @@ WebNames::WebNames(std::uint16_t port, const std::vector<std::string>& hosts, bo
 }
 
 std::optional<WebNames::Name> WebNames::parse(std::string_view text, std::uint16_t default_port) {
-  Name result{{}, default_port};
-  if (text.starts_with('[')) {
-    const std::size_t end = text.find(']');
-    if (end == std::string_view::npos) {
-      return std::nullopt;
-    }
-    boost::system::error_code error;
-    const auto address = boost::asio::ip::make_address_v6(std::string(text.substr(1, end - 1)), error);
-    if (error) {
-      return std::nullopt;
-    }
-    result.name = address.to_string();
-    text.remove_prefix(end + 1);
-  } else {
-    result.name = lower(text.substr(0, text.find(':')));
-    text.remove_prefix(result.name.size());
-    if (result.name.empty() || !std::all_of(result.name.begin(), result.name.end(), in_a_name)) {
-      return std::nullopt;
-    }
-  }
-  if (text.empty()) {
-    return result;
-  }
-  const char* end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data() + 1, end, result.port);
-  if (text.front() != ':' || text.size() < 2 || error != std::errc() || last != end || result.port == 0) {
-    return std::nullopt;
-  }
-  return result;
+  const std::optional<HostAndPort> parsed = parse_host_and_port(text);
+  return parsed ? std::optional(Name{parsed->host, parsed->port.value_or(default_port)}) : std::nullopt;
 }
 
 bool WebNames::allowed(const std::optional<Name>& name, std::string_view local) const {

@@ -13,9 +13,6 @@ namespace telemime {
 /// not UTF-8 (over-long forms and surrogates included).
 std::optional<std::string> web_path(std::string_view target);
 
-/// Whether the bytes are UTF-8 as RFC 3629 has it.
-bool is_utf8(std::string_view bytes);
-
 /// The MIME type by the ending of a file's name; "application/octet-stream" when it is unknown.
 std::string web_type(std::string_view file_name);
 

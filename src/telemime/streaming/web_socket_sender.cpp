@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "telemime/core/errors.h"
 #include "telemime/streaming/pose_message.h"
 #include "telemime/streaming/send_queue.h"
 #include "telemime/streaming/tcp.h"
@@ -24,7 +23,7 @@ constexpr std::size_t kLongestIncoming = 64 * 1024;  // bytes of a message; all 
 
 /// Path and query as the receiver shall see them.
 std::string target_of(const SendUrl& url) {
-  std::string target = url.path.empty() ? "/" : url.path;
+  std::string target = url.path;
   char mark = '?';
   for (const auto& [name, value] : url.options) {
     if (name != "mirror") {
@@ -120,11 +119,6 @@ class WebSocketLink final : public Link {
 }  // namespace
 
 std::unique_ptr<Sender> make_web_socket_sender(const SendUrl& url) {
-  require_host(url);
-  if (url.port == 0) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no port",
-                "Write it like ws://localhost:8080/motion.");
-  }
   return make_queued_sender(url, [&](SendLoop& loop) { return std::make_unique<WebSocketLink>(loop, url); });
 }
 

@@ -6,6 +6,7 @@
 #include "meeting/protocol/json.h"
 #include "meeting/protocol/topics.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime::meeting {
@@ -23,25 +24,6 @@ constexpr std::string_view kHttps = "https://";
 
 [[noreturn]] void reject(const std::string& reason) {
   throw MessageFault{reason};  // caught by read()
-}
-
-/// The number of code points of UTF-8 text. Returns nothing for other bytes and for control characters.
-std::optional<std::size_t> printable_length(std::string_view text) {
-  try {
-    static_cast<void>(Json(text).dump());
-  } catch (const Json::type_error&) {
-    return std::nullopt;
-  }
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const bool c1 = byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-    if (byte < 0x20 || byte == 0x7F || c1) {
-      return std::nullopt;
-    }
-    length += (byte & 0xC0U) == 0x80U ? 0 : 1;
-  }
-  return length;
 }
 
 bool is_hash(std::string_view text) {

@@ -26,7 +26,7 @@ MeetingOutput output_of(const SendUrl& link, const Credentials& credentials) {
   std::erase_if(url.options, [](const auto& option) { return option.first == "mirror"; });
   MeetingOutput output = meeting_output_of(url);
   output.participant = credentials.participant;
-  if (!free_option(url, "name")) {
+  if (!find_option(url, "name")) {
     output.name = credentials.participant;
   }
   return output;
@@ -97,7 +97,6 @@ class LoginLink final : public Link {
 
 std::unique_ptr<Sender> make_link_sender(const SendUrl& url) {
   check_options(url, {"name", "look", "seat", "ca", "mirror"});
-  require_host(url);
   if (url.password.empty()) {
     throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has no secret after \"#k=\"",
                 "Secrets are not stored. Give the whole link again.");

@@ -58,7 +58,7 @@ MeetingLogin::MeetingLogin(const std::string& where, bool watch, std::filesystem
     shown_ = without_secret(where);
     return;
   }
-  const SendUrl url = parse_url(where, kExample, UrlUser::taken);
+  const SendUrl url = parse_url(where, kExample, UrlCredentials::accepted);
   if (url.scheme != "mqtt" && url.scheme != "mqtts") {
     throw Error(ErrorKind::usage,
                 "\"" + url.text + "\" is neither the link of a meeting nor the URL of a broker",

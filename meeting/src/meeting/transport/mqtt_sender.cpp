@@ -9,6 +9,7 @@
 #include "meeting/transport/files.h"
 #include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/streaming/send_queue.h"
 
 namespace telemime::meeting {
@@ -32,7 +33,7 @@ bool is_valid(const BrokerKey& key) {
 
 /// The value of an option with "%41" decoded to "A".
 std::optional<std::string> decoded_option(const SendUrl& url, std::string_view name) {
-  const auto raw = free_option(url, name);
+  const auto raw = find_option(url, name);
   if (!raw) {
     return std::nullopt;
   }
@@ -45,7 +46,7 @@ std::optional<std::string> decoded_option(const SendUrl& url, std::string_view n
 }
 
 MeetingAddress meeting_of(const SendUrl& url) {
-  const std::string_view path = std::string_view(url.path).substr(url.path.empty() ? 0 : 1);
+  const std::string_view path = std::string_view(url.path).substr(1);
   const std::size_t slash = path.find('/');
   MeetingAddress meeting{std::string(path.substr(0, slash)),
                          slash == std::string_view::npos ? "" : std::string(path.substr(slash + 1))};
@@ -129,7 +130,6 @@ MeetingOutput meeting_output_of(const SendUrl& url) {
     }
   }
   check_options(url, {"name", "look", "seat", "participant", "key", "ca", "mirror"});
-  require_host(url);
   const bool tls = url.scheme == "mqtts";
   MeetingOutput output;
   output.meeting = meeting_of(url);
@@ -137,12 +137,9 @@ MeetingOutput meeting_output_of(const SendUrl& url) {
   // The broker and the account.
   output.server.host = url.host;
   output.server.port = url.port.value_or(tls ? kMqttsPort : kMqttPort);
-  if (output.server.port == 0) {
-    reject(url, "has no port", "The usual one is 1883, with TLS 8883.");
-  }
   if (tls) {
     output.server.ca_file = decoded_option(url, "ca").value_or("");
-  } else if (free_option(url, "ca")) {
+  } else if (find_option(url, "ca")) {
     reject(url, "names certificates but is not encrypted", "Write mqtts:// for TLS.");
   }
   if (const auto key = key_of(url, std::getenv(kKeyVariable))) {

@@ -55,10 +55,10 @@ std::unique_ptr<Sender> make_link_sender(const SendUrl& url);
 inline constexpr std::array<SenderKind, 4> kMeetingSenderKinds = {{
     {"mqtt", kMqttPort, "mqtt://localhost:1883/home/studio",
      "mirror=0|1, look=plain; name, seat, participant, key", "a meeting at an MQTT broker", make_mqtt_sender,
-     UrlUser::taken},
+     UrlCredentials::accepted},
     {"mqtts", kMqttsPort, "mqtts://localhost:8883/home/studio",
      "mirror=0|1, look=plain; ca, name, seat, participant, key", "the same, encrypted by TLS",
-     make_mqtt_sender, UrlUser::taken},
+     make_mqtt_sender, UrlCredentials::accepted},
     {"http", kHttpPort, "http://localhost:7080/room#k=SECRET", "mirror=0|1, look=plain; name, seat",
      "a meeting by its link, as printed by telemime meeting", make_link_sender},
     {"https", kHttpsPort, "https://localhost:7080/room#k=SECRET", "mirror=0|1, look=plain; ca, name, seat",

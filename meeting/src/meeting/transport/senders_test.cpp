@@ -15,7 +15,7 @@ namespace telemime::meeting {
 namespace {
 
 SendUrl parsed(const std::string& url) {
-  return parse_url(url, "mqtt://h/a/b", UrlUser::taken);
+  return parse_url(url, "mqtt://h/a/b", UrlCredentials::accepted);
 }
 
 class BrokerKeys : public ::testing::Test {
