@@ -20,7 +20,7 @@
 namespace telemime {
 namespace {
 
-// Calls of operator new so far, on all threads. OpenCV's images and C code allocate without it.
+// Number of calls of operator new on all threads. OpenCV's images and C code allocate without it.
 std::atomic<std::uint64_t> allocations{0};
 
 void* allocate(std::size_t size, std::size_t alignment) {

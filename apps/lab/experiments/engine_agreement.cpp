@@ -43,8 +43,8 @@ std::vector<double> ranks(std::span<const double> values) {
   return rank;
 }
 
-// About a true pose, as the last steps of a search try them.
-std::vector<Pose> poses_about(const Pose& pose, std::size_t count, Random& random) {
+// Around a true pose, as the last steps of a search try them.
+std::vector<Pose> poses_around(const Pose& pose, std::size_t count, Random& random) {
   constexpr double kAngle = 3.0 * kDegree;
   constexpr double kPlace = 0.015;  // m
   std::vector<Pose> poses(count, pose);
@@ -88,7 +88,7 @@ Camera small_camera() {
   return engine_cameras().front();
 }
 
-// One row for each back end but the definition; `row` measures it.
+// One row for each back end except the reference; `row` measures it.
 void compare_each(const EngineOptions& options, Table& table,
                   const std::function<std::vector<std::string>(Backend&, Backend&)>& row) {
   const auto reference = make_backend("scalar");
@@ -115,7 +115,7 @@ std::vector<Pose> valid_poses(const Body& body, const JointLimits& limits, std::
       poses.push_back(pose);
       tries = 0;
     } else if (++tries == kMostTries) {
-      throw Error(ErrorKind::usage, "inside the limits " + limits.name + " an arm is always in the body",
+      throw Error(ErrorKind::usage, "within the limits " + limits.name + " an arm is always inside the body",
                   "Give wider limits.");
     }
   }
@@ -194,7 +194,7 @@ RankAgreement compare_ranks(Backend& reference, Backend& tested, std::size_t fra
     Random random(seed, 1000 + f);
     const Pose pose = valid_poses(model.body, anatomical_limits(), 1, random).front();
     const PreparedFrame frame = frame_of_model(model, pose, small_camera());
-    const Pair scores = evaluate_both(reference, tested, frame, model, poses_about(pose, kPoses, random));
+    const Pair scores = evaluate_both(reference, tested, frame, model, poses_around(pose, kPoses, random));
     const double region = rank_correlation(scores, &Score::region);
     const double contour = rank_correlation(scores, &Score::contour);
     result.region_min = std::min(result.region_min, region);

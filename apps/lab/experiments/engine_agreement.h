@@ -11,12 +11,12 @@
 
 namespace telemime {
 
-/// Poses of which every angle is uniform inside the limits, 1.0 to 1.6 m before the camera; those with an arm
-/// inside the body (kInvalidInterpenetration) are drawn again. Throws Error(usage) when the limits leave
-/// hardly any other.
+/// Poses with every angle uniform within the limits, 1.0 to 1.6 m from the camera; poses with an arm inside
+/// the body (kInvalidInterpenetration) are redrawn. Throws Error(usage) when the limits allow hardly any
+/// other.
 std::vector<Pose> valid_poses(const Body& body, const JointLimits& limits, std::size_t count, Random& random);
 
-/// Three people: the default, a taller one with other proportions, a smaller one in another sleeve.
+/// Three people: the default, a taller one with other proportions, a smaller one with longer sleeves.
 std::array<Shape, 3> different_people();
 
 /// Rank correlation of two equally long lists (C. Spearman, Am. J. Psychology 15, 1904), in [-1, 1]: the

@@ -70,14 +70,14 @@ Table by_batch(std::span<const Throughput> cells, const std::string& title,
 std::vector<std::string> engine_backends(const EngineOptions& options) {
   std::vector<std::string> names;
   for (const std::string& name : options.backends) {
-    make_backend(name);  // throws for those that there are not
+    make_backend(name);  // throws for unknown names
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       names.push_back(name);
     }
   }
   if (names.empty()) {
     for (const BackendKind& kind : kBackends) {
-      // A name that stands for another back end would be measured twice.
+      // An alias of another back end would be measured twice.
       if (kind.missing().empty() && make_backend(kind.name)->name() == kind.name) {
         names.emplace_back(kind.name);
       }
@@ -128,8 +128,7 @@ BatchTime best_batch_time(Backend& backend, const EngineScene& scene, std::size_
     return (seconds() - start) / count;
   };
   run(1);
-  // Short batches are measured several together: a clock is not that fine, and one pose is cheaper than
-  // another.
+  // Short batches are timed in groups, because the clock is coarse and poses differ in cost.
   const double once = std::max(1e-7, run(1));
   const int together = std::max(1, static_cast<int>(std::min(budget / 10.0, 2e-3) / once));
   BatchTime best = {once, backend.device_times()};

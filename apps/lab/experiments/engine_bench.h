@@ -15,27 +15,27 @@ namespace telemime {
 /// Measurements of the evaluation engine: they need no clips.
 struct EngineOptions {
   std::vector<std::string> backends;  ///< only these; empty: all that can run here
-  bool quick = false;                 ///< short measurements and few poses: shows that it runs
+  bool quick = false;                 ///< short measurements and few poses: a check that it runs
   std::uint64_t seed = 1;
   int threads = 0;  ///< at most, for back ends that share a batch; 0: as many as the machine has
-  std::function<double()> seconds;  ///< clock on the wall: devices and other threads count, too
+  std::function<double()> seconds;  ///< wall clock: devices and other threads count, too
 };
 
-/// Back ends to measure, without names that stand for another one unless they are asked for. Throws
+/// Back ends to measure, without aliases unless they are named in the options. Throws
 /// Error(usage) for names that are unknown or that cannot run here.
 std::vector<std::string> engine_backends(const EngineOptions& options);
 
 /// Threads that a batch may be shared between.
 int most_threads(const EngineOptions& options);
 
-/// Those that cannot run here, each with the reason: "name: why".
+/// Back ends that cannot run here, each with the reason: "name: reason".
 std::vector<std::string> missing_backends();
 
 /// The working images of all tables: 160x120, 320x240, 640x480.
 std::vector<Camera> engine_cameras();
 std::string size_name(const Camera& camera);
 
-/// One person before one picture, and poses about the one in it as a search would try them.
+/// One person, one image, and poses around the pose in it as a search would try them.
 struct EngineScene {
   Model model;
   PreparedFrame frame;
@@ -43,14 +43,14 @@ struct EngineScene {
 };
 EngineScene engine_scene(const Camera& camera, std::size_t poses, std::uint64_t seed);
 
-/// The time of one batch, s: the best of several, on a machine that may be busy with other things.
+/// The time of one batch, s: the best of several, because other programs may be running.
 struct BatchTime {
   double seconds = 0.0;
   std::optional<DeviceTimes> device;  ///< of its fastest batch
 };
 
-/// Evaluates batches of `batch` poses, taken from all over the scene's, again and again for about `budget` s,
-/// but at least twice after one that warms up. `batch` is at most the number of poses.
+/// Evaluates batches of `batch` poses, taken in turn from the scene's, for about `budget` s, but at least
+/// twice after a warm-up. `batch` is at most the number of poses.
 BatchTime best_batch_time(Backend& backend, const EngineScene& scene, std::size_t batch, Reduction terms,
                           double budget, const std::function<double()>& seconds);
 
@@ -60,7 +60,7 @@ struct Throughput {
   std::string size;
   int threads = 1;
   std::size_t batch = 0;
-  /// Nothing where a batch would take too long.
+  /// Empty where a batch would take too long.
   std::optional<BatchTime> time;
 };
 
@@ -72,7 +72,7 @@ std::vector<Throughput> measure_throughput(const EngineOptions& options);
 Table speed_table(std::span<const Throughput> cells);
 Table time_table(std::span<const Throughput> cells);
 
-/// Where a batch's time on a device went; no rows when no back end tells.
+/// Upload, kernel and download times of a batch on a device; no rows when no back end reports them.
 Table device_table(std::span<const Throughput> cells);
 
 }  // namespace telemime

@@ -28,8 +28,8 @@ constexpr std::array<StageName, 7> kStages = {{{SimdStage::place, "kinematics"},
                                                {SimdStage::look_up, "distances under them"},
                                                {SimdStage::count, "counting, clearing"}}};
 
-// Microseconds for one evaluation by each back end. They take turns several times, so that what else the
-// machine does falls on all of them.
+// Microseconds for one evaluation by each back end. The back ends alternate several times, so that other load
+// on the machine affects all of them.
 std::vector<double> each_of(const std::vector<std::unique_ptr<Backend>>& backends, const EngineScene& scene,
                             const EngineOptions& options) {
   std::vector<double> best(backends.size(), std::numeric_limits<double>::infinity());

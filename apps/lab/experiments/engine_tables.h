@@ -5,8 +5,8 @@
 
 namespace telemime {
 
-/// What each stage of `simd` takes of an evaluation, on one thread, at the three working images: the time up
-/// to a stage, less that up to the one before.
+/// The time of each stage of `simd` in one evaluation, on one thread, at the three image sizes: the time up
+/// to a stage minus the time up to the previous one.
 Table stage_table(const EngineOptions& options);
 
 /// One evaluation with each set of vector instructions that this processor has, on one thread.

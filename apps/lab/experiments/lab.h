@@ -16,7 +16,7 @@ namespace telemime {
 
 struct LabOptions {
   std::filesystem::path data;  ///< holds raising_arms/, joy/, exclaiming/, asking/
-  bool quick = false;          ///< few frames, coarse grids: shows that it runs, not what is true
+  bool quick = false;          ///< few frames, coarse grids: a check that it runs
   std::uint64_t seed = 1;
   int seeds = 0;  ///< runs of a particle filter, each with a seed of its own; 0: 5, 2 when quick
   PeakThresholds peaks;
@@ -69,7 +69,7 @@ class Lab {
   const FilterSweep& filter(const std::string& heuristics);
   /// Runs of each particle filter.
   std::size_t seeds() const;
-  /// Fit to the mean 2-D error over the gestures (thesis Figure 3-28).
+  /// Quadratic fit to the mean 2-D error over the gestures (thesis Figure 3-28).
   QuadraticFit fit();
   /// Evaluations after which a search counts as run to convergence.
   int to_convergence() const { return options_.quick ? 800 : 3000; }

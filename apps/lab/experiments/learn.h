@@ -11,7 +11,7 @@
 
 namespace telemime {
 
-/// Estimates the numbers of data/filter.json from sequences with truth (folders as read_clip reads them),
+/// Estimates the parameters of data/filter.json from sequences with truth (folders as read_clip reads them),
 /// each tracked with `config`. Of the end-effector space only the swivel angle is estimated: the wrist's
 /// standard deviations are the thesis's. `progress` may be empty. Throws Error(input), Error(tracking).
 FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, const Config& config,

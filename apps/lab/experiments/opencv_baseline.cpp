@@ -9,12 +9,12 @@
 namespace telemime {
 namespace {
 
-// Coordinates with four binary places, as fillConvexPoly() and line() take them.
+// Fractional bits of the coordinates that fillConvexPoly() and line() take.
 constexpr int kPlaces = 4;
 // Marks a pixel of the contour, beside its class.
 constexpr int kContour = 0x10;
 constexpr int kClasses = 0x0F;
-// Surfaces nearer to the camera's plane than this (m) are left out.
+// Surfaces with a depth below this (m) are not drawn.
 constexpr double kNearest = 0.05;
 
 class OpencvBaseline final : public Backend {

@@ -14,7 +14,7 @@ namespace telemime {
 /// equation 2.5, the contour drawn as lines that nearer triangles paint over, its mean distance by cv::mean.
 std::unique_ptr<Backend> make_literal_opencv();
 
-/// The same with an eye to speed: vertices projected by hand, segment after segment by one depth for each,
+/// The same optimised for speed: vertices projected by hand, segment after segment by one depth for each,
 /// class and contour in one image, memory used again.
 std::unique_ptr<Backend> make_opencv_baseline();
 

@@ -29,7 +29,7 @@ TEST(OpencvBaseline, BothComeNearToTheDefinition) {
       for (std::size_t i = 0; i < poses.size(); ++i) {
         const double difference = std::abs(near[i].region() - exact[i].region());
         mean += difference / static_cast<double>(poses.size());
-        // Most at the true pose, where all that it draws differently is an error.
+        // Largest at the true pose, where every differently drawn pixel is an error.
         EXPECT_LT(difference, 0.13) << camera.width << ", pose " << i;
         EXPECT_GT(near[i].reductions.contour_points, exact[i].reductions.contour_points / 3);
         EXPECT_EQ(near[i].reductions.observed, exact[i].reductions.observed);

@@ -11,7 +11,7 @@
 namespace telemime {
 namespace {
 
-// Surfaces nearer to the camera's plane than this (m) are left out.
+// Surfaces with a depth below this (m) are not drawn.
 constexpr double kNearest = 0.05;
 
 class LiteralOpencv final : public Backend {

@@ -33,7 +33,8 @@ Features features_of(const cv::Mat& bgr) {
   return f;
 }
 
-/// Squared Mahalanobis distances of one picture from the model. Direction: negative where it says nothing.
+/// Squared Mahalanobis distances of one image from the model. The cosine is -2 where the direction is
+/// unknown.
 struct Distances {
   cv::Mat chroma2;
   cv::Mat cosine;
@@ -58,7 +59,7 @@ Distances distances(const ReferenceBackground& model, const cv::Mat& bgr) {
       chroma2[i] = inverse[i][0] * cr * cr + 2 * inverse[i][1] * cr * cb + inverse[i][2] * cb * cb;
       const float length = std::sqrt(dx[i] * dx[i] + dy[i] * dy[i]);
       const bool both = length > kWeakGradient && strength[i] > kWeakGradient;
-      // -2 is no cosine: no opinion.
+      // -2 is not a cosine: the direction is unknown.
       cosine[i] = both ? (dx[i] * direction[i][0] + dy[i] * direction[i][1]) / length : -2.0F;
     }
   }

@@ -23,7 +23,7 @@ ReferenceBackground learn_reference_background(std::span<const cv::Mat> pictures
 
 /// Probability in [0, 1], per pixel, that the background gives a value at least as far from its mean: the
 /// larger of chroma's (2 degrees of freedom) and direction's (1) - equation 3.12 with tail probabilities in
-/// the place of densities, which could not be compared. Direction counts only where picture and background
+/// the place of densities, which could not be compared. Direction counts only where image and background
 /// both have a gradient. CV_32FC1.
 cv::Mat reference_probability(const ReferenceBackground& model, const cv::Mat& bgr);
 

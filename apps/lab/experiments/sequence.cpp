@@ -41,7 +41,7 @@ std::vector<Frame> read_all(const std::filesystem::path& file, std::size_t most)
   return frames;
 }
 
-// Mean over elbows and wrists; NaN when the truth knows none of them.
+// Mean over elbows and wrists; NaN when the truth has none of them.
 struct FrameMeans {
   double error_2d = std::numeric_limits<double>::quiet_NaN();
   double error_3d = std::numeric_limits<double>::quiet_NaN();
@@ -64,7 +64,7 @@ FrameMeans mean_errors(const MotionFrame& motion, const Camera& camera, const Tr
   return means;
 }
 
-// Makes a trace of the poses of one frame after the other.
+// Collects the trace of a run, frame by frame.
 class Recorder {
  public:
   explicit Recorder(const PreparedSequence& sequence) : sequence_(sequence) {}

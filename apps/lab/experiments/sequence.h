@@ -28,8 +28,8 @@ Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames);
 /// FOLDER/video.* . Throws Error(input) when there is none.
 std::filesystem::path video_of(const std::filesystem::path& folder);
 
-/// A clip whose image processing is done: what the search sees of each frame, and the pose and build that
-/// calibration found on the first good frame. Many searches can share it.
+/// A clip after image processing: the prepared frames, and the pose and body that calibration found on the
+/// first good frame. Many searches can share it.
 struct PreparedSequence {
   std::string name;
   Camera camera;  ///< of the input
@@ -57,8 +57,8 @@ struct Trace {
   double jitter = 0.0;            ///< second difference of the wrists, mm/frame^2
 };
 
-/// A frame counts as mistracked with F or D_C above these (thesis 3.6.1: a "peak"); fixed for the dev
-/// sequences at 160x120, where a pose that a person would accept has F of 0.1 to 0.2 and D_C of 1 to 2.
+/// A frame is mistracked with F or D_C above these (thesis 3.6.1: a "peak"). Chosen for the development clips
+/// at 160x120, where acceptable poses have F of 0.1 to 0.2 and D_C of 1 to 2.
 struct PeakThresholds {
   double region = 0.30;
   double contour = 2.5;  ///< px at 160x120
@@ -91,7 +91,7 @@ FilterSetup reference_setup(const std::string& heuristics);
 /// Ours, as `telemime track` runs it.
 FilterSetup our_setup();
 
-/// The same with a particle filter that starts at the sequence's first pose, on the calling thread alone.
+/// The same with a particle filter that starts at the first pose of the sequence, on the calling thread only.
 Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, std::uint64_t seed);
 
 /// The thesis's search with exactly x region and y edge evaluations a frame.

@@ -118,7 +118,7 @@ std::unique_ptr<Subtractor> make_subtractor(Subtraction method, std::span<const 
     case Subtraction::robust:
       return std::make_unique<Robust>(pictures);
   }
-  throw Error(ErrorKind::usage, "unknown way of subtracting the background");
+  throw Error(ErrorKind::usage, "unknown background subtraction");
 }
 
 }  // namespace telemime

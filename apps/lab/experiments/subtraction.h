@@ -9,7 +9,7 @@
 
 namespace telemime {
 
-/// The ways to find the foreground that the thesis compares (3.4.3, Table 3-1, Figure 3-6), and ours.
+/// The background subtractions that the thesis compares (3.4.3, Table 3-1, Figure 3-6), and ours.
 enum class Subtraction {
   rgb_difference,  ///< largest difference of a channel from the mean picture
   mixture,         ///< OpenCV's MOG2 (Z. Zivkovic, 2004), shadows on

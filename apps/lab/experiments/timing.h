@@ -10,7 +10,8 @@
 
 namespace telemime {
 
-/// Computing time of one frame with so many evaluations, half on F and half on D_C; medians over frames.
+/// Processor time of one frame with this number of evaluations, half on F and half on D_C; medians over
+/// frames.
 struct FrameTime {
   int iterations = 0;
   double features_ms = 0.0;
@@ -33,7 +34,7 @@ struct SizeTime {
 };
 SizeTime measure_size(Lab& lab, int width, int height);
 
-/// The tables of the thesis with ours beside: 3-1, 3-2, 3-3.
+/// Tables 3-1, 3-2 and 3-3: our values beside the published ones.
 Table background_time_table(Lab& lab);
 Table frame_time_table(const std::vector<FrameTime>& times);
 Table size_time_table(const std::vector<SizeTime>& times);

@@ -51,7 +51,7 @@ struct Avatar {
   std::vector<BodyPart> parts;
 };
 
-/// Builds the body round the bones.
+/// Builds the body around the bones.
 Avatar make_avatar(const Look& look, const ActorKinematics& kinematics);
 
 /// The parts that a ray or a point can meet; a cheap subset for many distance queries.

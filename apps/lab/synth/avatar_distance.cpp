@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances and colours of an avatar that stands (avatar.cpp builds it).
+// Distances and colours of an avatar (avatar.cpp builds it).
 #include <limits>
 
 #include "lab/synth/avatar.h"
@@ -166,7 +166,7 @@ BodySample sample_body(const Avatar& avatar, const PartSelection& selection, con
     const BodyPart* part = nullptr;
     for (; i < selection.count && selection.parts[i]->chain == chain; ++i) {
       const BodyPart& candidate = *selection.parts[i];
-      // Far from its ball the ball's own distance will do.
+      // Far from its bounding ball the distance to the ball is enough.
       const float bound = (p - candidate.centre).norm() - candidate.radius;
       const float d = bound > candidate.blend + 0.03f ? bound : part_distance(avatar, candidate, p);
       if (d < nearest) {

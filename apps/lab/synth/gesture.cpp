@@ -62,7 +62,7 @@ Numbers numbers_at(std::span<const GestureKey> keys, double frame, std::size_t s
   return result;
 }
 
-// A slow wander in [-1, 1]: two sines of unrelated periods (s) with phases of their own.
+// A slow drift in [-1, 1]: two sines with unrelated periods (s) and random phases.
 struct Drift {
   double period1, period2, phase1, phase2;
   explicit Drift(Random& random)
@@ -99,7 +99,7 @@ ActorPose gesture_pose(Gesture gesture, double frame, std::uint64_t seed) {
 
   ActorPose pose;
   pose.root = {random.uniform(-0.02, 0.02), random.uniform(0.39, 0.41), random.uniform(1.36, 1.42)};
-  // Both arms leave the rest late and come back early, never before the pose of rest is due.
+  // Both arms lag during the motion, but not at the pose of rest.
   const std::array<double, 2> lag = {random.uniform(0.0, 2.0), random.uniform(0.0, 2.0)};
   const auto small = [&](double size) { return size * Drift(random).at(time); };
   pose.root += Eigen::Vector3d{small(0.006), small(0.003), small(0.006)};

@@ -16,7 +16,7 @@ struct Look {
   ActorBuild build;
   Eigen::Vector3f skin{0.62f, 0.36f, 0.25f};
   Eigen::Vector3f shirt{0.04f, 0.20f, 0.45f};
-  Eigen::Vector3f shirt2{0.60f, 0.60f, 0.58f};  ///< the other colour of the stripes
+  Eigen::Vector3f shirt2{0.60f, 0.60f, 0.58f};  ///< second colour of the stripes
   Eigen::Vector3f trousers{0.03f, 0.035f, 0.05f};
   Eigen::Vector3f hair{0.02f, 0.014f, 0.01f};
   Eigen::Vector3f eyes{0.06f, 0.04f, 0.03f};

@@ -42,8 +42,8 @@ constexpr int kWalk = 32;
 constexpr int kEmptyAfter = 14;
 constexpr int kShortestWalkIn = 120;
 
-// Frames since the start of the walk in and until the end of the walk out; either is negative while nobody is
-// there.
+// Frames since the start of the walk in and until the end of the walk out; one of them is negative while the
+// scene is empty.
 struct WalkTime {
   int since_start;
   int until_end;

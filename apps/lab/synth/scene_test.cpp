@@ -124,11 +124,11 @@ TEST(Scene, CleanSceneBesideThePersonIsTheBackground) {
   const SynthFrame frame = render_frame(scene, 0);
   const cv::Mat background = render_background(scene, 0);
   EXPECT_TRUE(same(background, render_background(scene, 7)));
-  // Above her head to the left no shadow falls.
+  // No shadow falls above the head to the left.
   const cv::Rect corner(0, 0, 20, 12);
   EXPECT_EQ(cv::countNonZero(frame.surfaces(corner)), 0);
   EXPECT_TRUE(same(frame.image(corner).clone(), background(corner).clone()));
-  // The shadow only darkens: it lies below her to the right.
+  // The shadow only darkens: it lies below the person to the right.
   const cv::Rect shadow(56, 44, 20, 14);
   const cv::Mat wall = frame.surfaces(shadow) == 0;
   EXPECT_LT(cv::mean(frame.image(shadow), wall)[1], cv::mean(background(shadow), wall)[1] - 2.0);

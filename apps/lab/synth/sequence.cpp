@@ -94,7 +94,7 @@ struct ClipWriter {
   }
 };
 
-// Eight frames at a glance, two rows of four.
+// A sheet of eight frames, two rows of four.
 struct Preview {
   int frames;
   cv::Size cell;
