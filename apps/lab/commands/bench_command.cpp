@@ -13,7 +13,7 @@
 
 #include "commands.h"
 #include "lab/experiments/engine_agreement.h"
-#include "lab/experiments/engine_tables.h"
+#include "lab/experiments/engine_bench.h"
 #include "lab/experiments/report.h"
 #include "lab/experiments/timing.h"
 #include "telemime/likelihood/all.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,5 +75,29 @@ Table time_table(std::span<const Throughput> cells);
 
 /// Upload, kernel and download times of a batch on a device; no rows when no back end reports them.
 Table device_table(std::span<const Throughput> cells);
+
+/// The time of each stage of `simd` in one evaluation, on one thread, at the three image sizes: the time up
+/// to a stage minus the time up to the previous one.
+Table stage_table(const EngineOptions& options);
+
+/// One evaluation with each set of vector instructions that this processor has, on one thread.
+Table instruction_set_table(const EngineOptions& options);
+
+/// One evaluation with plain calls of OpenCV (see below) beside `simd`, one thread each.
+Table opencv_table(const EngineOptions& options);
+
+/// Thesis Table 4-1: 100 to 700 overlap histograms at 160x120, with the published times beside.
+Table overlap_time_table(const EngineOptions& options);
+
+/// The evaluation with OpenCV, to measure others against. Neither is exact: outlines are half a pixel wider.
+
+/// The thesis step by step, each with the call that OpenCV has for it: vertices by cv::projectPoints, the
+/// triangles that face the camera filled from the farthest to the nearest, images for the sets of
+/// equation 2.5, the contour drawn as lines that nearer triangles paint over, its mean distance by cv::mean.
+std::unique_ptr<Backend> make_literal_opencv();
+
+/// The same optimised for speed: vertices projected by hand, segment after segment by one depth for each,
+/// class and contour in one image, memory used again.
+std::unique_ptr<Backend> make_opencv_baseline();
 
 }  // namespace telemime

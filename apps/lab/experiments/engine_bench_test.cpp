@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "lab/experiments/engine_tables.h"
 #include "telemime/core/errors.h"
 
 namespace telemime {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/engine_tables.h"
+#include "lab/experiments/engine_bench.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "lab/experiments/opencv_baseline.h"
 #include "lab/experiments/report.h"
 #include "lab/experiments/timing.h"
 #include "telemime/likelihood/simd/simd_backend.h"

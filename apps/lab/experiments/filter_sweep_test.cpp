@@ -18,7 +18,7 @@ FilterSetup small(FilterSetup setup) {
   return setup;
 }
 
-TEST(TrackFilter, IsTheSameForTheSameSeedWhateverRunsBesideIt) {
+TEST(TrackFilter, SameSeedSameTraceInParallel) {
   const PreparedSequence sequence = testing::model_sequence();
   for (const FilterSetup& setup : {small(reference_setup(kAllTogether)), small(our_setup())}) {
     const Trace alone = track_filter(sequence, setup, 3);

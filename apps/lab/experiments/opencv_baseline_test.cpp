@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/opencv_baseline.h"
+#include "lab/experiments/engine_bench.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "lab/experiments/opencv_baseline.h"
+#include "lab/experiments/engine_bench.h"
 
 namespace telemime {
 namespace {

@@ -80,7 +80,7 @@ TEST(Subtraction, OnlyChromaMethodsSurviveAChangeOfLight) {
   EXPECT_LT(overlap(make_subtractor(Subtraction::rgb_difference, pictures)->foreground(bright)), 0.5);
 }
 
-TEST(ReferenceBackground, TheFastThresholdIsTheThresholdOfTheProbability) {
+TEST(ReferenceBackground, FastThresholdAgreesWithTheProbability) {
   Random random(3);
   const auto pictures = empty_scenes(random);
   const ReferenceBackground model = learn_reference_background(pictures);

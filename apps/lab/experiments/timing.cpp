@@ -6,7 +6,7 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
-#include "lab/experiments/engine_tables.h"
+#include "lab/experiments/engine_bench.h"
 #include "lab/experiments/experiments.h"
 #include "lab/experiments/report.h"
 #include "lab/experiments/subtraction.h"

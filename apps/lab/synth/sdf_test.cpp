@@ -57,7 +57,7 @@ TEST(Ellipsoid, ZeroOnTheSurfaceAndASphereIsExact) {
   EXPECT_LT(ellipsoid({0.0f, 0.0f, 0.0f}, {0.3f, 0.2f, 0.1f}), 0.0f);
 }
 
-TEST(SmoothUnion, BoundedByAQuarterOfItsWidthAndPlainFarAway) {
+TEST(SmoothUnion, BoundedNearbyAndPlainFarAway) {
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     const auto a = static_cast<float>(random.uniform(-1.0, 1.0));
@@ -74,7 +74,7 @@ TEST(SmoothUnion, BoundedByAQuarterOfItsWidthAndPlainFarAway) {
   }
 }
 
-TEST(ValueNoise, StaysInRangeIsContinuousAndDependsOnTheSeed) {
+TEST(ValueNoise, InRangeContinuousAndSeeded) {
   Random random(7);
   float lowest = 1.0f;
   float highest = -1.0f;

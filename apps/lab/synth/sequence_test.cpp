@@ -35,7 +35,7 @@ class SequenceFolder : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder); }
 };
 
-TEST_F(SequenceFolder, WritesLosslessClipsThatReadBackAndTheTruth) {
+TEST_F(SequenceFolder, WritesLosslessClipsAndTruth) {
   SequenceOptions options;
   options.scene = small_scene(Gesture::joy);
   options.scene.width = 192;
