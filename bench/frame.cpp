@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "synthetic_clip.h"
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/track_frame.h"
 
 namespace telemime {
 namespace {
@@ -48,18 +48,18 @@ void whole_frame(benchmark::State& state) {
   config.image = image_config(state);
   config.registration = reference_registration();
   config.registration.iterations = 500;
-  Tracker tracker(config, clip().camera);
-  tracker.learn_background(clip().background);
+  TrackingRun run = make_tracking_run(config, clip().camera);
+  run.scene.features.learn_background(clip().background);
   std::size_t i = 0;
-  while (!tracker.calibration() && i < clip().frames.size()) {
-    tracker.step(clip().frames[i++]);
+  while (!run.state.calibrated() && i < clip().frames.size()) {
+    track_frame(clip().frames[i++], run);
   }
-  if (!tracker.calibration()) {
+  if (!run.state.calibrated()) {
     state.SkipWithError("the person was not calibrated");
     return;
   }
   for ([[maybe_unused]] const auto step : state) {
-    benchmark::DoNotOptimize(tracker.step(clip().frames[++i % clip().frames.size()]));
+    benchmark::DoNotOptimize(track_frame(clip().frames[++i % clip().frames.size()], run));
   }
 }
 BENCHMARK(whole_frame)->Name("whole frame, 500 evaluations")->Apply(sizes);

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
-#include "telemime/offline/run.h"
+#include "telemime/tracker/set_up.h"
+#include "telemime/tracker/track_frame.h"
 
 int main(int argc, char** argv) {
   using namespace telemime;
@@ -15,20 +16,20 @@ int main(int argc, char** argv) {
   }
   try {
     const auto video = open_source(argv[1]);
-    Tracker tracker(Config{}, camera_for(video->info(), "", 60.0));
+    TrackingRun run = make_tracking_run(Config{}, camera_for(video->info(), "", 60.0));
 
     std::vector<Frame> empty_room;
     const auto background = open_source(argv[2]);
     while (auto frame = background->next()) {
       empty_room.push_back(*frame);
     }
-    tracker.learn_background(empty_room);
+    run.scene.features.learn_background(empty_room);
 
     while (const auto frame = video->next()) {
-      const TrackedFrame result = tracker.step(*frame);
-      const Eigen::Vector3d hand = result.motion.joints[Joint::r_hand] * 1000.0;
+      const FrameEstimate estimate = track_frame(*frame, run).estimate;
+      const Eigen::Vector3d hand = estimate.motion.joints[Joint::r_hand] * 1000.0;
       std::printf("%6.2f s  right hand %5.0f %5.0f %5.0f mm  %s\n", frame->time, hand.x(), hand.y(), hand.z(),
-                  result.note.c_str());
+                  estimate.note.c_str());
     }
   } catch (const Error& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "avatars/avatar.h"
-#include "telemime/offline/run_outputs.h"
+#include "telemime/outputs/file_output.h"
 
 namespace telemime {
 namespace {

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <memory>
 
+#include "telemime/offline/track_file.h"
 #include "track_options.h"
 
 namespace telemime {
@@ -22,7 +23,7 @@ void run(const CalibrateArguments& arguments) {
   if (!arguments.options.quiet) {
     hooks.message = [](const std::string& words) { std::cerr << words << '\n'; };
   }
-  const TrackerCalibration person = run_calibrate(make_request(arguments.options), hooks, arguments.out);
+  const CalibratedPerson person = calibrate_file(make_request(arguments.options), hooks, arguments.out);
   if (arguments.options.quiet) {
     return;
   }

@@ -10,6 +10,7 @@
 #include "cli/progress_bar.h"
 #include "telemime/capture/shown_url.h"
 #include "telemime/core/errors.h"
+#include "telemime/offline/track_file.h"
 #include "track_options.h"
 
 namespace telemime {
@@ -21,7 +22,7 @@ void on_interrupt(int) {
   interrupt_requested = 1;
 }
 
-Wish show_window(const Progress& progress) {
+ViewerRequest show_window(const Progress& progress) {
   constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
   if (progress.overlay != nullptr) {
     cv::imshow(kTitle, *progress.overlay);
@@ -33,9 +34,9 @@ Wish show_window(const Progress& progress) {
     } while (key != ' ' && key != 'q' && key != 27 && interrupt_requested == 0);
   }
   if (key == 'q' || key == 27) {
-    return Wish::stop;
+    return ViewerRequest::stop;
   }
-  return key == 'r' ? Wish::recalibrate : Wish::go_on;
+  return key == 'r' ? ViewerRequest::recalibrate : ViewerRequest::none;
 }
 
 void print_summary(const TrackSummary& summary, const TrackRequest& request) {
@@ -61,16 +62,16 @@ void run(const TrackOptions& options) {
     }
   };
   hooks.progress = [&](const Progress& progress) {
-    if (progress.frame == nullptr) {
-      return interrupt_requested != 0 ? Wish::stop : Wish::go_on;
+    if (progress.motion == nullptr) {
+      return interrupt_requested != 0 ? ViewerRequest::stop : ViewerRequest::none;
     }
     bar.show(progress.frames, progress.total, progress.seconds);
-    const Wish wish = options.show ? show_window(progress) : Wish::go_on;
-    return interrupt_requested != 0 ? Wish::stop : wish;
+    const ViewerRequest wish = options.show ? show_window(progress) : ViewerRequest::none;
+    return interrupt_requested != 0 ? ViewerRequest::stop : wish;
   };
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  const TrackSummary summary = run_track(request, hooks);
+  const TrackSummary summary = track_file(request, hooks);
   bar.interrupt();
   if (!options.quiet) {
     print_summary(summary, request);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/offline/run.h"
+#include "telemime/tracker/track_request.h"
 
 namespace telemime {
 

@@ -10,7 +10,7 @@
 #include "live/heard.h"
 #include "telemime/capture/paced.h"
 #include "telemime/core/scratch_folder.h"
-#include "telemime/offline/run.h"
+#include "telemime/offline/track_file.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/readers/jsonl.h"
 
@@ -63,10 +63,10 @@ TEST(LiveAndFile, APacedFileGivesThePosesOfFileMode) {
   std::vector<MotionFrame> file;
   RunHooks hooks;
   hooks.progress = [&](const Progress& progress) {
-    file.push_back(progress.frame->motion);
-    return Wish::go_on;
+    file.push_back(*progress.motion);
+    return ViewerRequest::none;
   };
-  run_track(request, hooks);
+  track_file(request, hooks);
 
   live_testing::Heard heard;
   std::int64_t dropped = -1;
@@ -99,7 +99,7 @@ TEST(LiveAndFile, WithTheSameSmoothingTheFilesAreEqual) {
   const ScratchFolder folder;
   TrackRequest request = demo();
   request.out = folder.file("out");
-  run_track(request, {});
+  track_file(request, {});
   const PoseFile file = read_pose_jsonl(request.out / "pose.jsonl");
 
   live_testing::Heard heard;

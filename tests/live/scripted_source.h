@@ -9,7 +9,7 @@
 
 #include "telemime/capture/source.h"
 #include "telemime/core/scratch_folder.h"
-#include "telemime/offline/run.h"
+#include "telemime/tracker/track_request.h"
 
 namespace telemime::live_testing {
 

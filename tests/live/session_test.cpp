@@ -41,14 +41,14 @@ TEST(LiveSession, WithoutDroppedFramesGivesWhatATrackerGives) {
   }
   const support::ListSource source(frames);
   std::vector<std::string> messages;
-  const auto tracker = make_tracker(request, source.info(), messages);
-  tracker->learn_background(empty_room());
+  TrackingRun run = open_run(request, source.info(), messages);
+  run.scene.features.learn_background(empty_room());
   std::unique_ptr<Smoother> smoother;
   std::vector<MotionFrame> expected;
   for (const Frame& frame : frames) {
-    const TrackedFrame result = tracker->step(frame);
-    if (tracker->calibration() && !smoother) {
-      smoother = make_smoother(request.config.smoothing, tracker->model().body, tracker->camera());
+    const FrameEstimate result = track_frame(frame, run).estimate;
+    if (run.state.calibrated() && !smoother) {
+      smoother = make_smoother(request.config.smoothing, run.state.model.body, run.tracker.camera);
     }
     if (smoother) {
       expected.push_back((*smoother)(result.motion));

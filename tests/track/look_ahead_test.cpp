@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/list_source.h"
-#include "track/quick_tracker.h"
+#include "track/quick_run.h"
 
 namespace telemime {
 namespace {
@@ -18,20 +18,20 @@ TEST(LookAhead, FitsTheShapeAndSaysWhereToStart) {
   config.calibration.refine.rounds = 1;
   config.calibration.refine.pose_iterations = 20;
   config.calibration.refine.shapes = 10;
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
+  TrackingRun run = quick_run(config);
+  run.scene.features.learn_background(clip().background);
   support::ListSource source(clip().person);
   std::int64_t asked = 0;
-  const auto found = look_ahead(source, config, clip().camera, tracker.features().calibration(), 0,
-                                [&](std::int64_t) { return ++asked > 0; });
-  ASSERT_TRUE(found);
+  const LookAhead ahead = look_ahead(
+      {.next = [&] { return source.next(); }, .go_on = [&](const FrameRecord&) { return ++asked > 0; }}, run);
+  ASSERT_TRUE(ahead.person);
   EXPECT_EQ(asked, kPersonFrames);
-  EXPECT_EQ(found->frames, kPersonFrames);
-  EXPECT_EQ(found->start.frame, 0);
-  EXPECT_LE(found->cost, found->cost_before);
-  tracker.start_with(found->start);
-  for (const Frame& frame : clip().person) {
-    EXPECT_EQ(tracker.step(frame).motion.state, TrackState::tracking) << frame.index;
+  EXPECT_EQ(ahead.person->frames, kPersonFrames);
+  EXPECT_EQ(ahead.person->start.frame, 0);
+  EXPECT_LE(ahead.person->cost, ahead.person->cost_before);
+  ASSERT_EQ(ahead.records.size(), static_cast<std::size_t>(kPersonFrames));
+  for (const FrameRecord& record : ahead.records) {
+    EXPECT_EQ(record.estimate.motion.state, TrackState::tracking) << record.frame.index;
   }
 }
 
@@ -56,19 +56,18 @@ TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
   }
   Config config = quick_config();
   config.calibration.worst_region = 1.0;
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
+  TrackingRun run = quick_run(config);
+  run.scene.features.learn_background(clip().background);
   support::ListSource source(frames);
-  const auto found = look_ahead(source, config, clip().camera, tracker.features().calibration(), 0,
-                                [](std::int64_t) { return true; });
-  ASSERT_TRUE(found);
-  EXPECT_GT(found->start.frame, 0);
+  const LookAhead ahead = look_ahead({.next = [&] { return source.next(); }}, run);
+  ASSERT_TRUE(ahead.person);
+  EXPECT_GT(ahead.person->start.frame, 0);
   // It would have been the first frame, and there was no face.
-  Tracker scout = make_tracker(config);
-  scout.learn_background(clip().background);
+  TrackingRun scout = quick_run(config);
+  scout.scene.features.learn_background(clip().background);
   for (const Frame& frame : frames) {
-    const TrackedFrame seen = scout.step(frame);
-    EXPECT_EQ(seen.motion.state, TrackState::tracking) << frame.index;
+    const FrameRecord seen = track_frame(frame, scout);
+    EXPECT_EQ(seen.estimate.motion.state, TrackState::tracking) << frame.index;
     ASSERT_TRUE(seen.features.head) << frame.index;
     EXPECT_FALSE(seen.features.head->detected) << frame.index;
   }
@@ -94,11 +93,11 @@ TEST(LookAhead, APortraitKeepsAverageArms) {
   camera.height = rows;
   Config config = quick_config();
   config.image.height = rows / 2;
-  Tracker tracker(config, camera);
-  tracker.learn_background(portrait(clip().background));
+  TrackingRun run = make_tracking_run(config, camera);
+  run.scene.features.learn_background(portrait(clip().background));
   support::ListSource source(portrait(clip().person));
-  const auto found = look_ahead(source, config, camera, tracker.features().calibration(), 0,
-                                [](std::int64_t) { return true; });
+  const LookAhead ahead = look_ahead({.next = [&] { return source.next(); }}, run);
+  const auto& found = ahead.person;
   ASSERT_TRUE(found);
   EXPECT_EQ(found->keyframes, 0U);
   EXPECT_FALSE(found->start.person.refusal.empty());
@@ -106,21 +105,30 @@ TEST(LookAhead, APortraitKeepsAverageArms) {
        {Segment::l_upper_arm, Segment::r_upper_arm, Segment::l_forearm, Segment::r_forearm}) {
     EXPECT_NEAR(found->start.person.shape[arm].length, Shape()[arm].length, 0.01);
   }
-  tracker.start_with(found->start);
-  for (const Frame& frame : portrait(clip().person)) {
-    EXPECT_EQ(tracker.step(frame).motion.state, TrackState::tracking) << frame.index;
+  for (const FrameRecord& record : ahead.records) {
+    EXPECT_EQ(record.estimate.motion.state, TrackState::tracking) << record.frame.index;
   }
 }
 
-TEST(LookAhead, NobodyOrAStopIsNoStart) {
-  const Config config = quick_config();
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
-  const ImageCalibration& scene = tracker.features().calibration();
+TEST(LookAhead, FindsNobodyWhereNobodyIs) {
+  TrackingRun run = quick_run(quick_config());
+  run.scene.features.learn_background(clip().background);
   support::ListSource empty({clip().background.begin(), clip().background.begin() + 3});
-  EXPECT_FALSE(look_ahead(empty, config, clip().camera, scene, 0, [](std::int64_t) { return true; }));
+  std::size_t settled = 0;
+  const LookAhead ahead =
+      look_ahead({.next = [&] { return empty.next(); }, .settle = [&](FrameRecord) { ++settled; }}, run);
+  EXPECT_FALSE(ahead.person);
+  EXPECT_EQ(settled + ahead.records.size(), 3U) << "no frame is dropped";
+}
+
+TEST(LookAhead, StopsWhenAsked) {
+  TrackingRun run = quick_run(quick_config());
+  run.scene.features.learn_background(clip().background);
   support::ListSource person(clip().person);
-  EXPECT_FALSE(look_ahead(person, config, clip().camera, scene, 0, [](std::int64_t) { return false; }));
+  const LookAhead ahead = look_ahead(
+      {.next = [&] { return person.next(); }, .go_on = [](const FrameRecord&) { return false; }}, run);
+  EXPECT_FALSE(ahead.person);
+  EXPECT_EQ(ahead.records.size(), 1U);
 }
 
 }  // namespace

@@ -6,41 +6,41 @@
 #include <utility>
 #include <vector>
 
-#include "track/quick_tracker.h"
+#include "track/quick_run.h"
 
 namespace telemime {
 namespace {
 
 TEST(Recalibration, BeginsAnewWithThePerson) {
-  Tracker tracker = make_tracker(quick_config());
-  tracker.learn_background(clip().background);
-  tracker.step(clip().person[0]);
-  ASSERT_TRUE(tracker.calibration());
-  tracker.recalibrate();
-  EXPECT_FALSE(tracker.calibration());
+  TrackingRun run = quick_run(quick_config());
+  run.scene.features.learn_background(clip().background);
+  track_frame(clip().person[0], run);
+  ASSERT_TRUE(run.state.person);
+  forget_person(run);
+  EXPECT_FALSE(run.state.person);
   for (int i = 1; i < kPersonFrames; ++i) {  // it waits for a frame in which the face is looked for
-    tracker.step(clip().person[static_cast<std::size_t>(i)]);
+    track_frame(clip().person[static_cast<std::size_t>(i)], run);
   }
-  EXPECT_TRUE(tracker.calibration());
+  EXPECT_TRUE(run.state.person);
 }
 
 TEST(Recalibration, LeavesNoOldParticle) {
   Config config = quick_config();
   config.look_back = true;  // its candidates show what the filter holds
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
+  TrackingRun run = quick_run(config);
+  run.scene.features.learn_background(clip().background);
   std::size_t most = 0;
   for (const Frame& frame : clip().person) {
-    const TrackedFrame seen = tracker.step(frame);
-    most = seen.stretch ? std::max(most, seen.stretch->candidates.size()) : most;
+    const FrameRecord seen = track_frame(frame, run);
+    most = std::max(most, seen.estimate.modes.size());
   }
   ASSERT_GT(most, 1U) << "the filter is at work";
-  tracker.recalibrate();
+  forget_person(run);
   for (const Frame& frame : clip().person) {
-    const TrackedFrame seen = tracker.step(frame);
-    if (seen.stretch) {
-      ASSERT_EQ(seen.stretch->candidates.size(), 1U);
-      EXPECT_EQ(seen.stretch->candidates.front().vector(), seen.motion.pose.vector());
+    const FrameRecord seen = track_frame(frame, run);
+    if (!seen.estimate.modes.empty()) {
+      ASSERT_EQ(seen.estimate.modes.size(), 1U);
+      EXPECT_EQ(seen.estimate.modes.front().vector(), seen.estimate.motion.pose.vector());
       return;
     }
   }
@@ -65,26 +65,26 @@ std::vector<Frame> in_other_clothes() {
 
 TEST(Recalibration, LearnsTheColoursOfWhoeverIsThere) {
   const std::vector<Frame> frames = in_other_clothes();
-  const auto clothes = [](const Tracker& tracker) {
-    return tracker.features().calibration().colours.clothes.front().mean;
+  const auto clothes = [](const TrackingRun& run) {
+    return run.scene.features.calibration().colours.clothes.front().mean;
   };
-  Tracker expected = make_tracker(quick_config());
-  expected.learn_background(clip().background);
-  expected.step(frames.front());
-  ASSERT_TRUE(expected.calibration());
+  TrackingRun expected = quick_run(quick_config());
+  expected.scene.features.learn_background(clip().background);
+  track_frame(frames.front(), expected);
+  ASSERT_TRUE(expected.state.person);
 
-  Tracker tracker = make_tracker(quick_config());
-  tracker.learn_background(clip().background);
-  tracker.step(clip().person.front());
-  ASSERT_GT((clothes(tracker) - clothes(expected)).norm(), 0.3F) << "they differ";
-  tracker.recalibrate();
-  tracker.step(clip().background.front());
-  EXPECT_FALSE(tracker.calibration()) << "nobody is there";
-  for (std::size_t i = 0; i < frames.size() && !tracker.calibration(); ++i) {
-    tracker.step(frames[i]);
+  TrackingRun run = quick_run(quick_config());
+  run.scene.features.learn_background(clip().background);
+  track_frame(clip().person.front(), run);
+  ASSERT_GT((clothes(run) - clothes(expected)).norm(), 0.3F) << "they differ";
+  forget_person(run);
+  track_frame(clip().background.front(), run);
+  EXPECT_FALSE(run.state.person) << "nobody is there";
+  for (std::size_t i = 0; i < frames.size() && !run.state.person; ++i) {
+    track_frame(frames[i], run);
   }
-  ASSERT_TRUE(tracker.calibration());
-  EXPECT_LT((clothes(tracker) - clothes(expected)).norm(), 0.1F);
+  ASSERT_TRUE(run.state.person);
+  EXPECT_LT((clothes(run) - clothes(expected)).norm(), 0.1F);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 #include "telemime/evaluation/frame_errors.h"
 #include "telemime/offline/look_ahead.h"
 #include "telemime/search/simplex.h"
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/track_frame.h"
 #include "telemime/tracking/heuristics/motion_partition.h"
 #include "telemime/tracking/posterior.h"
 
@@ -71,58 +71,63 @@ std::optional<double> truth_motion(const Truth& truth, std::size_t t, std::size_
   return most;
 }
 
-void collect(const Clip& clip, const std::filesystem::path& folder, const Config& config, Samples& samples) {
-  Tracker tracker(config, clip.camera);
-  samples.camera = tracker.working_camera();
-  tracker.learn_background(clip.background);
-  const auto source = open_source(video_of(folder).string());
-  const auto found = look_ahead(*source, config, clip.camera, tracker.features().calibration(), 0,
-                                [](std::int64_t) { return true; });
-  if (found) {
-    tracker.start_with(found->start);
-  }
+void collect(const Clip& clip, const Config& config, Samples& samples) {
+  TrackingRun run = make_tracking_run(config, clip.camera);
+  samples.camera = run.tracker.working_camera;
+  run.scene.features.learn_background(clip.background);
+  std::size_t read = 0;
+  LookAhead ahead = look_ahead(
+      {.next = [&] { return read < clip.frames.size() ? std::optional(clip.frames[read++]) : std::nullopt; }},
+      run);
   std::vector<double> regions;
   std::vector<double> contours;
   std::optional<MotionFrame> before;
   cv::Mat labels;
-  for (std::size_t t = 0; t < clip.frames.size(); ++t) {
-    const TrackedFrame frame = tracker.step(clip.frames[t]);
-    if (frame.motion.state != TrackState::tracking) {
+  const auto add = [&](const FrameRecord& record) {
+    const MotionFrame& motion = record.estimate.motion;
+    const auto t = static_cast<std::size_t>(motion.frame);
+    if (motion.state != TrackState::tracking) {
       before.reset();
-      continue;
+      return;
     }
-    const Body& body = tracker.model().body;
-    regions.push_back(frame.motion.region_score);
-    contours.push_back(frame.motion.contour_score / tracker.config().image.width);
+    const Body& body = run.state.model.body;
+    regions.push_back(motion.region_score);
+    contours.push_back(motion.contour_score / run.tracker.config.image.width);
     const FrameErrors errors =
-        measure_frame(frame.motion, clip.camera, clip.truth.frames[t], clip.truth.camera, 1.0);
-    Sample sample{body, frame.motion.pose, frame.motion.region_score, {}};
+        measure_frame(motion, clip.camera, clip.truth.frames[t], clip.truth.camera, 1.0);
+    Sample sample{body, motion.pose, motion.region_score, {}};
     for (std::size_t j = 0; j < kJointCount; ++j) {
       sample.error[j] = errors[j] ? errors[j]->aligned : std::nullopt;
     }
     samples.frames.push_back(sample);
     if (before) {
-      const PoseVector way = (frame.motion.pose.vector() - before->pose.vector()).cwiseAbs();
+      const PoseVector way = (motion.pose.vector() - before->pose.vector()).cwiseAbs();
       for (std::size_t i = 0; i < kPoseSize; ++i) {
         samples.change[i].push_back(way[static_cast<Eigen::Index>(i)]);
       }
       for (const Side side : {Side::left, Side::right}) {
         const double turn =
-            arm_target(body, frame.motion.pose, side).swivel - arm_target(body, before->pose, side).swivel;
+            arm_target(body, motion.pose, side).swivel - arm_target(body, before->pose, side).swivel;
         samples.swivel[static_cast<std::size_t>(side)].push_back(std::abs(wrap_angle(turn)));
       }
-      const auto shares = uncovered_shares(labels, frame.features.labels, tracker.model(), before->pose,
-                                           tracker.working_camera());
+      const auto shares = uncovered_shares(labels, record.features.labels, run.state.model, before->pose,
+                                           run.tracker.working_camera);
       constexpr double kStill = 0.0015;  // m from frame to frame
       for (std::size_t part = 0; part < kPartCount; ++part) {
-        const auto motion = truth_motion(clip.truth, t, part);
-        if (motion && *motion < kStill) {
+        const auto moved = truth_motion(clip.truth, t, part);
+        if (moved && *moved < kStill) {
           samples.uncovered[part].push_back(shares[part]);
         }
       }
     }
-    before = frame.motion;
-    labels = frame.features.labels.clone();
+    before = motion;
+    labels = record.features.labels.clone();
+  };
+  for (const FrameRecord& record : ahead.records) {
+    add(record);
+  }
+  for (; read < clip.frames.size(); ++read) {
+    add(track_frame(clip.frames[read], run));
   }
   if (regions.empty()) {
     throw Error(ErrorKind::tracking, clip.name + ": no frame was tracked");
@@ -214,7 +219,7 @@ FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, 
     if (progress) {
       progress("tracking " + clip.name);
     }
-    collect(clip, folder, config, samples);
+    collect(clip, config, samples);
   }
   FilterModel model = load_filter_model(config.filter.model);
   model.sigma[cue::kRegion] = mean_of(samples.sigma_region);

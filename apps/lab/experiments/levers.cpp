@@ -7,7 +7,7 @@
 #include "lab/experiments/experiments.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/evaluation/evaluate.h"
-#include "telemime/offline/run.h"
+#include "telemime/offline/track_file.h"
 #include "telemime/outputs/readers/jsonl.h"
 
 namespace telemime {
@@ -94,7 +94,7 @@ Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std:
     request.config.filter.particles = request.config.registration.iterations = 100;
   }
   lever.change(request.config);
-  run_track(request, {});
+  track_file(request, {});
   const PoseFile pose = read_pose_jsonl(scratch.path() / "pose.jsonl");
   const Evaluation e = evaluate(pose.frames, pose.camera, read_truth(clip / "truth.json"), {});
   constexpr double kMillimetres = 1000.0;

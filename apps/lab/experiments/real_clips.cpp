@@ -23,8 +23,9 @@ struct LearnedClip {
   std::string input;
   std::string background;  ///< empty: there is none
   Camera camera;
-  LookAhead start;
-  std::optional<Truth> truth;  ///< says in which frames there is a person to track
+  KnownStart start;
+  ImageCalibration scene;      ///< background and colours
+  std::optional<Truth> truth;  ///< tells in which frames there is somebody to track
   PeakThresholds peaks;
 };
 
@@ -50,22 +51,22 @@ Config config_of(const std::string& filter, int particles, std::uint64_t seed) {
 
 bool counts(const LearnedClip& clip, std::int64_t frame) {
   const auto t = static_cast<std::size_t>(frame);
-  return frame > clip.start.start.frame &&
+  return frame > clip.start.frame &&
          (!clip.truth || (t < clip.truth->frames.size() && clip.truth->is_scored(t)));
 }
 
 // work(motion) for each frame that counts.
 void follow(const LearnedClip& clip, const Config& config, std::int64_t most_frames,
             const std::function<void(const MotionFrame&)>& work) {
-  Tracker tracker(config, clip.camera);
-  tracker.set_scene(clip.start.image);
-  tracker.start_with(clip.start.start);
+  TrackingRun run = make_tracking_run(config, clip.camera);
+  run.scene.features.set_calibration(clip.scene);
+  run.state.known = clip.start;
   const auto source = open_source(clip.input);
   while (const std::optional<Frame> frame = source->next()) {
-    if (frame->index > clip.start.start.frame + most_frames) {
+    if (frame->index > clip.start.frame + most_frames) {
       break;
     }
-    const MotionFrame motion = tracker.step(*frame).motion;
+    const MotionFrame motion = track_frame(*frame, run).estimate.motion;
     if (counts(clip, motion.frame)) {
       work(motion);
     }
@@ -113,14 +114,14 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   }
   const auto source = open_source(clip.input);
   clip.camera = camera_for(source->info(), "", request.config.field_of_view);
-  Tracker tracker(request.config, clip.camera);
-  learn_scene(request, source->info(), *source, tracker);
-  auto found = look_ahead(*open_source(clip.input), request.config, clip.camera,
-                          tracker.features().calibration(), 0, [](std::int64_t) { return true; });
-  if (!found) {
+  TrackingRun run = make_tracking_run(request.config, clip.camera);
+  learn_scene(request, source->info(), run);
+  const LookAhead found = look_ahead({.next = [&] { return source->next(); }}, run);
+  if (!found.person) {
     return std::nullopt;
   }
-  clip.start = std::move(*found);
+  clip.start = found.person->start;
+  clip.scene = run.scene.features.calibration();
   clip.peaks = peaks_of(clip, request.config, frames_of(lab));
   return clip;
 }

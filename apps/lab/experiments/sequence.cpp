@@ -10,7 +10,7 @@
 #include "telemime/evaluation/error_means.h"
 #include "telemime/evaluation/motion_measures.h"
 #include "telemime/likelihood/all.h"
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/track_frame.h"
 #include "telemime/tracking/particle_filter.h"
 
 namespace telemime {
@@ -72,7 +72,7 @@ class Recorder {
   void add(std::size_t t, const Pose& pose, const Score& score, int evaluations) {
     MotionFrame motion;
     motion.pose = pose;
-    complete(motion, sequence_.model.body, sequence_.camera);
+    place_joints(sequence_.model.body, sequence_.camera, motion);
     const FrameMeans errors = mean_errors(motion, sequence_.camera, sequence_.truth, t);
     trace_.frame.push_back(static_cast<double>(t));
     trace_.region.push_back(score.region());
@@ -201,14 +201,15 @@ FilterSetup our_setup() {
 
 Trace track_filter(const PreparedSequence& sequence, const FilterSetup& setup, std::uint64_t seed) {
   Evaluators evaluators("simd", 1, setup.cues);
-  ParticleFilter filter(setup.filter, setup.search, sequence.limits, evaluators, seed);
+  const ParticleFilter filter(setup.filter, setup.search, sequence.limits, evaluators);
+  FilterState state(seed);
   Recorder recorder(sequence);
   std::vector<double> effective;
   std::vector<double> moving;
-  filter.start(sequence.start);
+  start_filter(sequence.start, sequence.limits, state);
   for (std::size_t t = sequence.first; t < sequence.frames.size(); ++t) {
-    const FilterResult found =
-        filter.step({.frame = sequence.frames[t], .model = sequence.model, .velocity = setup.velocity});
+    const FilterResult found = filter.step(
+        {.frame = sequence.frames[t], .model = sequence.model, .velocity = setup.velocity}, state);
     recorder.add(t, found.pose, found.score, found.evaluations);
     effective.push_back(found.effective_particles);
     moving.push_back(static_cast<double>(found.moving.count()) / static_cast<double>(found.moving.size()));

@@ -35,6 +35,16 @@ struct FrameFeatures {
   cv::Mat edges;       ///< (h x w) CV_8UC1, 255 on edges inside the silhouette
   cv::Mat distance;    ///< (h x w) CV_32FC1, pixels to the nearest edge, capped (see distance_map)
   std::optional<HeadRegion> head;  ///< empty: no head was found
+
+  /// The rest is filled in by extract() (tracker/track_frame.h).
+  std::int64_t frame = 0;             ///< index of the frame
+  double time = 0.0;                  ///< of the frame, s
+  bool has_colour_model = false;      ///< the person's colours are known: the labels can be trusted
+  bool face_learned = false;          ///< the colours were learned in this frame
+  bool person_present = false;        ///< somebody is in the picture
+  std::string note;                   ///< why the person's colours are not known
+  std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
+  double ms = 0.0;                    ///< time that the image side took
 };
 
 }  // namespace telemime

@@ -8,13 +8,13 @@
 #include <thread>
 #include <utility>
 
-#include "telemime/live/hand_over.h"
+#include "telemime/live/frame_exchange.h"
 #include "telemime/live/pace.h"
 #include "telemime/live/room_pictures.h"
+#include "telemime/tracker/message_deduplicator.h"
 #include "telemime/tracker/scene.h"
 #include "telemime/tracker/set_up.h"
 #include "telemime/tracker/smoother.h"
-#include "telemime/tracker/told.h"
 
 namespace telemime {
 namespace {
@@ -39,15 +39,14 @@ struct LiveSession::State {
         last_stamp(clock.now()) {
     request.config.look_back = false;  // there is nothing to look back from
     std::vector<std::string> messages;
-    tracker = make_tracker(request, source->info(), messages);
+    run = open_run(request, source->info(), messages);
     bool scene_known = !request.calibration.empty();
     if (!request.background.empty() && !scene_known) {
-      const Footage scene = learn_scene(request, source->info(), *source, *tracker);
-      messages.insert(messages.end(), scene.messages.begin(), scene.messages.end());
+      messages.push_back(learn_scene(request, source->info(), *run));
       scene_known = true;
     }
     phase = scene_known ? LivePhase::person : guide ? LivePhase::empty_room : LivePhase::background;
-    hand_over.set_settled(tracker->settled());
+    exchange.set_calibrated(run->state.calibrated());
     for (const std::string& words : messages) {
       say(words);
     }
@@ -84,7 +83,7 @@ struct LiveSession::State {
       camera_words.clear();
       opened = true;
     }
-    if (!frame || hand_over.stopping()) {
+    if (!frame || exchange.stopping()) {
       return std::nullopt;
     }
     frame->taken = last_stamp = usable_stamp(frame->taken, last_stamp, clock.now());
@@ -112,7 +111,7 @@ struct LiveSession::State {
         camera_words = news.words;
         person_warnings.clear();
       }
-      if (hand_over.wait_for_search()) {
+      if (exchange.wait_for_search()) {
         leave_person();
         const std::lock_guard lock(mutex);
         statistics.clear();  // what comes before and after says nothing of each other
@@ -121,7 +120,7 @@ struct LiveSession::State {
   }
 
   void stop_all() {
-    hand_over.stop();
+    exchange.stop();
     source->stop();
   }
 
@@ -129,7 +128,7 @@ struct LiveSession::State {
   void see() {
     guarded([this] {
       bool more = true;
-      while (more && !hand_over.stopping()) {
+      while (more && !exchange.stopping()) {
         follow_wishes();
         const LivePhase now = current();
         more = now == LivePhase::empty_room   ? take().has_value()
@@ -137,12 +136,12 @@ struct LiveSession::State {
                                               : look();
       }
     });
-    hand_over.wait_for_search();
-    if (!hand_over.stopping()) {
+    exchange.wait_for_search();
+    if (!exchange.stopping()) {
       guarded([this] { leave_person(); });  // what failed before may fail again
       enter(LivePhase::ended, failure.empty() ? source->complaint() : failure);
     }
-    hand_over.finish();
+    exchange.finish();
   }
 
   void follow_wishes() {
@@ -160,11 +159,11 @@ struct LiveSession::State {
         enter(LivePhase::background, "");
       }
     }
-    if ((asked.recalibrate || asked.guide == GuideStep::again) && hand_over.wait_for_search()) {
-      tracker->recalibrate();
+    if ((asked.recalibrate || asked.guide == GuideStep::again) && exchange.wait_for_search()) {
+      forget_person(*run);
       leave_person();
-      hand_over.set_settled(false);
-      told.forget();
+      exchange.set_calibrated(false);
+      reported.forget();
       {
         const std::lock_guard lock(mutex);
         person_warnings.clear();
@@ -189,14 +188,14 @@ struct LiveSession::State {
   // False at the end of the input.
   bool learn_background() {
     const std::vector<Frame> frames = room_pictures([this] { return take(); });
-    if (frames.empty() || hand_over.stopping()) {
+    if (frames.empty() || exchange.stopping()) {
       return false;
     }
     if (empty_promised) {
-      tracker->learn_background(frames);
+      run->scene.features.learn_background(frames);
       say("background: the empty room, from " + std::to_string(frames.size()) + " pictures");
     } else {
-      say("background: " + tracker->bootstrap(frames).sentence);
+      say("background: " + run->scene.features.bootstrap(frames).sentence);
     }
     const std::lock_guard lock(mutex);
     phase = LivePhase::person;
@@ -207,31 +206,34 @@ struct LiveSession::State {
 
   // The next frame's features, and over to the search; false at the end.
   bool look() {
-    LiveSlot* const slot = hand_over.begin();
+    LiveSlot* const slot = exchange.free_slot();
     if (slot == nullptr) {
       return false;
     }
-    const bool settled = hand_over.settled();
+    const bool calibrated = exchange.calibrated();
     const std::optional<Frame> frame = take();
     if (!frame) {
       return false;
     }
     slot->times = {frame->index, frame->taken, clock.now(), 0.0, 0.0, 0.0};
-    tracker->look(*frame, settled, slot->seen);
+    // Until a person is calibrated the search is idle here, and its state may be read.
+    const ColourRequest colours = calibrated ? ColourRequest::keep : colour_request(run->state);
+    slot->record.frame = *frame;
+    slot->record.features = extract(*frame, colours, run->scene);
     slot->times.seen = clock.now();
-    hand_over.give();
+    exchange.publish();
     return true;
   }
 
   // The search side's thread.
   void search() {
     const bool well = guarded([this] {
-      while (LiveSlot* const slot = hand_over.take()) {
+      while (LiveSlot* const slot = exchange.take()) {
         decide(*slot);
-        hand_over.done(tracker->settled());
+        exchange.done(run->state.calibrated());
       }
     });
-    hand_over.finish();
+    exchange.finish();
     if (!well) {
       source->stop();  // the image side may wait for a camera that never comes back
     }
@@ -239,15 +241,13 @@ struct LiveSession::State {
 
   void decide(LiveSlot& slot) {
     slot.times.searched = clock.now();
-    const bool was_settled = hand_over.settled() && smoother != nullptr;
-    if (request.keep_pace) {
-      tracker->set_effort(pace.effort());
-    }
-    const TrackedFrame result = tracker->decide(slot.seen);
+    const bool was_calibrated = exchange.calibrated() && smoother != nullptr;
+    const double effort = request.keep_pace ? pace.effort() : 1.0;
+    const FrameEstimate result = estimate(slot.record.features, run->tracker, run->state, effort);
     learn_pace(slot.times);
-    const bool settled = tracker->settled();
-    if (settled && !was_settled) {
-      const StreamHeader header = header_of(source->info(), *tracker);
+    const bool calibrated = run->state.calibrated();
+    if (calibrated && !was_calibrated) {
+      const StreamHeader header = header_of(source->info(), *run);
       smoother = make_smoother(request.config.smoothing, header.body, header.camera);
       if (hooks.person) {
         hooks.person(header);
@@ -255,16 +255,16 @@ struct LiveSession::State {
     }
     {
       const std::lock_guard lock(mutex);
-      person_warnings = result.warnings;
+      person_warnings = slot.record.features.warnings;
     }
-    for (const std::string& words : result.warnings) {
-      if (told.is_new(words)) {
+    for (const std::string& words : slot.record.features.warnings) {
+      if (reported.first_time(words)) {
         say(words, MessageLevel::warning);
       }
     }
-    if (settled && hooks.motion) {
+    if (calibrated && hooks.motion) {
       last_motion = (*smoother)(result.motion);
-      last_taken = slot.seen.frame.taken;
+      last_taken = slot.record.frame.taken;
       hooks.motion(*last_motion, last_taken);
     }
     slot.times.decided = clock.now();
@@ -272,7 +272,7 @@ struct LiveSession::State {
     statistics.add(slot.times);
     reason = result.note;
     phase = result.motion.state == TrackState::tracking ? LivePhase::tracking
-            : settled                                   ? LivePhase::lost
+            : calibrated                                ? LivePhase::lost
                                                         : LivePhase::person;
   }
 
@@ -303,15 +303,15 @@ struct LiveSession::State {
   std::unique_ptr<Source> source;
   LiveHooks hooks;
   Clock clock;
-  std::unique_ptr<Tracker> tracker;  // look() of one thread beside decide() of the other
-  HandOver hand_over;
+  std::optional<TrackingRun> run;  // the scene is the image thread's, the state the search thread's
+  FrameExchange exchange;
   double last_stamp;                       // of the image side: Frame::taken of the last frame
   std::optional<MotionFrame> last_motion;  // of the search side, handed out
   Pace pace;                               // of the search side
   FrameTimes followed;                     // of the last frame on the search side
   double last_taken = 0.0;                 // of the same frame
   std::unique_ptr<Smoother> smoother;      // of the search side
-  Told told;                               // of the search side
+  MessageDeduplicator reported;            // of the search thread
 
   mutable std::mutex mutex;  // of what follows
   Wishes wishes;
@@ -387,7 +387,7 @@ const SourceInfo& LiveSession::info() const {
 }
 
 const Camera& LiveSession::camera() const {
-  return state_->tracker->camera();
+  return state_->run->tracker.camera;
 }
 
 }  // namespace telemime

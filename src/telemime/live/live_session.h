@@ -11,8 +11,8 @@
 #include "telemime/live/live_phase.h"
 #include "telemime/live/live_statistics.h"
 #include "telemime/live/message_level.h"
-#include "telemime/offline/run.h"
 #include "telemime/outputs/encoder.h"
+#include "telemime/tracker/track_request.h"
 
 namespace telemime {
 
@@ -42,8 +42,9 @@ struct LiveState {
 
 /// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of
 /// the one before. Each thread has one frame at most and the source keeps the newest, so nothing is ever late
-/// by more than the work in hand. A source that drops no frame gives the poses that Tracker::step gives in
-/// turn. A camera that is gone is waited for, and what happens to it is told by LiveHooks::message.
+/// by more than the work in hand. A source that drops no frame gives the poses that track_frame() gives
+/// one after the other. A camera that is gone is waited for, and what happens to it is told by
+/// LiveHooks::message.
 class LiveSession {
  public:
   /// `request`: input's name, background, camera, calibration file, configuration; the rest is not used.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "telemime/likelihood/all.h"
+#include "telemime/offline/record_queue.h"
 
 namespace telemime {
 namespace {
@@ -105,8 +106,8 @@ std::vector<Portrait> portraits_of(const Config& config, const std::string& back
 }
 
 // The shape fitted to the most different of the candidates; nothing when there are too few.
-std::optional<LookAhead> refined(const Config& config, const std::string& backend, const JointLimits& limits,
-                                 const Portrait& portrait) {
+std::optional<FittedPerson> refined(const Config& config, const std::string& backend,
+                                    const JointLimits& limits, const Portrait& portrait) {
   std::vector<Keyframe> all;
   all.reserve(portrait.candidates.size());
   for (const Candidate& candidate : portrait.candidates) {
@@ -121,7 +122,7 @@ std::optional<LookAhead> refined(const Config& config, const std::string& backen
   if (keyframes.size() < kFewest) {
     return std::nullopt;
   }
-  LookAhead found;
+  FittedPerson found;
   found.start = portrait.start;
   found.keyframes = keyframes.size();
   found.start.person.refusal.clear();  // whatever the first frame hid, these show
@@ -137,57 +138,90 @@ std::optional<LookAhead> refined(const Config& config, const std::string& backen
   return found;
 }
 
-}  // namespace
-
-std::optional<LookAhead> look_ahead(Source& source, const Config& config, const Camera& camera,
-                                    const ImageCalibration& scene, std::int64_t most_frames,
-                                    const std::function<bool(std::int64_t)>& go_on) {
-  Config forward = config;
-  forward.look_back = false;
-  Tracker scout(forward, camera);
-  scout.set_scene(scene);
+// The frame in which somebody is first tracked, and the tracked frames from there on.
+struct Scouting {
   Portrait first;
-  std::vector<Candidate>& candidates = first.candidates;
-  std::int64_t frames = 0;
-  for (std::int64_t i = 0; most_frames == 0 || i < most_frames; ++i) {
-    const std::optional<Frame> frame = source.next();
-    if (!frame || frames >= config.calibration.look_ahead) {
-      break;
+  std::int64_t tracked = 0;
+
+  void add(const FrameRecord& record, const TrackingRun& run) {
+    if (!run.state.person) {
+      return;
     }
-    const TrackedFrame seen = scout.step(*frame);
-    if (!go_on(i)) {
-      return std::nullopt;
+    const MotionFrame& motion = record.estimate.motion;
+    if (first.candidates.empty()) {
+      first.start = {
+          .person = *run.state.person, .frame = motion.frame, .pose = motion.pose, .since = run.scene.since};
     }
-    if (!scout.calibration()) {
-      continue;
-    }
-    if (candidates.empty()) {
-      first.start = {*scout.calibration(), seen.motion.frame, seen.motion.pose, scout.since()};
-    }
-    if (seen.motion.state == TrackState::tracking && frames++ % kStride == 0 && seen.features.head) {
-      candidates.push_back(
-          {{prepare(seen.features, scout.working_camera()), seen.motion.pose, seen.motion.region_score},
-           seen.motion.frame,
-           *seen.features.head});
+    if (is_tracked(record) && tracked++ % kStride == 0 && record.features.head) {
+      first.candidates.push_back({.keyframe = {*record.estimate.prepared, motion.pose, motion.region_score},
+                                  .frame = motion.frame,
+                                  .head = *record.features.head});
     }
   }
-  if (candidates.empty()) {
-    return std::nullopt;
-  }
+};
+
+// The best of the shapes that the portraits lead to.
+FittedPerson fit_person(const Tracker& tracker, Scouting scouting) {
   // Single poses on many threads suit no device.
-  const std::string backend = config.backend == "scalar" ? "scalar" : "simd";
-  const std::vector<Portrait> portraits = portraits_of(config, backend, scout.limits(), std::move(first));
-  LookAhead best;
+  const std::string backend = tracker.config.backend == "scalar" ? "scalar" : "simd";
+  const std::vector<Portrait> portraits =
+      portraits_of(tracker.config, backend, tracker.limits, std::move(scouting.first));
+  FittedPerson best;
   best.start = portraits.front().start;
   for (const Portrait& portrait : portraits) {
-    const auto found = refined(config, backend, scout.limits(), portrait);
+    const auto found = refined(tracker.config, backend, tracker.limits, portrait);
     if (found && (best.keyframes == 0 || found->cost < best.cost)) {
       best = *found;
     }
   }
-  best.frames = frames;
-  best.image = scout.features().calibration();
+  best.frames = scouting.tracked;
   return best;
+}
+
+}  // namespace
+
+LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
+  LookAhead result;
+  Scouting scouting;
+  // Snapshot of the state before the first record that is kept: where tracking starts again.
+  TrackerState before = run.state;
+  while (scouting.tracked < run.tracker.config.calibration.look_ahead) {
+    const std::optional<Frame> frame = calls.next();
+    if (!frame) {
+      break;
+    }
+    // The image side of the frame. A person who has just come into the picture may be found from here on.
+    FrameRecord record{.frame = *frame, .features = {}, .estimate = {}};
+    record.features = extract(*frame, colour_request(run.state), run.scene);
+    keep_picture(calls.longest_side, record.frame);
+    if (scouting.first.candidates.empty() && run.scene.since >= frame->index) {
+      for (FrameRecord& earlier : result.records) {
+        if (calls.settle) {
+          calls.settle(std::move(earlier));
+        }
+      }
+      result.records.clear();
+      before = run.state;
+    }
+    // The search side.
+    record.estimate = estimate(record.features, run.tracker, run.state);
+    scouting.add(record, run);
+    result.records.push_back(std::move(record));
+    if (calls.go_on && !calls.go_on(result.records.back())) {
+      return result;
+    }
+  }
+  if (scouting.first.candidates.empty()) {
+    return result;
+  }
+  // The person's shape, and all frames from where they came into the picture once more with it.
+  result.person = fit_person(run.tracker, std::move(scouting));
+  run.state = std::move(before);
+  run.state.known = result.person->start;
+  for (FrameRecord& record : result.records) {
+    record.estimate = estimate(record.features, run.tracker, run.state);
+  }
+  return result;
 }
 
 }  // namespace telemime

@@ -21,25 +21,6 @@ Error cannot_write(const std::filesystem::path& file, int number) {
 
 }  // namespace
 
-void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::path temporary = file;
-  temporary += ".new";
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out << bytes;
-  out.close();
-  std::error_code failure;
-  if (!out) {
-    const int number = errno;
-    std::filesystem::remove(temporary, failure);
-    throw cannot_write(file, number);
-  }
-  std::filesystem::rename(temporary, file, failure);
-  if (failure) {
-    throw cannot_write(file, failure.value());
-  }
-}
-
 void prepare_outputs(const TrackRequest& request) {
   for (const std::string& name : request.formats) {
     output_format(name);  // throws for one that there is not

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "telemime/offline/run.h"
 #include "telemime/outputs/file_output.h"
+#include "telemime/tracker/track_request.h"
 
 namespace telemime {
 
@@ -48,9 +48,5 @@ class RunOutputs {
   cv::Mat best_overlay_;
   std::int64_t overlays_ = 0;
 };
-
-/// Writes a whole small file, or leaves the old one: by way of a temporary file beside it. Throws
-/// Error(output).
-void write_whole_file(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace telemime

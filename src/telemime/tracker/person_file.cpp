@@ -8,7 +8,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/image/image_calibration.h"
-#include "telemime/offline/run_outputs.h"
+#include "telemime/outputs/file_output.h"
 
 namespace telemime {
 namespace {

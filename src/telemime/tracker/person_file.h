@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <string_view>
 
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/tracker_state.h"
 
 namespace telemime {
 
 /// What `telemime calibrate` keeps: the person, the camera, and the look of person and scene.
 struct PersonFile {
-  TrackerCalibration person;
+  CalibratedPerson person;
   Camera camera;
   ImageCalibration image;
 };

@@ -24,8 +24,8 @@ std::vector<Frame> read_frames(Source& source, std::size_t most) {
   return frames;
 }
 
-// Pictures of the clip itself at working size: the start in full, for an empty stretch, then ever fewer, for
-// what the background looks like where the person has gone. Reads the input once more.
+// Frames of the clip itself at working size: all of the start, for an empty stretch, then every tenth, for
+// what the background looks like where the person has gone.
 std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig& image) {
   constexpr std::int64_t kDense = 150;
   constexpr std::int64_t kStride = 10;
@@ -48,42 +48,22 @@ std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig
 
 }  // namespace
 
-std::optional<Frame> Footage::next(Source& source) {
-  if (ahead.empty()) {
-    return source.next();
+std::string learn_scene(const TrackRequest& request, const SourceInfo& info, TrackingRun& run) {
+  FeatureExtractor& features = run.scene.features;
+  if (request.background.empty()) {
+    return "background: " + features.bootstrap(sample_of_clip(request, run.tracker.config.image)).sentence;
   }
-  Frame frame = std::move(ahead.front());
-  ahead.pop_front();
-  return frame;
-}
-
-Footage learn_scene(const TrackRequest& request, const SourceInfo& info, Source& source, Tracker& tracker) {
-  Footage scene;
-  if (!request.background.empty()) {
-    const auto clip = open_source(request.background);
-    const double aspect = static_cast<double>(clip->info().width) * info.height /
-                          (static_cast<double>(clip->info().height) * info.width);
-    if (aspect < 0.98 || aspect > 1.02) {
-      throw Error(ErrorKind::input,
-                  "the background clip " + request.background + " has another shape than the input",
-                  "Record it with the same camera and the same settings.");
-    }
-    const std::vector<Frame> frames = read_frames(*clip, kBackgroundFrames);
-    tracker.learn_background(frames);
-    scene.messages.push_back("background: " + std::to_string(frames.size()) + " frames of " +
-                             request.background);
-    return scene;
+  const auto clip = open_source(request.background);
+  const double aspect = static_cast<double>(clip->info().width) * info.height /
+                        (static_cast<double>(clip->info().height) * info.width);
+  if (aspect < 0.98 || aspect > 1.02) {
+    throw Error(ErrorKind::input,
+                "the background clip " + request.background + " has another aspect ratio than the input",
+                "Record it with the same camera and the same settings.");
   }
-  std::vector<Frame> sample;
-  if (info.live) {
-    sample = read_frames(source, static_cast<std::size_t>(std::max(8.0, info.fps)));
-    scene.ahead.assign(sample.begin(), sample.end());
-  } else {
-    sample = sample_of_clip(request, tracker.config().image);
-  }
-  const SceneReport report = tracker.bootstrap(sample);
-  scene.messages.push_back("background: " + report.sentence);
-  return scene;
+  const std::vector<Frame> frames = read_frames(*clip, kBackgroundFrames);
+  features.learn_background(frames);
+  return "background: " + std::to_string(frames.size()) + " frames of " + request.background;
 }
 
 }  // namespace telemime

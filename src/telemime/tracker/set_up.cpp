@@ -35,17 +35,17 @@ Camera camera_for(const SourceInfo& info, const std::string& file, double field_
                       : fitting(load_camera(file), info);
 }
 
-StreamHeader header_of(const SourceInfo& info, const Tracker& tracker) {
+StreamHeader header_of(const SourceInfo& info, const TrackingRun& run) {
   StreamHeader header;
-  header.body = tracker.model().body;
-  header.camera = tracker.camera();
+  header.body = run.state.model.body;
+  header.camera = run.tracker.camera;
   header.fps = info.fps;
-  header.limits = tracker.limits();
-  header.config = to_json(tracker.config());
+  header.limits = run.tracker.limits;
+  header.config = to_json(run.tracker.config);
   header.extra = {{"input", info.name}};
-  if (tracker.calibration()) {
-    header.extra["scale_from"] = tracker.calibration()->scale_from;
-    header.extra["calibration_refusal"] = tracker.calibration()->refusal;
+  if (run.state.person) {
+    header.extra["scale_from"] = run.state.person->scale_from;
+    header.extra["calibration_refusal"] = run.state.person->refusal;
   }
   return header;
 }
@@ -90,21 +90,21 @@ Config with_budget(const Config& config, const Camera& camera) {
   return fixed;
 }
 
-std::unique_ptr<Tracker> make_tracker(const TrackRequest& request, const SourceInfo& info,
-                                      std::vector<std::string>& messages) {
+TrackingRun open_run(const TrackRequest& request, const SourceInfo& info,
+                     std::vector<std::string>& messages) {
   if (request.calibration.empty()) {
     const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
-    return std::make_unique<Tracker>(with_budget(request.config, camera), camera);
+    return make_tracking_run(with_budget(request.config, camera), camera);
   }
   const PersonFile person = load_person(request.calibration);
   const Camera camera = fitting(person.camera, info);
-  auto tracker = std::make_unique<Tracker>(with_budget(request.config, camera), camera);
-  tracker->set_calibration(person.person, person.image);
+  TrackingRun run = make_tracking_run(with_budget(request.config, camera), camera);
+  use_calibration(person.person, person.image, run);
   messages.push_back("person and background: " + request.calibration);
   if (request.config.calibration.stature) {
-    messages.push_back("the height is not used: the person's size stands in " + request.calibration);
+    messages.push_back("the height is not used: the person's size is that of " + request.calibration);
   }
-  return tracker;
+  return run;
 }
 
 }  // namespace telemime

@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "telemime/capture/source.h"
 #include "telemime/outputs/encoder.h"
 #include "telemime/tracker/track_request.h"
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/tracker_state.h"
 
 namespace telemime {
 
 /// The camera of an input: the calibration file scaled to its size, or the field of view.
 Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view);
 
-/// What files and receivers are told about the person who is tracked now.
-StreamHeader header_of(const SourceInfo& info, const Tracker& tracker);
+/// The head of a stream of frames of the person who is tracked now.
+StreamHeader header_of(const SourceInfo& info, const TrackingRun& run);
 
 /// The configuration with a number of evaluations in the place of its time budget, by what one costs here and
 /// now (thesis 3.6). Without a budget it comes back as it is.
 Config with_budget(const Config& config, const Camera& camera);
 
-/// The tracker of an input. With a calibration file it knows the person and the scene; without one it has
-/// still to be taught the scene. What the user should know is added to `messages`. Throws Error(config).
-std::unique_ptr<Tracker> make_tracker(const TrackRequest& request, const SourceInfo& info,
-                                      std::vector<std::string>& messages);
+/// The run that tracks an input. With a calibration file it knows the person and the scene; without one it
+/// has still to learn the scene. Notes for the user are added to `messages`. Throws Error(config).
+TrackingRun open_run(const TrackRequest& request, const SourceInfo& info, std::vector<std::string>& messages);
 
 }  // namespace telemime

@@ -87,27 +87,26 @@ void check(const StepInput& input) {
 }  // namespace
 
 ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationConfig& search,
-                               const JointLimits& limits, Evaluators& evaluators, std::uint64_t seed)
+                               const JointLimits& limits, Evaluators& evaluators)
     : config_(config),
       search_(search),
       limits_(limits),
       evaluators_(evaluators),
       numbers_(load_filter_model(config.model, evaluators.cues())),
-      heuristics_(parse_heuristics(config.heuristics)),
-      seeds_(seed) {
+      heuristics_(parse_heuristics(config.heuristics)) {
   check_settings(config_);
 }
 
-void ParticleFilter::start(const Pose& pose, bool backward) {
+void start_filter(const Pose& pose, const JointLimits& limits, FilterState& state, bool backward) {
   Particle particle;
-  particle.pose = limits_.clamp(pose);
+  particle.pose = limits.clamp(pose);
   particle.weight = particle.prior = 1.0;
-  particles_ = {particle};
-  estimate_ = before_ = particle.pose;
-  backward_ = backward;
-  labels_before_.release();
-  velocity_.setZero();
-  time_step_before_ = 1.0;
+  state.particles = {particle};
+  state.estimate = state.before = particle.pose;
+  state.time_step_before = 1.0;
+  state.backward = backward;
+  state.velocity.setZero();
+  state.labels_before.release();
 }
 
 void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& generation) const {
@@ -118,8 +117,8 @@ void ParticleFilter::run(Stage stage, const FilterContext& context, Generation& 
   }
 }
 
-FilterResult ParticleFilter::step(const StepInput& input) {
-  if (particles_.empty()) {
+FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) const {
+  if (state.particles.empty()) {
     throw Error(ErrorKind::usage, "the particle filter was not started");
   }
   check(input);
@@ -129,22 +128,22 @@ FilterResult ParticleFilter::step(const StepInput& input) {
   const FilterConfig config = for_time_step(with_effort(config_, input.effort), frames);
   const RegistrationConfig search = for_time_step(search_, frames);
   const Pose predicted =
-      predict_pose(estimate_, before_, input.velocity * frames / time_step_before_, limits_);
+      predict_pose(state.estimate, state.before, input.velocity * frames / state.time_step_before, limits_);
   const FilterContext context{
       .frame = input.frame,
-      .labels_before = labels_before_.empty() ? nullptr : &labels_before_,
+      .labels_before = state.labels_before.empty() ? nullptr : &state.labels_before,
       .model = input.model,
       .limits = limits_,
       .config = config,
       .numbers = numbers_,
       .search = search,
-      .estimate = estimate_,
+      .estimate = state.estimate,
       .predicted = predicted,
-      .heading = input.heading.value_or(heading_of(backward_ ? -velocity_ : velocity_)),
+      .heading = input.heading.value_or(heading_of(state.backward ? -state.velocity : state.velocity)),
       .evaluators = evaluators_,
-      .seed = seeds_.bits()};
+      .seed = state.seeds.bits()};
   Generation generation;
-  generation.parents = std::move(particles_);
+  generation.parents = std::move(state.particles);
 
   // Resample: how many children each parent has (thesis 4.2.3; equation 4.14 with the heuristic wd).
   run(Stage::merge, context, generation);
@@ -169,37 +168,37 @@ FilterResult ParticleFilter::step(const StepInput& input) {
   result.evaluations = generation.evaluations + static_cast<int>(generation.particles.size() - searched);
   drop_lightest(count, generation.particles);
   weigh(generation.particles);
-  particles_ = std::move(generation.particles);
+  state.particles = std::move(generation.particles);
 
   // Choose: the heaviest particle or the weighted mean.
-  const Particle& best = particles_[heaviest(particles_)];
-  before_ = estimate_;
-  estimate_ = best.pose;
+  const Particle& best = state.particles[heaviest(state.particles)];
+  state.before = state.estimate;
+  state.estimate = best.pose;
   result.score = best.score;
   if (config_.estimate == "mean") {
-    estimate_ = limits_.clamp(mean_pose(particles_));
-    evaluators_.evaluate(input.frame, input.model, {&estimate_, 1}, {&result.score, 1});
+    state.estimate = limits_.clamp(mean_pose(state.particles));
+    evaluators_.evaluate(input.frame, input.model, {&state.estimate, 1}, {&result.score, 1});
     ++result.evaluations;
   }
 
   // Remember what the next prediction needs.
   const double rate = frames == 1.0 ? kVelocityRate : 1.0 - std::pow(1.0 - kVelocityRate, frames);
-  velocity_ += rate * ((estimate_.root - before_.root) / frames - velocity_);
-  time_step_before_ = frames;
-  input.frame.labels.copyTo(labels_before_);
-  result.pose = estimate_;
-  result.effective_particles = effective_sample_size(particles_);
+  state.velocity += rate * ((state.estimate.root - state.before.root) / frames - state.velocity);
+  state.time_step_before = frames;
+  input.frame.labels.copyTo(state.labels_before);
+  result.pose = state.estimate;
+  result.effective_particles = effective_sample_size(state.particles);
   result.moving = generation.moving;
   result.heading = context.heading;
   return result;
 }
 
-std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
-                             const Pose& estimate) {
+std::vector<Pose> mode_poses(const FilterConfig& config, std::span<const Particle> particles,
+                             const Body& body, const Pose& estimate) {
   std::vector<Pose> poses = {estimate};
   for (const Mode& mode :
-       find_modes(body, filter.particles(), config.mode_radius, static_cast<std::size_t>(config.modes))) {
-    poses.push_back(filter.particles()[mode.likeliest].pose);
+       find_modes(body, particles, config.mode_radius, static_cast<std::size_t>(config.modes))) {
+    poses.push_back(particles[mode.likeliest].pose);
   }
   return poses;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,29 +32,41 @@ struct FilterResult {
   double heading = 0.0;  ///< rad, the predicted torsion of the root that the step used
 };
 
-/// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on by name. The
-/// same seed and frames give the same result for any number of threads.
-class ParticleFilter {
- public:
-  /// `search` configures the local search of FilterConfig::blocks. `limits` and `evaluators` must outlive the
-  /// filter. Throws Error(config).
-  ParticleFilter(const FilterConfig& config, const RegistrationConfig& search, const JointLimits& limits,
-                 Evaluators& evaluators, std::uint64_t seed);
-
-  /// Starts with one particle at the pose of the frame before the first step. `backward`: frames come in
-  /// reverse order of time, so that a person who walks looks where they come from.
-  void start(const Pose& pose, bool backward = false);
-  /// Removes all particles.
-  void stop() { particles_.clear(); }
-  bool started() const { return !particles_.empty(); }
-
-  /// Estimates the pose in one frame. Throws Error(usage) before start(), and for an effort or a time step
-  /// out of range.
-  FilterResult step(const StepInput& input);
+/// What the filter carries from frame to frame: plain data, so that a copy is a snapshot.
+struct FilterState {
+  explicit FilterState(std::uint64_t seed = 1) : seeds(seed) {}
+  bool started() const { return !particles.empty(); }
 
   /// Particles of the last frame, with normalised weights. `parent` is an index into the generation before,
   /// or into the modes to which that was merged.
-  const std::vector<Particle>& particles() const { return particles_; }
+  std::vector<Particle> particles;
+  Pose estimate;                                       ///< in the last frame
+  Pose before;                                         ///< in the frame before that
+  double time_step_before = 1.0;                       ///< 1/25 s from `before` to `estimate`
+  bool backward = false;                               ///< the frames come against the order of time
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed
+  cv::Mat labels_before;                               ///< of the last frame
+  Random seeds;  ///< one draw a frame, from which the frame's own generators start
+};
+
+/// Puts all particles at one pose, in the frame that comes next or before. `backward`: the frames come
+/// against the order of time, so that a person who walks looks where they come from.
+void start_filter(const Pose& pose, const JointLimits& limits, FilterState& state, bool backward = false);
+
+/// Particle filter over poses (thesis 4.4): CONDENSATION with heuristics that are switched on one by one. It
+/// holds what stays the same; FilterState holds the particles. The same seed and frames give the same result,
+/// for any number of threads.
+class ParticleFilter {
+ public:
+  /// `search` is for the local search of FilterConfig::blocks. `evaluators` must outlive the filter. Throws
+  /// Error(config), Error(usage).
+  ParticleFilter(const FilterConfig& config, const RegistrationConfig& search, const JointLimits& limits,
+                 Evaluators& evaluators);
+
+  /// Estimates the pose in one frame. Throws Error(usage) before start_filter(), and for an effort or a time
+  /// step out of range.
+  FilterResult step(const StepInput& input, FilterState& state) const;
+
   const FilterModel& numbers() const { return numbers_; }
 
  private:
@@ -61,22 +74,14 @@ class ParticleFilter {
 
   FilterConfig config_;
   RegistrationConfig search_;
-  const JointLimits& limits_;
+  JointLimits limits_;
   Evaluators& evaluators_;
   FilterModel numbers_;
   std::vector<const Heuristic*> heuristics_;
-  Random seeds_;
-  std::vector<Particle> particles_;
-  Pose estimate_;
-  Pose before_;
-  bool backward_ = false;
-  double time_step_before_ = 1.0;                       ///< 1/25 s from before_ to estimate_
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed
-  cv::Mat labels_before_;
 };
 
-/// The estimate, then the best pose of each mode of the filter (FilterConfig::modes, mode_radius).
-std::vector<Pose> mode_poses(const FilterConfig& config, const ParticleFilter& filter, const Body& body,
-                             const Pose& estimate);
+/// The best poses of the particles' modes (FilterConfig::modes, mode_radius), the estimate first.
+std::vector<Pose> mode_poses(const FilterConfig& config, std::span<const Particle> particles,
+                             const Body& body, const Pose& estimate);
 
 }  // namespace telemime

@@ -19,6 +19,7 @@ namespace {
 
 using testing_scene::both_arms_seen;
 using testing_scene::kDegree;
+using testing_scene::RunningFilter;
 using testing_scene::Scene;
 
 FilterConfig thesis(const std::string& heuristics, int particles) {
@@ -27,15 +28,15 @@ FilterConfig thesis(const std::string& heuristics, int particles) {
   return config;
 }
 
-ParticleFilter make_filter(Scene& scene, const FilterConfig& config, std::uint64_t seed = 1) {
-  return {config, scene.search, scene.limits, scene.evaluators, seed};
+RunningFilter make_filter(Scene& scene, const FilterConfig& config, std::uint64_t seed = 1) {
+  return {scene, config, scene.evaluators, seed};
 }
 
 StepInput input(const Scene& scene, double velocity) {
   return {.frame = scene.frame, .model = scene.model, .velocity = velocity};
 }
 
-const Particle& best_of(const ParticleFilter& filter) {
+const Particle& best_of(const RunningFilter& filter) {
   return filter.particles()[heaviest(filter.particles())];
 }
 
@@ -57,7 +58,7 @@ TEST(ParticleFilter, CondensationFollowsASlowlyRaisedArm) {
   FilterConfig config = thesis("", 500);
   config.model = folder.file("wide.json");
   Scene scene;
-  ParticleFilter filter = make_filter(scene, config);
+  RunningFilter filter = make_filter(scene, config);
   Pose truth = both_arms_seen();
   filter.start(truth);
   double sum = 0.0;
@@ -78,7 +79,7 @@ TEST(ParticleFilter, SteppingBackKeepsTheHeading) {
   FilterConfig config;
   config.particles = 300;
   config.mode_most = 300;
-  ParticleFilter filter = make_filter(scene, config);
+  RunningFilter filter = make_filter(scene, config);
   Pose truth = both_arms_seen();
   filter.start(truth);
   for (int i = 0; i < 20; ++i) {
@@ -97,7 +98,7 @@ TEST(ParticleFilter, WalkingTurnsTheHeading) {
   config.mode_most = 300;
   for (const bool backward : {false, true}) {
     for (const double side : {-1.0, 1.0}) {
-      ParticleFilter filter = make_filter(scene, config);
+      RunningFilter filter = make_filter(scene, config);
       Pose truth = both_arms_seen();
       filter.start(truth, backward);
       double heading = 0.0;
@@ -114,7 +115,7 @@ TEST(ParticleFilter, WalkingTurnsTheHeading) {
 TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
   Scene scene;
   const auto spread = [&](double frames) {
-    ParticleFilter filter = make_filter(scene, thesis("", 400));
+    RunningFilter filter = make_filter(scene, thesis("", 400));
     filter.start(both_arms_seen());
     filter.step({.frame = scene.frame, .model = scene.model, .time_step = frames});
     double sum = 0.0;
@@ -130,7 +131,7 @@ TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
 TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   Scene scene;
   const auto evaluations = [&](double effort, const FilterConfig& config) {
-    ParticleFilter filter = make_filter(scene, config);
+    RunningFilter filter = make_filter(scene, config);
     filter.start(both_arms_seen());
     return filter.step({.frame = scene.frame, .model = scene.model, .velocity = 0.5, .effort = effort})
         .evaluations;
@@ -139,7 +140,7 @@ TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   const int whole = evaluations(1.0, FilterConfig());
   EXPECT_LT(evaluations(0.25, FilterConfig()), 0.4 * whole);
   Scene other;
-  ParticleFilter filter = make_filter(other, FilterConfig());
+  RunningFilter filter = make_filter(other, FilterConfig());
   filter.start(both_arms_seen());
   for (const double bad : {0.0, -1.0, 1.5, std::nan("")}) {
     const double bad_step = bad == 1.5 ? 0.0 : bad;
@@ -153,7 +154,7 @@ TEST(ParticleFilter, TheMeanIsScoredItself) {
   Scene scene;
   FilterConfig config = thesis("", 60);
   config.estimate = "mean";
-  ParticleFilter filter = make_filter(scene, config);
+  RunningFilter filter = make_filter(scene, config);
   filter.start(both_arms_seen());
   const FilterResult found = filter.step(input(scene, 0.0));
   Score score;
@@ -164,7 +165,7 @@ TEST(ParticleFilter, TheMeanIsScoredItself) {
 
 TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
   Scene scene;
-  ParticleFilter filter = make_filter(scene, thesis("", 100));
+  RunningFilter filter = make_filter(scene, thesis("", 100));
   filter.start(both_arms_seen());
   filter.step(input(scene, 0.0));
   std::set<double> roots;
@@ -177,7 +178,7 @@ TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
 TEST(ParticleFilter, KeepingTheBestNeverWorsensTheEstimate) {
   Scene scene;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    ParticleFilter filter = make_filter(scene, thesis("wd", 60), seed);
+    RunningFilter filter = make_filter(scene, thesis("wd", 60), seed);
     Pose start = both_arms_seen();
     start[Angle::l_elbow_flexion] -= 15 * kDegree;
     filter.start(start);
@@ -200,7 +201,7 @@ TEST(ParticleFilter, LocalOptimisationBeatsDiffusionAlone) {
   start[Angle::l_shoulder_abduct] -= 12 * kDegree;
   start[Angle::r_elbow_flexion] += 12 * kDegree;
   const auto fit = [&](const std::string& heuristics, std::uint64_t seed) {
-    ParticleFilter filter = make_filter(scene, thesis(heuristics, 400), seed);
+    RunningFilter filter = make_filter(scene, thesis(heuristics, 400), seed);
     filter.start(start);
     filter.step(input(scene, 0.0));
     double best = 1.0;
@@ -226,7 +227,7 @@ TEST(ParticleFilter, LocalOptimisationEndsWithTheContours) {
     scene.search.region_share = region_share;
     double sum = 0.0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-      ParticleFilter filter = make_filter(scene, thesis("lo", 400), seed);
+      RunningFilter filter = make_filter(scene, thesis("lo", 400), seed);
       filter.start(start);
       filter.step(input(scene, 0.0));
       const auto& all = filter.particles();
@@ -255,7 +256,7 @@ TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
     start[Angle::l_shoulder_flexion] += 3 * kDegree;
     ASSERT_GT(left_wrist_error(scene, start, truth), 0.2);
     const auto after_twelve = [&](const std::string& heuristics) {
-      ParticleFilter filter = make_filter(scene, thesis(heuristics, 150));
+      RunningFilter filter = make_filter(scene, thesis(heuristics, 150));
       filter.start(start);
       for (int i = 0; i < 11; ++i) {
         filter.step(input(scene, 0.0));
@@ -278,7 +279,7 @@ TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
   FilterConfig ours;
   ours.particles = 100;
   for (const FilterConfig& config : {thesis("", 100), thesis("wd,hpm,ee,lo,kf", 100), ours}) {
-    ParticleFilter filter = make_filter(scene, config);
+    RunningFilter filter = make_filter(scene, config);
     filter.start(both_arms_seen());
     for (int i = 0; i < 4; ++i) {
       const FilterResult found =
@@ -300,7 +301,7 @@ TEST(ParticleFilter, OneParticleIsEnoughToGoOn) {
     for (const std::string list : {"", "wd", "wd,hpm,ee,lo,kf", "modes,wd,lo,turn,kf"}) {
       FilterConfig config = thesis(list, 1);
       config.blocks = ours;
-      ParticleFilter filter = make_filter(scene, config);
+      RunningFilter filter = make_filter(scene, config);
       filter.start(both_arms_seen());
       for (int i = 0; i < 3; ++i) {
         const FilterResult found = filter.step(input(scene, 0.0));
@@ -314,19 +315,19 @@ TEST(ParticleFilter, OneParticleIsEnoughToGoOn) {
 
 TEST(ParticleFilter, StartsStopsAndStartsAgain) {
   Scene scene;
-  ParticleFilter filter = make_filter(scene, thesis("", 20));
-  EXPECT_FALSE(filter.started());
+  RunningFilter filter = make_filter(scene, thesis("", 20));
+  EXPECT_FALSE(filter.state.started());
   EXPECT_THROW(filter.step(input(scene, 0.0)), Error);
   Pose outside = both_arms_seen();
   outside[Angle::l_elbow_flexion] = -4.0;
   filter.start(outside);
-  ASSERT_TRUE(filter.started());
+  ASSERT_TRUE(filter.state.started());
   ASSERT_EQ(filter.particles().size(), 1U);
   EXPECT_TRUE(scene.limits.contains(filter.particles()[0].pose));
   filter.step(input(scene, 0.0));
   EXPECT_EQ(filter.particles().size(), 20U);
-  filter.stop();
-  EXPECT_FALSE(filter.started());
+  filter.state.particles.clear();
+  EXPECT_FALSE(filter.state.started());
   EXPECT_THROW(filter.step(input(scene, 0.0)), Error);
 }
 
@@ -343,7 +344,7 @@ TEST(ParticleFilter, TheMeanIsTheMeanOfItsParticles) {
   Scene scene;
   FilterConfig config = thesis("", 100);
   config.estimate = "mean";
-  ParticleFilter filter = make_filter(scene, config);
+  RunningFilter filter = make_filter(scene, config);
   filter.start(both_arms_seen());
   const FilterResult found = filter.step(input(scene, 0.0));
   EXPECT_EQ(found.pose.vector(), scene.limits.clamp(mean_pose(filter.particles())).vector());
@@ -352,7 +353,7 @@ TEST(ParticleFilter, TheMeanIsTheMeanOfItsParticles) {
 
 TEST(ParticleFilter, WithoutMotionThePartitionLetsNothingMove) {
   Scene scene;
-  ParticleFilter filter = make_filter(scene, thesis("hpm", 30));
+  RunningFilter filter = make_filter(scene, thesis("hpm", 30));
   filter.start(both_arms_seen());
   EXPECT_EQ(filter.step(input(scene, 0.0)).moving, all_parts()) << "there is no frame before";
   const Pose before = best_of(filter).pose;

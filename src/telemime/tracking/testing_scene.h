@@ -9,7 +9,7 @@
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/search/budget.h"
-#include "telemime/tracking/context.h"
+#include "telemime/tracking/particle_filter.h"
 
 /// Small images of a person rendered from the model, for the tests of the filter. Not installed.
 namespace telemime::testing_scene {
@@ -57,6 +57,19 @@ struct Scene {
             .seed = seed};
   }
   JointPositions joints(const Pose& pose) const { return forward_kinematics(model.body, pose).joints; }
+};
+
+/// A filter with its particles.
+struct RunningFilter {
+  RunningFilter(Scene& scene, const FilterConfig& config, Evaluators& evaluators, std::uint64_t seed)
+      : method(config, scene.search, scene.limits, evaluators), limits(scene.limits), state(seed) {}
+  void start(const Pose& pose, bool backward = false) { start_filter(pose, limits, state, backward); }
+  FilterResult step(const StepInput& input) { return method.step(input, state); }
+  const std::vector<Particle>& particles() const { return state.particles; }
+
+  ParticleFilter method;
+  JointLimits limits;
+  FilterState state;
 };
 
 inline Particle particle(const Pose& pose, double weight, double log_likelihood = 0.0) {

@@ -60,7 +60,7 @@ std::vector<Pose> distinct_arms(const Body& body, const std::vector<Pose>& poses
   return kept;
 }
 
-std::vector<ScoredPose> scored(const TrajectoryContext& context, const StretchFrame& frame,
+std::vector<ScoredPose> scored(const TrajectoryContext& context, const TrajectoryFrame& frame,
                                const std::vector<Pose>& poses, Backend& backend) {
   Objective objective(backend, frame.frame, context.model, context.limits, Prior{.heading = frame.heading});
   const ObjectiveWeights weights = still_weights(context);
@@ -106,7 +106,7 @@ SettingTable settings_of(TrajectoryConfig& c) {
       {}};
 }
 
-std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchFrame& frame,
+std::vector<ScoredPose> combine(const TrajectoryContext& context, const TrajectoryFrame& frame,
                                 Backend& backend) {
   const Body& body = context.model.body;
   const auto arms = static_cast<std::size_t>(context.config.arms);
@@ -180,15 +180,14 @@ std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::ve
   return path;
 }
 
-std::vector<Pose> best_trajectory(const TrajectoryContext& context,
-                                  std::span<const StretchFrame* const> frames, const Pose* before,
-                                  Random& random) {
+std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<const TrajectoryFrame> frames,
+                                  const Pose* before, Random& random) {
   const Body& body = context.model.body;
   const TrajectoryConfig& config = context.config;
   // Choose among the candidates of all frames.
   std::vector<std::vector<ScoredPose>> choices(frames.size());
   context.evaluators.each(frames.size(), [&](std::size_t t, Backend& backend) {
-    choices[t] = combine(context, *frames[t], backend);
+    choices[t] = combine(context, frames[t], backend);
   });
   std::vector<Pose> poses;
   poses.reserve(frames.size());
@@ -213,8 +212,8 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context,
       const std::size_t t = first + 2 * i;
       const Pose& earlier = t > 0 ? poses[t - 1] : before != nullptr ? *before : poses[t];
       const Pose& later = poses[t + 1 < poses.size() ? t + 1 : t];
-      Objective objective(backend, frames[t]->frame, context.model, context.limits,
-                          prior_between(body, earlier, later, frames[t]->heading));
+      Objective objective(backend, frames[t].frame, context.model, context.limits,
+                          prior_between(body, earlier, later, frames[t].heading));
       Random own(seed, static_cast<std::size_t>(half) * frames.size() + t);
       poses[t] = register_pose(objective, poses[t], search, own).pose;
     });

@@ -24,13 +24,13 @@ struct TrajectoryConfig {
 
 SettingTable settings_of(TrajectoryConfig& config);
 
-/// One frame of a stretch and the poses found in it by searches that know only the frames before or after it.
-struct StretchFrame {
+/// One frame of a window, with the poses that searches forward and backward in time found.
+struct TrajectoryFrame {
   PreparedFrame frame;
-  double heading = 0.0;          ///< as in FilterContext
-  std::vector<Pose> candidates;  ///< the first one is the filter's estimate
-  std::size_t forward =
-      1;  ///< number of candidates from the forward search; those of the backward search follow
+  double heading = 0.0;  ///< predicted torsion of the root, rad
+  std::vector<Pose>
+      candidates;           ///< those of the forward search, its estimate first; then of the backward one
+  std::size_t forward = 1;  ///< number of candidates of the forward search
 };
 
 /// Inputs that are the same for all frames of a stretch.
@@ -50,7 +50,7 @@ struct ScoredPose {
 
 /// Candidate poses of a frame, the cheapest first: those of the searches, the estimate's flips in depth, and
 /// the arms of all these combined on the trunks of the cheapest pose and of both estimates.
-std::vector<ScoredPose> combine(const TrajectoryContext& context, const StretchFrame& frame,
+std::vector<ScoredPose> combine(const TrajectoryContext& context, const TrajectoryFrame& frame,
                                 Backend& backend);
 
 /// Indices of the cheapest sequence of poses, one per frame (Viterbi): the costs of the poses and of the
@@ -61,8 +61,7 @@ std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::ve
 /// One pose for each frame: the cheapest path, whose poses are then searched again with their neighbours as
 /// the prior. `before` is the pose in the frame before the first; null: there is none. The result does not
 /// depend on the number of threads.
-std::vector<Pose> best_trajectory(const TrajectoryContext& context,
-                                  std::span<const StretchFrame* const> frames, const Pose* before,
-                                  Random& random);
+std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<const TrajectoryFrame> frames,
+                                  const Pose* before, Random& random);
 
 }  // namespace telemime

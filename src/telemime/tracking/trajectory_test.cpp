@@ -29,17 +29,8 @@ TrajectoryContext context_of(Scene& scene, const TrajectoryConfig& config) {
   return {scene.model, scene.limits, scene.search, config, scene.evaluators};
 }
 
-StretchFrame frame_with(const Scene& scene, const Pose& truth, std::vector<Pose> candidates) {
+TrajectoryFrame frame_with(const Scene& scene, const Pose& truth, std::vector<Pose> candidates) {
   return {frame_of_model(scene.model, truth, scene.camera), 0.0, std::move(candidates), 1};
-}
-
-std::vector<const StretchFrame*> pointers(const std::vector<StretchFrame>& frames) {
-  std::vector<const StretchFrame*> all;
-  all.reserve(frames.size());
-  for (const StretchFrame& frame : frames) {
-    all.push_back(&frame);
-  }
-  return all;
 }
 
 double cost_of(const Body& body, const std::vector<std::vector<ScoredPose>>& frames,
@@ -107,7 +98,7 @@ TEST(Combine, OrdersByCostAndKeepsNoMoreThanAsked) {
   Scene scene;
   TrajectoryConfig config;
   config.kept = 7;
-  const StretchFrame frame = frame_with(scene, raised(0), {raised(20), raised(-20)});
+  const TrajectoryFrame frame = frame_with(scene, raised(0), {raised(20), raised(-20)});
   const auto scalar = make_backend("scalar");
   const auto poses = combine(context_of(scene, config), frame, *scalar);
   ASSERT_EQ(poses.size(), 7U);
@@ -122,7 +113,7 @@ TEST(Combine, TakesEachArmFromWhereItIsRight) {
   left_right[Angle::r_shoulder_abduct] -= 40 * kDegree;
   Pose right_right = truth;
   right_right[Angle::l_shoulder_abduct] += 40 * kDegree;
-  const StretchFrame frame = frame_with(scene, truth, {left_right, right_right});
+  const TrajectoryFrame frame = frame_with(scene, truth, {left_right, right_right});
   const TrajectoryConfig config;
   const auto scalar = make_backend("scalar");
   const auto poses = combine(context_of(scene, config), frame, *scalar);
@@ -136,14 +127,14 @@ TEST(Combine, TakesEachArmFromWhereItIsRight) {
 TEST(Combine, OneCandidateIsEnough) {
   Scene scene;
   const TrajectoryConfig config;
-  const StretchFrame frame = frame_with(scene, raised(0), {raised(0)});
+  const TrajectoryFrame frame = frame_with(scene, raised(0), {raised(0)});
   const auto scalar = make_backend("scalar");
   EXPECT_FALSE(combine(context_of(scene, config), frame, *scalar).empty());
 }
 
 // Frames in which the left arm rises; in one of them the filter lost it.
-std::vector<StretchFrame> with_one_lost(Scene& scene, std::size_t wrong) {
-  std::vector<StretchFrame> frames;
+std::vector<TrajectoryFrame> with_one_lost(Scene& scene, std::size_t wrong) {
+  std::vector<TrajectoryFrame> frames;
   for (std::size_t t = 0; t < 7; ++t) {
     const Pose truth = raised(2.0 * static_cast<double>(t));
     Pose seen = truth;
@@ -160,7 +151,7 @@ TEST(BestTrajectory, MendsAFrameBetweenFramesThatAreRight) {
   const auto frames = with_one_lost(scene, 3);
   TrajectoryConfig config;
   Random random(1);
-  const auto poses = best_trajectory(context_of(scene, config), pointers(frames), nullptr, random);
+  const auto poses = best_trajectory(context_of(scene, config), frames, nullptr, random);
   ASSERT_EQ(poses.size(), frames.size());
   const double was = farthest_joint(scene.joints(frames[3].candidates.front()), scene.joints(raised(6)));
   const double now = farthest_joint(scene.joints(poses[3]), scene.joints(raised(6)));
@@ -174,7 +165,7 @@ TEST(BestTrajectory, SamePosesForAnyNumberOfThreads) {
   TrajectoryConfig config;
   config.evaluations = 200;
   Random first(1);
-  const auto one = best_trajectory(context_of(scene, config), pointers(frames), nullptr, first);
+  const auto one = best_trajectory(context_of(scene, config), frames, nullptr, first);
   Evaluators two("scalar", 2);
   const TrajectoryContext context{.model = scene.model,
                                   .limits = scene.limits,
@@ -182,7 +173,7 @@ TEST(BestTrajectory, SamePosesForAnyNumberOfThreads) {
                                   .config = config,
                                   .evaluators = two};
   Random second(1);
-  const auto many = best_trajectory(context, pointers(frames), nullptr, second);
+  const auto many = best_trajectory(context, frames, nullptr, second);
   for (std::size_t t = 0; t < one.size(); ++t) {
     EXPECT_EQ(one[t].vector(), many[t].vector()) << t;
   }

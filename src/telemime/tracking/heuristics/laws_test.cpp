@@ -69,7 +69,7 @@ struct Step {
 std::vector<Step> run(const FilterConfig& config, int threads, std::uint64_t seed) {
   static const Scene scene;
   Evaluators evaluators("simd", threads);
-  ParticleFilter filter(config, scene.search, scene.limits, evaluators, seed);
+  testing_scene::RunningFilter filter(scene, config, evaluators, seed);
   Pose start = both_arms_seen();
   start[Angle::root_torsion] += 0.15;
   filter.start(start);

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/hand_over.h"
+#include "telemime/live/frame_exchange.h"
 
 #include <utility>
 
 namespace telemime {
 
-LiveSlot* HandOver::begin() {
+LiveSlot* FrameExchange::free_slot() {
   std::unique_lock lock(mutex_);
-  // What is not taken yet is in the other slot.
-  changed_.wait(lock, [this] { return stop_ || finish_ || (ready_ == nullptr && (settled_ || !busy_)); });
-  return stop_ || finish_ ? nullptr : &slots_.at(mine_);
+  // A slot that is not taken yet is the other one.
+  changed_.wait(lock, [this] { return stop_ || finish_ || (ready_ == nullptr && (calibrated_ || !busy_)); });
+  return stop_ || finish_ ? nullptr : &slots_.at(free_);
 }
 
-void HandOver::give() {
+void FrameExchange::publish() {
   {
     const std::lock_guard lock(mutex_);
-    ready_ = &slots_.at(mine_);
-    mine_ = 1 - mine_;
+    ready_ = &slots_.at(free_);
+    free_ = 1 - free_;
   }
   changed_.notify_all();
 }
 
-bool HandOver::wait_for_search() {
+bool FrameExchange::wait_for_search() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return stop_ || finish_ || (ready_ == nullptr && !busy_); });
   return !stop_;
 }
 
-LiveSlot* HandOver::take() {
+LiveSlot* FrameExchange::take() {
   LiveSlot* slot = nullptr;
   {
     std::unique_lock lock(mutex_);
@@ -42,26 +42,26 @@ LiveSlot* HandOver::take() {
   return slot;
 }
 
-void HandOver::done(bool settled) {
+void FrameExchange::done(bool calibrated) {
   {
     const std::lock_guard lock(mutex_);
-    settled_ = settled;
+    calibrated_ = calibrated;
     busy_ = false;
   }
   changed_.notify_all();
 }
 
-bool HandOver::settled() const {
+bool FrameExchange::calibrated() const {
   const std::lock_guard lock(mutex_);
-  return settled_;
+  return calibrated_;
 }
 
-void HandOver::set_settled(bool settled) {
+void FrameExchange::set_calibrated(bool calibrated) {
   const std::lock_guard lock(mutex_);
-  settled_ = settled;
+  calibrated_ = calibrated;
 }
 
-void HandOver::finish() {
+void FrameExchange::finish() {
   {
     const std::lock_guard lock(mutex_);
     finish_ = true;
@@ -69,7 +69,7 @@ void HandOver::finish() {
   changed_.notify_all();
 }
 
-void HandOver::stop() {
+void FrameExchange::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -77,7 +77,7 @@ void HandOver::stop() {
   changed_.notify_all();
 }
 
-bool HandOver::stopping() const {
+bool FrameExchange::stopping() const {
   const std::lock_guard lock(mutex_);
   return stop_;
 }

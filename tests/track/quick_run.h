@@ -3,9 +3,9 @@
 
 #include "support/quick_config.h"
 #include "support/synthetic_clip.h"
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/track_frame.h"
 
-/// A tracker with little work to do, and a clip of a few frames for it.
+/// A run with little work to do, and a clip of a few frames for it.
 namespace telemime {
 
 inline constexpr int kPersonFrames = 6;
@@ -24,8 +24,8 @@ inline Config quick_config() {
   return config;
 }
 
-inline Tracker make_tracker(const Config& config) {
-  return {config, clip().camera};
+inline TrackingRun quick_run(const Config& config) {
+  return make_tracking_run(config, clip().camera);
 }
 
 }  // namespace telemime

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/tracker/tracker.h"
+#include "telemime/tracker/track_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -9,17 +9,17 @@
 #include <opencv2/imgproc.hpp>
 #include <thread>
 
-#include "track/quick_tracker.h"
+#include "track/quick_run.h"
 
 namespace telemime {
 namespace {
 
 std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& frames) {
-  Tracker tracker = make_tracker(config);
-  tracker.learn_background(clip().background);
+  TrackingRun run = quick_run(config);
+  run.scene.features.learn_background(clip().background);
   std::vector<MotionFrame> motion;
   for (const Frame& frame : frames) {
-    motion.push_back(tracker.step(frame).motion);
+    motion.push_back(track_frame(frame, run).estimate.motion);
   }
   return motion;
 }
@@ -108,11 +108,11 @@ TEST(Tracker, TheEffortIsAShareOfTheSearch) {
     const auto evaluations = [&](double effort) {
       Config config = quick_config();
       config.tracking.method = method;
-      Tracker tracker = make_tracker(config);
-      tracker.learn_background(clip().background);
-      tracker.set_effort(effort);
-      tracker.step(clip().person[0]);
-      return tracker.step(clip().person[1]).motion.evaluations;
+      TrackingRun run = quick_run(config);
+      run.scene.features.learn_background(clip().background);
+      track_frame(clip().person[0], run);
+      const FrameFeatures features = extract(clip().person[1], colour_request(run.state), run.scene);
+      return estimate(features, run.tracker, run.state, effort).motion.evaluations;
     };
     const int whole = evaluations(1.0);
     EXPECT_LT(evaluations(0.25), 0.4 * whole) << method;
@@ -148,14 +148,14 @@ TEST(Tracker, AWiderPictureShowsThePersonAtTheSameDistance) {
   Camera camera = clip().camera;
   camera.width += 2 * kBorder;
   camera.cx += kBorder;
-  Tracker tracker(quick_config(), camera);
-  EXPECT_EQ(tracker.config().image.width, 184);
-  EXPECT_EQ(tracker.config().image.height, 104);
-  tracker.learn_background(widened(clip().background));
+  TrackingRun run = make_tracking_run(quick_config(), camera);
+  EXPECT_EQ(run.tracker.config.image.width, 184);
+  EXPECT_EQ(run.tracker.config.image.height, 104);
+  run.scene.features.learn_background(widened(clip().background));
   const auto usual = track(quick_config(), clip().person);
   const std::vector<Frame> frames = widened(clip().person);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const MotionFrame wide = tracker.step(frames[i]).motion;
+    const MotionFrame wide = track_frame(frames[i], run).estimate.motion;
     ASSERT_EQ(wide.state, TrackState::tracking) << i;
     EXPECT_NEAR(wide.joints[Joint::head].z() / usual[i].joints[Joint::head].z(), 1.0, 0.05) << i;
   }
@@ -204,11 +204,11 @@ TEST(Tracker, SameSeedSameMotion) {
 
 TEST(Tracker, LosesThePersonAndFindsThemAgain) {
   const auto frames = coming_and_going(8);
-  Tracker tracker = make_tracker(quick_config());
-  tracker.learn_background(clip().background);
-  std::vector<TrackedFrame> results;
+  TrackingRun run = quick_run(quick_config());
+  run.scene.features.learn_background(clip().background);
+  std::vector<FrameEstimate> results;
   for (const Frame& frame : frames) {
-    results.push_back(tracker.step(frame));
+    results.push_back(track_frame(frame, run).estimate);
   }
   const std::size_t gone = kPersonFrames + 7;  // the last frame without the person
   EXPECT_EQ(results[kPersonFrames - 1].motion.state, TrackState::tracking);
@@ -216,7 +216,7 @@ TEST(Tracker, LosesThePersonAndFindsThemAgain) {
   EXPECT_FALSE(results[gone].note.empty()) << "a reason is given";
   EXPECT_EQ(results.back().motion.state, TrackState::tracking);
   EXPECT_TRUE(results.back().note.empty());
-  for (const TrackedFrame& r : results) {
+  for (const FrameEstimate& r : results) {
     EXPECT_TRUE(r.motion.pose.vector().allFinite());
   }
 }
@@ -230,110 +230,113 @@ TEST(Tracker, NobodyIsNotTracked) {
 }
 
 TEST(Tracker, BlackFramesAreNotTracked) {
-  Tracker tracker = make_tracker(quick_config());  // without a background, too
+  TrackingRun run = quick_run(quick_config());  // without a background, too
   for (int i = 0; i < 4; ++i) {
     const Frame black = {cv::Mat::zeros(240, 320, CV_8UC3), i, i / support::kClipFps};
-    const TrackedFrame result = tracker.step(black);
-    EXPECT_EQ(result.motion.state, TrackState::lost);
-    EXPECT_FALSE(result.note.empty());
+    const FrameRecord result = track_frame(black, run);
+    EXPECT_EQ(result.estimate.motion.state, TrackState::lost);
+    EXPECT_FALSE(result.estimate.note.empty());
   }
 }
 
 TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
-  Tracker first = make_tracker(quick_config());
-  first.learn_background(clip().background);
-  first.step(clip().person.front());
-  ASSERT_TRUE(first.calibration());
-  Tracker second = make_tracker(quick_config());
-  second.set_calibration(*first.calibration(), first.features().calibration());
-  const TrackedFrame found = second.step(clip().person[1]);
-  EXPECT_EQ(found.motion.state, TrackState::tracking) << found.note;
-  EXPECT_EQ(second.model().body.shape[Segment::l_forearm].length,
-            first.calibration()->shape[Segment::l_forearm].length);
+  TrackingRun first = quick_run(quick_config());
+  first.scene.features.learn_background(clip().background);
+  track_frame(clip().person.front(), first);
+  ASSERT_TRUE(first.state.person);
+  TrackingRun second = quick_run(quick_config());
+  use_calibration(*first.state.person, first.scene.features.calibration(), second);
+  const FrameRecord found = track_frame(clip().person[1], second);
+  EXPECT_EQ(found.estimate.motion.state, TrackState::tracking) << found.estimate.note;
+  EXPECT_EQ(second.state.model.body.shape[Segment::l_forearm].length,
+            first.state.person->shape[Segment::l_forearm].length);
 }
 
 TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
-  Tracker in_turn = make_tracker(quick_config());
-  in_turn.learn_background(clip().background);
-  Tracker beside = make_tracker(quick_config());
-  beside.learn_background(clip().background);
-  std::array<SeenFrame, 2> seen;
+  TrackingRun in_turn = quick_run(quick_config());
+  in_turn.scene.features.learn_background(clip().background);
+  TrackingRun beside = quick_run(quick_config());
+  beside.scene.features.learn_background(clip().background);
+  std::array<FrameFeatures, 2> seen;
   const std::vector<Frame>& frames = clip().person;
-  beside.look(frames.front(), beside.settled(), seen[0]);
+  seen[0] = extract(frames.front(), colour_request(beside.state), beside.scene);
   int together = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    SeenFrame& now = seen[i % 2];
-    SeenFrame& next = seen[(i + 1) % 2];
+    FrameFeatures& now = seen[i % 2];
+    FrameFeatures& next = seen[(i + 1) % 2];
     const bool last = i + 1 == frames.size();
     std::thread image_side;
-    if (beside.settled() && !last) {
+    if (beside.state.calibrated() && !last) {
       ++together;
-      image_side = std::thread([&] { beside.look(frames[i + 1], true, next); });
+      image_side = std::thread([&] { next = extract(frames[i + 1], ColourRequest::keep, beside.scene); });
     }
-    const TrackedFrame ours = beside.decide(now);
+    const FrameEstimate ours = estimate(now, beside.tracker, beside.state);
     if (image_side.joinable()) {
       image_side.join();
     } else if (!last) {
-      beside.look(frames[i + 1], beside.settled(), next);
+      next = extract(frames[i + 1], colour_request(beside.state), beside.scene);
     }
-    const TrackedFrame theirs = in_turn.step(frames[i]);
-    ASSERT_EQ(ours.motion.state, theirs.motion.state) << i;
-    ASSERT_EQ(ours.motion.pose.vector(), theirs.motion.pose.vector()) << i;
-    ASSERT_EQ(ours.note, theirs.note) << i;
+    const FrameRecord theirs = track_frame(frames[i], in_turn);
+    ASSERT_EQ(ours.motion.state, theirs.estimate.motion.state) << i;
+    ASSERT_EQ(ours.motion.pose.vector(), theirs.estimate.motion.pose.vector()) << i;
+    ASSERT_EQ(ours.note, theirs.estimate.note) << i;
   }
   EXPECT_GT(together, 3);
 }
 
 TEST(Tracker, StartsWithAPersonWhoIsKnown) {
-  Tracker first = make_tracker(quick_config());
-  first.learn_background(clip().background);
-  const TrackedFrame start = first.step(clip().person.front());
-  ASSERT_TRUE(first.calibration());
-  KnownStart known = {*first.calibration(), start.motion.frame, start.motion.pose};
+  TrackingRun first = quick_run(quick_config());
+  first.scene.features.learn_background(clip().background);
+  const FrameRecord start = track_frame(clip().person.front(), first);
+  ASSERT_TRUE(first.state.person);
+  KnownStart known = {.person = *first.state.person,
+                      .frame = start.estimate.motion.frame,
+                      .pose = start.estimate.motion.pose};
   known.person.shape[Segment::l_forearm].length *= 1.02;
 
-  Tracker second = make_tracker(quick_config());
-  second.learn_background(clip().background);
-  second.start_with(known);
-  const TrackedFrame taken = second.step(clip().person.front());
-  EXPECT_EQ(taken.motion.state, TrackState::tracking);
-  EXPECT_EQ(taken.motion.pose.vector(), known.pose.vector());
-  EXPECT_EQ(second.calibration()->shape[Segment::l_forearm].length,
+  TrackingRun second = quick_run(quick_config());
+  second.scene.features.learn_background(clip().background);
+  second.state.known = known;
+  const FrameRecord taken = track_frame(clip().person.front(), second);
+  EXPECT_EQ(taken.estimate.motion.state, TrackState::tracking);
+  EXPECT_EQ(taken.estimate.motion.pose.vector(), known.pose.vector());
+  EXPECT_EQ(second.state.person->shape[Segment::l_forearm].length,
             known.person.shape[Segment::l_forearm].length);
-  EXPECT_EQ(second.step(clip().person[1]).motion.state, TrackState::tracking);
+  EXPECT_EQ(track_frame(clip().person[1], second).estimate.motion.state, TrackState::tracking);
 }
 
 TEST(Tracker, APersonWhoIsKnownIsTrackedBeforeTheFrameThatTheShapeWasFittedTo) {
-  Tracker first = make_tracker(quick_config());
-  first.learn_background(clip().background);
-  const TrackedFrame start = first.step(clip().person.front());
-  ASSERT_TRUE(first.calibration());
-  KnownStart known = {*first.calibration(), 5, start.motion.pose, 0};
+  TrackingRun first = quick_run(quick_config());
+  first.scene.features.learn_background(clip().background);
+  const FrameRecord start = track_frame(clip().person.front(), first);
+  ASSERT_TRUE(first.state.person);
+  KnownStart known = {
+      .person = *first.state.person, .frame = 5, .pose = start.estimate.motion.pose, .since = 0};
   known.person.shape[Segment::l_forearm].length *= 1.02;
   const auto forearm_at_first = [&](std::int64_t since) {
     known.since = since;
-    Tracker second = make_tracker(quick_config());
-    second.learn_background(clip().background);
-    second.start_with(known);
-    EXPECT_EQ(second.step(clip().person.front()).motion.state, TrackState::tracking);
-    return second.calibration()->shape[Segment::l_forearm].length;
+    TrackingRun second = quick_run(quick_config());
+    second.scene.features.learn_background(clip().background);
+    second.state.known = known;
+    EXPECT_EQ(track_frame(clip().person.front(), second).estimate.motion.state, TrackState::tracking);
+    return second.state.person->shape[Segment::l_forearm].length;
   };
   EXPECT_EQ(forearm_at_first(0), known.person.shape[Segment::l_forearm].length);
   EXPECT_NE(forearm_at_first(5), known.person.shape[Segment::l_forearm].length);
 }
 
 TEST(Tracker, TheSceneOfAnotherTrackerIsNotChangedByThisOne) {
-  Tracker first = make_tracker(quick_config());
-  first.learn_background(clip().background);
-  const cv::Mat before = first.features().calibration().background.mean.l.clone();
-  Tracker second = make_tracker(quick_config());
-  second.set_scene(first.features().calibration());
+  TrackingRun first = quick_run(quick_config());
+  first.scene.features.learn_background(clip().background);
+  const cv::Mat before = first.scene.features.calibration().background.mean.l.clone();
+  TrackingRun second = quick_run(quick_config());
+  second.scene.features.set_calibration(first.scene.features.calibration());
   for (const Frame& frame : clip().person) {
-    second.step(frame);
+    track_frame(frame, second);
   }
-  const cv::Mat& after = first.features().calibration().background.mean.l;
+  const cv::Mat& after = first.scene.features.calibration().background.mean.l;
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0);
-  EXPECT_GT(cv::norm(before, second.features().calibration().background.mean.l, cv::NORM_INF), 0.0)
+  EXPECT_GT(cv::norm(before, second.scene.features.calibration().background.mean.l, cv::NORM_INF), 0.0)
       << "it does follow the light";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/offline/two_way_smoother.h"
+#include "telemime/offline/two_way_smoothing.h"
 
 #include <gtest/gtest.h>
 
@@ -17,28 +17,33 @@ namespace {
 
 using testing::standing;
 
-class TwoWaySmootherTest : public ::testing::Test, protected testing::Stage {
+class TwoWaySmoothingTest : public ::testing::Test, protected testing::Stage {
  protected:
   std::vector<MotionFrame> smoothed(const std::vector<MotionFrame>& frames, int look_ahead,
                                     const std::string& name = "one-euro") const {
     SmoothingOptions options;
     options.name = name;
     options.look_ahead = look_ahead;
-    TwoWaySmoother smoother(options, body, camera);
+    TwoWaySmoothing smoothing = make_two_way_smoothing(options, body, camera);
+    RecordQueue queue;
     std::vector<MotionFrame> result;
-    const auto collect = [&] {
-      while (const auto next = smoother.next()) {
+    const auto collect = [&](bool last) {
+      while (const auto next = smoothed_front(smoothing, queue, last)) {
         result.push_back(*next);
+        queue.records.pop_front();
+        --queue.smoothed;
+        --queue.chosen;
       }
     };
     for (const MotionFrame& f : frames) {
-      smoother.push(f);
-      collect();
+      queue.records.emplace_back().estimate.motion = f;
+      ++queue.chosen;
+      smooth_forward(smoothing, queue);
+      collect(false);
       const std::size_t late = static_cast<std::size_t>(f.frame) + 1 - result.size();
       EXPECT_LE(late, static_cast<std::size_t>(look_ahead));
     }
-    smoother.finish();
-    collect();
+    collect(true);
     return result;
   }
 };
@@ -52,7 +57,7 @@ Pose swinging(double frame) {
   return pose;
 }
 
-TEST_F(TwoWaySmootherTest, WithoutFutureItIsThePlainFilter) {
+TEST_F(TwoWaySmoothingTest, WithoutFutureItIsThePlainFilter) {
   const auto input = frames(30, swinging);
   SmoothingOptions options;
   const auto plain = make_smoother(options, body, camera);
@@ -63,7 +68,7 @@ TEST_F(TwoWaySmootherTest, WithoutFutureItIsThePlainFilter) {
   }
 }
 
-TEST_F(TwoWaySmootherTest, EveryFrameComesOutOnceInOrder) {
+TEST_F(TwoWaySmoothingTest, EveryFrameComesOutOnceInOrder) {
   const auto input = frames(30, swinging);
   for (const int look_ahead : {0, 1, 12, 100}) {
     const auto result = smoothed(input, look_ahead);
@@ -75,14 +80,14 @@ TEST_F(TwoWaySmootherTest, EveryFrameComesOutOnceInOrder) {
   }
 }
 
-TEST_F(TwoWaySmootherTest, APoseThatRestsStays) {
+TEST_F(TwoWaySmoothingTest, APoseThatRestsStays) {
   const auto result = smoothed(frames(20, [](int) { return swinging(7); }), 12);
   for (const MotionFrame& f : result) {
     EXPECT_LT((f.pose.vector() - swinging(7).vector()).norm(), 1e-9);
   }
 }
 
-TEST_F(TwoWaySmootherTest, DoesNotLag) {
+TEST_F(TwoWaySmoothingTest, DoesNotLag) {
   const auto input = frames(200, swinging);
   const auto error_at = [&](const std::vector<MotionFrame>& result, double shift) {
     double sum = 0.0;
@@ -101,7 +106,7 @@ TEST_F(TwoWaySmootherTest, DoesNotLag) {
   }
 }
 
-TEST_F(TwoWaySmootherTest, IsSteadierThanThePlainFilter) {
+TEST_F(TwoWaySmoothingTest, IsSteadierThanThePlainFilter) {
   Random random(3);
   const auto input = frames(200, [&](int) {
     Pose pose = standing();
@@ -120,7 +125,7 @@ TEST_F(TwoWaySmootherTest, IsSteadierThanThePlainFilter) {
   EXPECT_LT(jitter(smoothed(input, 12)), 0.75 * jitter(smoothed(input, 0)));
 }
 
-TEST_F(TwoWaySmootherTest, LostFramesPassAndPartWhatIsBeforeFromWhatIsAfter) {
+TEST_F(TwoWaySmoothingTest, LostFramesPassAndPartWhatIsBeforeFromWhatIsAfter) {
   auto input = frames(30, [](int t) {
     Pose pose = standing();
     pose.root.x() = t < 15 ? 0.0 : 0.5;
@@ -137,7 +142,7 @@ TEST_F(TwoWaySmootherTest, LostFramesPassAndPartWhatIsBeforeFromWhatIsAfter) {
   }
 }
 
-TEST_F(TwoWaySmootherTest, FramesThatAreNotFinitePass) {
+TEST_F(TwoWaySmoothingTest, FramesThatAreNotFinitePass) {
   auto input = frames(10, swinging);
   input[4].pose.root.x() = std::numeric_limits<double>::quiet_NaN();
   const auto result = smoothed(input, 5);
@@ -147,11 +152,11 @@ TEST_F(TwoWaySmootherTest, FramesThatAreNotFinitePass) {
   }
 }
 
-TEST_F(TwoWaySmootherTest, RefusesALookAheadThatCannotBe) {
+TEST_F(TwoWaySmoothingTest, RefusesALookAheadThatCannotBe) {
   for (const int look_ahead : {-1, 251}) {
     SmoothingOptions options;
     options.look_ahead = look_ahead;
-    EXPECT_THROW(TwoWaySmoother(options, body, camera), Error) << look_ahead;
+    EXPECT_THROW(make_two_way_smoothing(options, body, camera), Error) << look_ahead;
   }
 }
 

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/file_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "telemime/offline/overlay.h"
+#include "telemime/tracker/set_up.h"
+
+namespace telemime {
+
+void RunStatistics::add(const MotionFrame& motion) {
+  ++frames;
+  for (const auto& [stage, ms] : motion.stage_ms) {
+    stage_ms[stage].push_back(ms);
+  }
+  if (motion.state != TrackState::tracking) {
+    return;
+  }
+  first_tracked = first_tracked < 0 ? motion.frame : first_tracked;
+  ++tracked;
+  region += motion.region_score;
+  contour += motion.contour_score;
+  evaluations += motion.evaluations;
+}
+
+nlohmann::json RunStatistics::json() const {
+  const double n = std::max<double>(1.0, static_cast<double>(tracked));
+  nlohmann::json json = {
+      {"frames", frames},     {"tracked", tracked},      {"first_tracked", first_tracked},
+      {"mean_F", region / n}, {"mean_D_C", contour / n}, {"mean_evaluations", evaluations / n}};
+  for (const auto& [stage, values] : stage_ms) {
+    std::vector<double> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const auto at = [&](double q) { return sorted[static_cast<std::size_t>(q * (sorted.size() - 1))]; };
+    json["ms"][stage] = {{"median", at(0.5)}, {"p95", at(0.95)}};
+  }
+  return json;
+}
+
+FileRun::FileRun(const TrackRequest& request, const RunHooks& hooks, const SourceInfo& info,
+                 const TrackingRun& run)
+    : request_(request),
+      hooks_(hooks),
+      info_(info),
+      run_(run),
+      outputs_(request, info.fps),
+      fill_seeds_(fill_back_seeds(run.tracker.config)),
+      window_(run.tracker.config) {}
+
+int FileRun::picture_side() const {
+  constexpr int kLongestSide = 960;
+  return request_.overlay || hooks_.draw ? kLongestSide : 0;
+}
+
+ViewerRequest FileRun::add(FrameRecord record) {
+  ++frames_;
+  note(record.estimate.note);
+  for (const std::string& warning : record.features.warnings) {
+    note(warning);
+  }
+  if (run_.state.person && !smoothing_) {
+    begin();
+  }
+  keep_picture(picture_side(), record.frame);
+  // Of the features only what fill_back() asks for is still needed.
+  const bool person_present = record.features.person_present;
+  record.features = {};
+  record.features.person_present = person_present;
+  queue_.records.push_back(std::move(record));
+  const std::size_t filled = fill_back(run_.tracker, run_.state, fill_seeds_, queue_);
+  note(filled == 0 ? ""
+                   : "found, and followed back through the " + std::to_string(filled) + " frames before");
+  const MotionFrame motion = queue_.records.back().estimate.motion;
+  advance(false);
+  if (!hooks_.progress) {
+    return ViewerRequest::none;
+  }
+  return hooks_.progress(
+      {.frames = frames_,
+       .total = info_.frames,
+       .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
+       .motion = &motion,
+       .overlay = overlay_.empty() ? nullptr : &overlay_});
+}
+
+void FileRun::end_person() {
+  end_fill_back(run_.tracker, queue_);
+  advance(true);
+}
+
+TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
+                             const std::vector<std::string>& scene_messages) {
+  if (!smoothing_) {
+    begin();
+  }
+  end_fill_back(run_.tracker, queue_);
+  if (interrupted) {
+    keep_forward_poses(queue_);  // a user who stops a run does not want to wait for it
+  }
+  advance(true);
+  write_ready(true);
+  // What the run was like.
+  TrackSummary summary;
+  summary.frames = statistics_.frames;
+  summary.tracked = statistics_.tracked;
+  summary.first_tracked = statistics_.first_tracked;
+  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  summary.interrupted = interrupted;
+  summary.report = statistics_.json();
+  summary.report["input"] = info_.name;
+  summary.report["fps"] = info_.fps;
+  summary.report["seconds"] = summary.seconds;
+  summary.report["interrupted"] = interrupted;
+  summary.report["scene"] = scene_messages;
+  summary.report["notes"] = notes_;
+  if (!complaint.empty()) {
+    summary.report["complaint"] = complaint;
+  }
+  if (run_.state.person) {
+    summary.report["scale_from"] = run_.state.person->scale_from;
+    summary.report["calibration_refusal"] = run_.state.person->refusal;
+  }
+  summary.report["files"] = outputs_.files();
+  outputs_.close(summary.report);
+  return summary;
+}
+
+// Every output file begins with the person's shape.
+void FileRun::begin() {
+  const StreamHeader header = header_of(info_, run_);
+  outputs_.begin(header);
+  smoothing_ = make_two_way_smoothing(request_.config.smoothing, header.body, header.camera);
+}
+
+// The passes in turn, each as far as it can go. `last`: no frame of the same person follows.
+void FileRun::advance(bool last) {
+  choose_poses(run_.tracker, run_.state.model, last, window_, queue_);
+  if (smoothing_) {
+    smooth_forward(*smoothing_, queue_);
+    write_ready(false);
+    return;
+  }
+  // Nobody was found yet, maybe for a long time: the pictures are drawn as they come.
+  for (; drawn_ < queue_.chosen; ++drawn_) {
+    FrameRecord& record = queue_.records[drawn_];
+    draw(record, record.estimate.motion);
+    record.frame.image.release();
+  }
+}
+
+void FileRun::write_ready(bool last) {
+  while (const auto motion = smoothed_front(*smoothing_, queue_, last)) {
+    const FrameRecord& record = queue_.records.front();
+    outputs_.write(*motion);
+    statistics_.add(*motion);
+    if (drawn_ > 0) {
+      --drawn_;
+    } else {
+      draw(record, *motion);
+    }
+    queue_.records.pop_front();
+    --queue_.filled;
+    --queue_.chosen;
+    --queue_.smoothed;
+  }
+}
+
+void FileRun::draw(const FrameRecord& record, const MotionFrame& motion) {
+  if (picture_side() == 0) {
+    return;
+  }
+  overlay_ = draw_overlay(record.frame.image, {.motion = &motion,
+                                               .model = &run_.state.model,
+                                               .camera = run_.tracker.camera,
+                                               .note = record.estimate.note});
+  if (request_.overlay) {
+    outputs_.write_overlay(overlay_);
+  }
+}
+
+// Each note once, whatever its numbers, with the frame at which it came up first.
+void FileRun::note(const std::string& message) {
+  if (message.empty() || !reported_.first_time(message)) {
+    return;
+  }
+  notes_.push_back({{"frame", frames_ - 1}, {"note", message}});
+  if (hooks_.message) {
+    hooks_.message("frame " + std::to_string(frames_ - 1) + ": " + message);
+  }
+}
+
+}  // namespace telemime

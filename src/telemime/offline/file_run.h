@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "telemime/capture/source.h"
+#include "telemime/offline/choose_poses.h"
+#include "telemime/offline/fill_back.h"
+#include "telemime/offline/run_outputs.h"
+#include "telemime/offline/track_file.h"
+#include "telemime/offline/two_way_smoothing.h"
+#include "telemime/tracker/message_deduplicator.h"
+
+namespace telemime {
+
+/// Numbers over the frames of a run, for the report.
+struct RunStatistics {
+  std::int64_t frames = 0;
+  std::int64_t tracked = 0;
+  std::int64_t first_tracked = -1;
+  double region = 0.0;       ///< sum of F
+  double contour = 0.0;      ///< sum of D_C
+  double evaluations = 0.0;  ///< sum
+  std::map<std::string, std::vector<double>> stage_ms;
+
+  void add(const MotionFrame& motion);
+  nlohmann::json json() const;
+};
+
+/// The tracked frames of a file on their way into the output files: one queue of records, over which the
+/// passes go in turn (backward fill, choice of poses, smoothing, writing).
+class FileRun {
+ public:
+  /// All arguments must outlive the run. Throws Error(output), Error(usage), Error(config).
+  FileRun(const TrackRequest& request, const RunHooks& hooks, const SourceInfo& info, const TrackingRun& run);
+
+  /// Takes up the next frame: reports it, and lets every pass go as far as it can.
+  ViewerRequest add(FrameRecord record);
+  /// The frames that wait belong to the person who was followed until now.
+  void end_person();
+  /// Writes what waits and the report.
+  TrackSummary finish(bool interrupted, const std::string& complaint,
+                      const std::vector<std::string>& scene_messages);
+
+  std::int64_t frames() const { return frames_; }
+  /// Longest side of the pictures that are drawn, pixels; 0: none are.
+  int picture_side() const;
+
+ private:
+  void begin();
+  void advance(bool last);
+  void write_ready(bool last);
+  void draw(const FrameRecord& record, const MotionFrame& motion);
+  void note(const std::string& message);
+
+  const TrackRequest& request_;
+  const RunHooks& hooks_;
+  const SourceInfo& info_;
+  const TrackingRun& run_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RunOutputs outputs_;
+  RecordQueue queue_;
+  std::size_t drawn_ = 0;  ///< records of the queue that are drawn already
+  Random fill_seeds_;
+  WindowState window_;
+  std::optional<TwoWaySmoothing> smoothing_;  ///< since a person was calibrated
+  RunStatistics statistics_;
+  std::int64_t frames_ = 0;  ///< taken up so far; fewer are written
+  cv::Mat overlay_;          ///< the last one drawn
+  MessageDeduplicator reported_;
+  nlohmann::json notes_ = nlohmann::json::array();
+};
+
+}  // namespace telemime

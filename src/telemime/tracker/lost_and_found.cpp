@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/lost_and_found.h"
+
+#include <algorithm>
+
+#include "telemime/search/calibration.h"
+
+namespace telemime {
+namespace {
+
+std::string scale_source(const CalibrationConfig& config) {
+  return config.stature ? "the height given" : "an average adult's head (no height was given)";
+}
+
+void set_person(const CalibratedPerson& person, TrackerState& state) {
+  state.person = person;
+  state.model = make_model(person.shape);
+}
+
+void start_tracking(const Pose& pose, const Score& score, TrackerState& state, FrameEstimate& result) {
+  state.phase = Phase::tracking;
+  state.previous = pose;
+  adopt(pose, score, state, result);
+}
+
+// The shape and pose of somebody new, fitted to one frame.
+void calibrate_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+                      FrameEstimate& result) {
+  const Config& config = tracker.config;
+  // A person in profile has a head, too, but no shape that could be fitted.
+  if (!features.head->detected && !features.face_learned) {
+    lose("waiting for a face that looks at the camera", tracker, state, result);
+    state.steps_until_search = 1.0;
+    return;
+  }
+  const Calibration fit = calibrate(*tracker.backend, *result.prepared, *features.head, tracker.limits,
+                                    config.calibration, config.registration, state.random);
+  result.motion.evaluations += fit.evaluations;
+  const bool patient = state.waited < config.tracking.calibration_patience;
+  if (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient)) {
+    lose("waiting for a better first frame: " + fit.refusal, tracker, state, result);
+    return;
+  }
+  set_person({.shape = fit.shape,
+              .scale_from = scale_source(config.calibration),
+              .refusal = fit.refusal,
+              .score = fit.score,
+              .height_given = config.calibration.stature.has_value()},
+             state);
+  start_tracking(fit.pose, fit.score, state, result);
+}
+
+}  // namespace
+
+void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+                 FrameEstimate& result) {
+  const std::int64_t frame = result.motion.frame;
+  // No head, nobody to search for.
+  if (!features.head) {
+    state.waited = 0;
+    lose("nobody is found: the head must be in the picture", tracker, state, result);
+    return;
+  }
+  // The frame in which the pose of a known person was given.
+  if (state.known && frame == state.known->frame) {
+    set_person(state.known->person, state);
+    Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits);
+    const Pose pose = state.known->pose;
+    start_tracking(pose, objective.score(pose, objective.cues().needs()), state, result);
+    return;
+  }
+  // Somebody new. A person whose shape is known and who is in the picture already needs a pose only.
+  if (!state.person) {
+    if (state.known && frame >= state.known->since && (features.head->detected || features.face_learned)) {
+      set_person(state.known->person, state);
+    } else {
+      calibrate_person(features, tracker, state, result);
+      return;
+    }
+  }
+  // The pose of the known person, searched for in the whole image.
+  Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits);
+  const Pose found = initialise_pose(objective, *features.head, tracker.config.calibration,
+                                     tracker.config.registration, state.random);
+  const Score score = objective.score(found, objective.cues().needs());
+  result.motion.evaluations += objective.evaluations();
+  if (score.region() > tracker.config.tracking.found_region) {
+    lose("somebody is there, but the body does not fit", tracker, state, result);
+    return;
+  }
+  start_tracking(found, score, state, result);
+}
+
+void check_fit(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+               FrameEstimate& result) {
+  if (!features.person_present) {
+    lose("nobody is in the picture", tracker, state, result);
+    return;
+  }
+  const TrackingConfig& config = tracker.config.tracking;
+  const bool bad = result.motion.region_score > config.lost_region || !features.head;
+  state.bad_frames = bad ? state.bad_frames + 1 : 0;
+  state.bad_for = bad ? state.bad_for + state.steps : 0.0;
+  // At a few frames a second one bad frame lasts as long as the patience.
+  if (state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience)) {
+    lose("the body no longer fits the picture", tracker, state, result);
+  }
+}
+
+void lose(const std::string& reason, const Tracker& tracker, TrackerState& state, FrameEstimate& result) {
+  state.phase = state.person ? Phase::lost : Phase::waiting;
+  state.bad_frames = 0;
+  state.bad_for = 0.0;
+  state.filter.particles.clear();
+  state.steps_until_search = tracker.config.tracking.retry_every;
+  result.note = reason;
+}
+
+void adopt(const Pose& pose, const Score& score, TrackerState& state, FrameEstimate& result) {
+  state.pose = pose;
+  result.motion.region_score = score.region();
+  result.motion.contour_score = score.contour();
+  result.note.clear();
+}
+
+}  // namespace telemime

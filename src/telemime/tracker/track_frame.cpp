@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// The method. `extract` is the image side and `estimate` the search side of one frame; everything they
+// remember is in SceneState and TrackerState.
+#include "telemime/tracker/track_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "telemime/core/stopwatch.h"
+#include "telemime/tracker/lost_and_found.h"
+#include "telemime/tracking/posterior.h"
+
+namespace telemime {
+namespace {
+
+constexpr int kFacelessFrames = 25;  // with a head but no face, until the head's outline must do
+constexpr double kRate = 25.0;       // frames a second that the motion model is made for
+
+// The person's colours, learned from a frame that shows their face. True where colours are known now.
+bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
+  if (request == ColourRequest::keep) {
+    return true;
+  }
+  // A masked face is never found: after a while the head's outline must do, and colours that were learned
+  // from somebody still walking are learned again.
+  const bool faceless = request == ColourRequest::learn_faceless;
+  if (scene.features.calibration().colours.known() && !faceless && !scene.relearn_colours) {
+    return true;
+  }
+  const PersonReport report = scene.features.learn_person(frame);
+  features.note = report.reason;
+  features.face_learned = report.accepted;
+  if (report.accepted) {
+    scene.since = frame.index;
+    scene.relearn_colours = false;
+  }
+  return report.accepted || faceless;
+}
+
+// The estimate of a frame before anything is known of it: the last pose stands.
+FrameEstimate begin_estimate(const FrameFeatures& features, const TrackerState& state) {
+  FrameEstimate result;
+  result.motion.frame = features.frame;
+  result.motion.time = features.time;
+  result.motion.pose = state.pose;
+  result.motion.stage_ms.emplace_back("features", features.ms);
+  result.note = features.note;
+  return result;
+}
+
+void advance_time(double time, TrackerState& state) {
+  state.steps_before = state.steps;
+  state.steps = steps_between(state.time, time);
+  state.time = time;
+}
+
+bool search_is_due(std::int64_t frame, TrackerState& state) {
+  ++state.waited;
+  state.steps_until_search -= state.steps;
+  return state.steps_until_search <= 0.0 || (state.known && frame == state.known->frame);
+}
+
+// One step of the particle filter (thesis 4.4): the stages are in ParticleFilter::step.
+Score follow_with_filter(const Tracker& tracker, double effort, TrackerState& state, FrameEstimate& result) {
+  if (!state.filter.started()) {
+    start_filter(state.pose, tracker.limits, state.filter);
+  }
+  const FilterResult found = tracker.filter->step({.frame = *result.prepared,
+                                                   .model = state.model,
+                                                   .velocity = tracker.config.tracking.velocity,
+                                                   .effort = effort,
+                                                   .time_step = state.steps},
+                                                  state.filter);
+  result.motion.evaluations += found.evaluations;
+  result.motion.spread = spread_of_filter(tracker, state, state.filter, found);
+  state.heading = found.heading;
+  state.previous = std::exchange(state.pose, found.pose);
+  return found.score;
+}
+
+// The two-step registration alone (thesis 2.4.4.4, 3.5.4): from the predicted pose or the last one, whichever
+// fits better.
+Score follow_with_registration(const Tracker& tracker, double effort, TrackerState& state,
+                               FrameEstimate& result) {
+  RegistrationConfig search = for_time_step(tracker.config.registration, state.steps);
+  search.iterations = std::max(1, static_cast<int>(std::lround(effort * search.iterations)));
+  const double velocity = tracker.config.tracking.velocity * state.steps / state.steps_before;
+  const Pose predicted = predict_pose(state.pose, state.previous, velocity, tracker.limits);
+  // The start is chosen without a prior, and is then the prior of the search.
+  Objective by_image(*tracker.backend, *result.prepared, state.model, tracker.limits);
+  const bool goes_on = by_image(predicted, search.region) < by_image(state.pose, search.region);
+  const Pose start = goes_on ? predicted : state.pose;
+  Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits,
+                      prior_at(state.model.body, start));
+  const RegistrationResult found = register_pose(objective, start, search, state.random);
+  result.motion.evaluations += by_image.evaluations() + objective.evaluations();
+  result.motion.stage_ms.emplace_back("regions", found.region_ms);
+  result.motion.stage_ms.emplace_back("edges", found.edge_ms);
+  state.previous = std::exchange(state.pose, found.pose);
+  return found.score;
+}
+
+// The best pose of each mode of the posterior, which the passes over a whole file choose among.
+std::vector<Pose> modes_of(const Tracker& tracker, const TrackerState& state) {
+  return state.filter.started()
+             ? mode_poses(tracker.config.filter, state.filter.particles, state.model.body, state.pose)
+             : std::vector{state.pose};
+}
+
+}  // namespace
+
+ColourRequest colour_request(const TrackerState& state) {
+  if (state.calibrated()) {
+    return ColourRequest::keep;
+  }
+  const bool faceless =
+      state.phase == Phase::waiting && state.waited > 0 && state.waited % kFacelessFrames == 0;
+  return faceless ? ColourRequest::learn_faceless : ColourRequest::learn;
+}
+
+FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& scene) {
+  Stopwatch watch;
+  // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
+  FrameFeatures learned;
+  const bool has_colours = learn_colours(frame, request, scene, learned);
+  // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1).
+  FrameFeatures features = scene.features.extract(frame);
+  // Whom and what the scene model sees, and what breaks its assumptions.
+  features.warnings = scene.features.status().warnings;
+  features.person_present = scene.features.status().person;
+  features.note = learned.note;
+  features.face_learned = learned.face_learned;
+  features.has_colour_model = has_colours;
+  if (!features.head) {
+    scene.since = frame.index + 1;
+  }
+  features.frame = frame.index;
+  features.time = frame.time;
+  features.ms = watch.lap();
+  return features;
+}
+
+FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+                       double effort) {
+  Stopwatch watch;
+  FrameEstimate result = begin_estimate(features, state);
+  advance_time(features.time, state);
+  if (features.has_colour_model) {
+    // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
+    result.prepared = prepare(features, tracker.working_camera);
+    if (state.phase == Phase::tracking) {
+      // Predict, propose, score, resample and refine the hypotheses; choose a pose (thesis 3.5, 4.4).
+      const Score score = tracker.filter ? follow_with_filter(tracker, effort, state, result)
+                                         : follow_with_registration(tracker, effort, state, result);
+      adopt(state.pose, score, state, result);
+      // Lost: nobody in the picture, or a body that no longer fits.
+      check_fit(features, tracker, state, result);
+    } else if (search_is_due(features.frame, state)) {
+      // Found: the first frame that the body can be fitted to (thesis 3.3), or the known person again.
+      find_person(features, tracker, state, result);
+    }
+  }
+  // What passes over a whole file choose among.
+  const bool tracking = state.phase == Phase::tracking;
+  if (tracking && tracker.config.look_back) {
+    result.heading = state.heading;
+    result.modes = modes_of(tracker, state);
+  }
+  // Joints in metres, and their pixels in the input's frame.
+  result.motion.state = tracking ? TrackState::tracking : TrackState::lost;
+  result.motion.pose = state.pose;
+  place_joints(state.model.body, tracker.camera, result.motion);
+  result.motion.stage_ms.emplace_back("search", watch.lap());
+  return result;
+}
+
+FrameRecord track_frame(const Frame& frame, TrackingRun& run) {
+  FrameRecord record{.frame = frame, .features = {}, .estimate = {}};
+  record.features = extract(frame, colour_request(run.state), run.scene);
+  record.estimate = estimate(record.features, run.tracker, run.state);
+  return record;
+}
+
+double steps_between(double before, double now) {
+  const double steps = kRate * (now - before);
+  // The clocks of cameras are not that exact.
+  return std::abs(steps - 1.0) < 0.05 || !(steps > 0.0) ? 1.0 : std::clamp(steps, 0.2, 8.0);
+}
+
+void place_joints(const Body& body, const Camera& camera, MotionFrame& motion) {
+  motion.joints = forward_kinematics(body, motion.pose).joints;
+  for (std::size_t i = 0; i < kJointCount; ++i) {
+    Eigen::Vector3d p = motion.joints.at[i];
+    p.z() = std::max(p.z(), 0.01);
+    motion.pixels[i] = camera.project(p);
+  }
+}
+
+PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, const FilterState& filter,
+                            const FilterResult& found) {
+  const SpreadModel& model = tracker.filter->numbers().spread;
+  const bool height_given = state.person && state.person->height_given;
+  return spread_of({.body = state.model.body,
+                    .camera = tracker.working_camera,
+                    .region = found.score.region(),
+                    .size = height_given ? model.size_given : model.size},
+                   filter.particles, found.pose, model);
+}
+
+}  // namespace telemime

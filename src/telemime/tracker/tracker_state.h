@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "telemime/body/limits.h"
+#include "telemime/core/camera.h"
+#include "telemime/core/random.h"
+#include "telemime/image/features.h"
+#include "telemime/tracker/config.h"
+#include "telemime/tracking/particle_filter.h"
+
+namespace telemime {
+
+/// The person as calibration found them: enough to track them again without calibrating.
+struct CalibratedPerson {
+  Shape shape;
+  std::string scale_from;     ///< where the absolute scale comes from: a sentence part for reports
+  std::string refusal;        ///< why the arms kept average proportions; empty: they were fitted
+  Score score;                ///< of the pose that the shape was fitted with
+  bool height_given = false;  ///< the scale is that of a height that the user gave
+};
+
+/// A person whose shape is known before tracking starts, and where tracking starts.
+struct KnownStart {
+  CalibratedPerson person;
+  std::int64_t frame = 0;  ///< tracking starts here with `pose`, unless a search found the person earlier
+  Pose pose;
+  /// From this frame on the person had the colours that are known and stayed in the picture, so that a search
+  /// may find them although their shape could not be fitted yet.
+  std::int64_t since = frame;
+};
+
+enum class Phase {
+  waiting,   ///< nobody was calibrated yet
+  tracking,  ///< the person is followed from frame to frame
+  lost       ///< the person is known and searched for
+};
+
+/// Everything that `estimate` carries from frame to frame: plain data, so that a copy is a snapshot that
+/// tracking can go on from.
+struct TrackerState {
+  Phase phase = Phase::waiting;
+  std::optional<CalibratedPerson> person;
+  std::optional<KnownStart> known;  ///< set before the first frame, or not at all
+  Model model;                      ///< of the person, or of an average body
+  Pose pose;                        ///< of the last frame in which the person was tracked
+  Pose previous;                    ///< of the one before
+  FilterState filter;               ///< particles; empty while nobody is tracked or the method has none
+  double heading = 0.0;             ///< torsion of the root that the filter's last step predicted, rad
+  Random random{1};                 ///< of every draw outside the filter
+
+  double time = 0.0;                ///< of the last frame, s
+  double steps = 1.0;               ///< between the last two frames, in 1/25 s
+  double steps_before = 1.0;        ///< between the two before these
+  int bad_frames = 0;               ///< in a row: frames that the body does not fit
+  double bad_for = 0.0;             ///< how long that has lasted, in 1/25 s
+  double steps_until_search = 0.0;  ///< while not tracking, until the next search, in 1/25 s
+  int waited = 0;                   ///< frames since a head came into the picture, while not tracking
+
+  bool calibrated() const { return person.has_value(); }
+};
+
+/// What stays the same for a whole run: the settings, the cameras, the limits, the evaluation of poses.
+struct Tracker {
+  Config config;
+  Camera camera;          ///< of the input's frames
+  Camera working_camera;  ///< of the working image
+  JointLimits limits;
+  std::unique_ptr<Backend> backend;        ///< evaluates single poses
+  std::unique_ptr<Evaluators> evaluators;  ///< evaluates batches; null for the method two-step
+  std::unique_ptr<ParticleFilter> filter;  ///< null for the method two-step
+};
+
+/// What `extract` carries from frame to frame: the scene, the person's colours, the head.
+struct SceneState {
+  FeatureExtractor features;
+  /// The frame since which a head has been in the picture, with the colours that are known now.
+  std::int64_t since = 0;
+  bool relearn_colours = false;  ///< the known colours may be somebody else's
+};
+
+/// A tracker and what it remembers. `extract` changes the scene alone and `estimate` the state alone, so that
+/// two threads can run them side by side on consecutive frames.
+struct TrackingRun {
+  Tracker tracker;
+  SceneState scene;
+  TrackerState state;
+};
+
+/// `camera` is that of the input's frames. Throws Error(config).
+TrackingRun make_tracking_run(const Config& config, const Camera& camera);
+
+/// Takes over the person and the scene that another run of the same camera calibrated.
+void use_calibration(const CalibratedPerson& person, const ImageCalibration& image, TrackingRun& run);
+
+/// Forgets the person, but not the scene: the next frames calibrate whoever they show, their colours
+/// included. Neither `extract` nor `estimate` may run at the same time.
+void forget_person(TrackingRun& run);
+
+}  // namespace telemime
