@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same clip as a file and as if it were a camera.
+// The same clip as a file and in place of a camera.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "live/heard.h"
+#include "live/session_events.h"
 #include "telemime/capture/paced.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/offline/track_file.h"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kFrames = 20;
 
-// The beginning of a file.
+// The first frames of a file.
 class FirstFrames final : public Source {
  public:
   explicit FirstFrames(std::unique_ptr<Source> file) : file_(std::move(file)) {}
@@ -32,13 +32,13 @@ class FirstFrames final : public Source {
   std::int64_t left_ = kFrames;
 };
 
-// A clock that is always where it is waited for: a tracker of any speed is in time, and no frame is dropped.
+// A clock that jumps to any time that is waited for: no tracker is late, and no frame is dropped.
 Clock patient_clock() {
   const auto now = std::make_shared<std::atomic<double>>(50.0);
   return {[now] { return now->load(); }, [now](double time) { now->store(time); }};
 }
 
-// What is equal: one background, no look-ahead, no future in the smoothing.
+// Equal conditions: the same background, no look-ahead, no future frames in the smoothing.
 TrackRequest demo() {
   TrackRequest request;
   const std::filesystem::path folder = TELEMIME_SOURCE_DIR "/data/demo";
@@ -55,7 +55,7 @@ TrackRequest demo() {
   return request;
 }
 
-TEST(LiveAndFile, APacedFileGivesThePosesOfFileMode) {
+TEST(LiveAndFile, PacedFileGivesPosesOfFileMode) {
   const ScratchFolder folder;
   TrackRequest request = demo();
   request.config.smoothing.name = "none";
@@ -68,21 +68,21 @@ TEST(LiveAndFile, APacedFileGivesThePosesOfFileMode) {
   };
   track_file(request, hooks);
 
-  live_testing::Heard heard;
+  live_testing::SessionEvents events;
   std::int64_t dropped = -1;
   {
     LiveSession session(request, false,
                         pace(std::make_unique<FirstFrames>(open_source(request.input)), patient_clock()),
-                        heard.hooks());
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+                        events.hooks());
+    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
     dropped = session.state().rates.dropped;
   }
   ASSERT_EQ(dropped, 0);
   ASSERT_EQ(file.size(), static_cast<std::size_t>(kFrames));
-  ASSERT_GT(heard.motion.size(), 10U);
-  heard.motion.pop_back();  // at the end the person is gone
+  ASSERT_GT(events.motion.size(), 10U);
+  events.motion.pop_back();  // at the end the person is lost
   int tracked = 0;
-  for (const MotionFrame& live : heard.motion) {
+  for (const MotionFrame& live : events.motion) {
     const MotionFrame& same = file.at(static_cast<std::size_t>(live.frame));
     EXPECT_EQ(live.state, same.state) << live.frame;
     EXPECT_EQ(live.pose.vector(), same.pose.vector()) << live.frame;
@@ -90,35 +90,36 @@ TEST(LiveAndFile, APacedFileGivesThePosesOfFileMode) {
     tracked += live.state == TrackState::tracking ? 1 : 0;
   }
   EXPECT_GT(tracked, 10);
-  for (std::int64_t frame = 0; frame < heard.motion.front().frame; ++frame) {
-    EXPECT_EQ(file.at(static_cast<std::size_t>(frame)).state, TrackState::lost) << "before there is a person";
+  for (std::int64_t frame = 0; frame < events.motion.front().frame; ++frame) {
+    EXPECT_EQ(file.at(static_cast<std::size_t>(frame)).state, TrackState::lost)
+        << "before a person is calibrated";
   }
 }
 
-TEST(LiveAndFile, WithTheSameSmoothingTheFilesAreEqual) {
+TEST(LiveAndFile, FilesAreEqualWithSameSmoothing) {
   const ScratchFolder folder;
   TrackRequest request = demo();
   request.out = folder.file("out");
   track_file(request, {});
   const PoseFile file = read_pose_jsonl(request.out / "pose.jsonl");
 
-  live_testing::Heard heard;
+  live_testing::SessionEvents events;
   StreamHeader header;
-  LiveHooks hooks = heard.hooks();
+  LiveHooks hooks = events.hooks();
   hooks.person = [&](const StreamHeader& person) { header = person; };
   {
     LiveSession session(request, false,
                         pace(std::make_unique<FirstFrames>(open_source(request.input)), patient_clock()),
                         hooks);
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
   }
-  heard.motion.pop_back();
+  events.motion.pop_back();
   const auto* const format = std::find_if(kOutputFormats.begin(), kOutputFormats.end(),
                                           [](const OutputFormat& f) { return f.name == "jsonl"; });
   ASSERT_NE(format, kOutputFormats.end());
   const auto encoder = format->make({});
   std::string text = encoder->begin(header);
-  for (const MotionFrame& motion : heard.motion) {
+  for (const MotionFrame& motion : events.motion) {
     text += encoder->frame(motion);
   }
   const PoseFile live = parse_pose_jsonl(text + encoder->end(), "live");

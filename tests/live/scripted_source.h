@@ -13,14 +13,14 @@
 
 namespace telemime::live_testing {
 
-/// What a camera shows, for a test to change while it runs: the same pictures again and again.
+/// The images of a camera, repeated; a test can change them during a run.
 class Scene {
  public:
-  /// No frames: the camera gives nothing until there are some.
+  /// Without frames, the camera delivers nothing until there are some.
   void show(std::vector<Frame> frames);
-  /// The camera is unplugged for good.
+  /// The camera ends permanently.
   void end();
-  /// Of a Source: from any thread.
+  /// Like Source::stop: from any thread.
   void stop();
   std::optional<Frame> next();
   const Frame& first() const { return first_; }
@@ -35,13 +35,13 @@ class Scene {
   bool ended_ = false;
 };
 
-/// A camera that shows the scene, a picture each millisecond or slower. `scene` must show something already.
+/// A camera that delivers the scene, at most one image per millisecond. `scene` must have frames.
 std::unique_ptr<Source> camera_of(std::shared_ptr<Scene> scene);
 
-/// A quick tracker, with the empty room in a folder of pictures; few pixels, few evaluations.
+/// A request for a quick tracker (few pixels, few evaluations) with the background as a folder of images.
 TrackRequest quick_request(const ScratchFolder& folder);
 
-/// The synthetic person and the room, rendered once.
+/// The synthetic person and the empty scene, rendered once.
 const std::vector<Frame>& person();
 const std::vector<Frame>& empty_room();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "live/heard.h"
 #include "live/scripted_source.h"
+#include "live/session_events.h"
 #include "support/list_source.h"
 #include "telemime/live/live_session.h"
 #include "telemime/tracker/set_up.h"
@@ -13,10 +13,10 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::empty_room;
-using live_testing::Heard;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::Scene;
+using live_testing::SessionEvents;
 
 std::vector<Frame> several_times(int times) {
   std::vector<Frame> frames;
@@ -30,14 +30,14 @@ std::vector<Frame> several_times(int times) {
   return frames;
 }
 
-TEST(LiveSession, WithoutDroppedFramesGivesWhatATrackerGives) {
+TEST(LiveSession, EqualsTrackerWithoutDroppedFrames) {
   const ScratchFolder folder;
   const TrackRequest request = quick_request(folder);
   const std::vector<Frame> frames = several_times(3);
-  Heard heard;
+  SessionEvents events;
   {
-    LiveSession session(request, true, std::make_unique<support::ListSource>(frames), heard.hooks());
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+    LiveSession session(request, true, std::make_unique<support::ListSource>(frames), events.hooks());
+    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
   }
   const support::ListSource source(frames);
   std::vector<std::string> messages;
@@ -55,57 +55,57 @@ TEST(LiveSession, WithoutDroppedFramesGivesWhatATrackerGives) {
     }
   }
   ASSERT_GT(expected.size(), 10U);
-  ASSERT_EQ(heard.motion.size(), expected.size() + 1);
-  EXPECT_EQ(heard.motion.back().state, TrackState::lost) << "at the end the person is gone";
+  ASSERT_EQ(events.motion.size(), expected.size() + 1);
+  EXPECT_EQ(events.motion.back().state, TrackState::lost) << "at the end the person is lost";
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(heard.motion[i].frame, expected[i].frame);
-    EXPECT_EQ(heard.motion[i].state, expected[i].state);
-    EXPECT_EQ(heard.motion[i].pose.vector(), expected[i].pose.vector()) << i;
+    EXPECT_EQ(events.motion[i].frame, expected[i].frame);
+    EXPECT_EQ(events.motion[i].state, expected[i].state);
+    EXPECT_EQ(events.motion[i].pose.vector(), expected[i].pose.vector()) << i;
   }
-  EXPECT_EQ(heard.persons, 1);
-  EXPECT_EQ(heard.pictures, static_cast<int>(frames.size()));
+  EXPECT_EQ(events.persons, 1);
+  EXPECT_EQ(events.pictures, static_cast<int>(frames.size()));
 }
 
-TEST(LiveSession, GuidesFromTheEmptyRoomToTracking) {
+TEST(LiveSession, GuidesFromEmptySceneToTracking) {
   const ScratchFolder folder;
   TrackRequest request = quick_request(folder);
   request.background.clear();
   const auto scene = std::make_shared<Scene>();
   scene->show(empty_room());
-  Heard heard;
-  LiveSession session(request, true, camera_of(scene), heard.hooks());
-  ASSERT_TRUE(heard.wait([&] { return heard.pictures > 3; }))
-      << "the picture is seen before anything is learned";
+  SessionEvents events;
+  LiveSession session(request, true, camera_of(scene), events.hooks());
+  ASSERT_TRUE(events.wait([&] { return events.pictures > 3; }))
+      << "images are reported before anything is learned";
   EXPECT_EQ(session.state().phase, LivePhase::empty_room);
   session.guide(GuideStep::empty);
-  ASSERT_TRUE(heard.wait([&] { return heard.messages.find("the empty room, from") != std::string::npos; }));
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
+  ASSERT_TRUE(events.wait([&] { return events.messages.find("the empty room, from") != std::string::npos; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
   scene->show(person());
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }))
       << session.state().words;
-  EXPECT_EQ(heard.persons, 1);
+  EXPECT_EQ(events.persons, 1);
   session.recalibrate();
-  ASSERT_TRUE(heard.wait([&] { return heard.persons == 2; }));
+  ASSERT_TRUE(events.wait([&] { return events.persons == 2; }));
   scene->show(empty_room());
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::lost; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::lost; }));
   session.guide(GuideStep::again);
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::empty_room; }));
-  EXPECT_TRUE(session.state().room_empty) << "as it was promised the last time";
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::empty_room; }));
+  EXPECT_TRUE(session.state().room_empty) << "the image was reported empty the last time";
   session.guide(GuideStep::skip);
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
   EXPECT_FALSE(session.state().room_empty);
 }
 
-TEST(LiveSession, WithoutAGuideLearnsFromTheFirstPictures) {
+TEST(LiveSession, LearnsFromFirstFramesWithoutGuide) {
   const ScratchFolder folder;
   TrackRequest request = quick_request(folder);
   request.background.clear();
   const auto scene = std::make_shared<Scene>();
   scene->show(empty_room());
-  Heard heard;
-  const LiveSession session(request, false, camera_of(scene), heard.hooks());
-  EXPECT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::person; }));
-  EXPECT_NE(heard.messages.find("background: "), std::string::npos);
+  SessionEvents events;
+  const LiveSession session(request, false, camera_of(scene), events.hooks());
+  EXPECT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
+  EXPECT_NE(events.messages.find("background: "), std::string::npos);
 }
 
 }  // namespace

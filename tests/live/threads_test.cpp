@@ -11,31 +11,31 @@
 #include <stdexcept>
 #include <vector>
 
-#include "live/heard.h"
 #include "live/scripted_source.h"
+#include "live/session_events.h"
 #include "telemime/live/live_session.h"
 
 namespace telemime {
 namespace {
 
 using live_testing::camera_of;
-using live_testing::Heard;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::Scene;
+using live_testing::SessionEvents;
 
 TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
-  Heard heard;
+  SessionEvents events;
   {
-    const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
-    ASSERT_TRUE(heard.wait([&] { return heard.pictures > 0; }));
+    const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
+    ASSERT_TRUE(events.wait([&] { return events.pictures > 0; }));
     scene->show({});
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
+    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::stopped; }));
     scene->show(person());
-    ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }))
+    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }))
         << "it continues by itself";
     scene->show({});
   }
@@ -45,11 +45,11 @@ TEST(LiveThreads, ReportsTheEndOfTheCamera) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
-  Heard heard;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
-  ASSERT_TRUE(heard.wait([&] { return !heard.motion.empty(); }));
+  SessionEvents events;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
+  ASSERT_TRUE(events.wait([&] { return !events.motion.empty(); }));
   scene->end();
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
   EXPECT_EQ(session.state().words, "the cable is out");
 }
 
@@ -59,12 +59,12 @@ TEST(LiveThreads, PhaseIsOpeningUntilFirstFrame) {
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
   scene->show({});
-  Heard heard;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks());
+  SessionEvents events;
+  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
   EXPECT_EQ(session.state().phase, LivePhase::opening);
   EXPECT_NE(session.state().words, "");
   scene->show(person());
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::tracking; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }));
 }
 
 // Delivers all its frames and then nothing until it is stopped, like a camera that is gone.
@@ -112,14 +112,14 @@ TEST(LiveThreads, FailedSearchWithoutCameraEndsTheRun) {
     frames[i].time = static_cast<double>(i) / 25.0;
   }
   const std::int64_t last = frames.back().index;
-  Heard heard;
-  LiveHooks hooks = heard.hooks();
+  SessionEvents events;
+  LiveHooks hooks = events.hooks();
   std::atomic<bool> fail = false;
   std::atomic<bool> failed = false;
-  hooks.motion = [&, heard_motion = hooks.motion](const MotionFrame& frame, double taken) {
-    heard_motion(frame, taken);
+  hooks.motion = [&, record_motion = hooks.motion](const MotionFrame& frame, double taken) {
+    record_motion(frame, taken);
     if (frame.frame == last) {  // also called when the person is reported lost
-      heard.wait([&] { return fail.load(); });
+      events.wait([&] { return fail.load(); });
       failed = true;
       throw std::runtime_error("the search has failed");
     }
@@ -127,9 +127,9 @@ TEST(LiveThreads, FailedSearchWithoutCameraEndsTheRun) {
   const LiveSession session(quick_request(folder), true, std::make_unique<ThenGone>(std::move(frames)),
                             std::move(hooks));
   // The image side waits for a frame while the search side works on the last one.
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::stopped; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::stopped; }));
   fail = true;
-  ASSERT_TRUE(heard.wait([&] { return session.state().phase == LivePhase::ended; }));
+  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
   EXPECT_TRUE(failed);
   EXPECT_EQ(session.state().words, "the search has failed");
 }
@@ -159,16 +159,16 @@ TEST(LiveThreads, ToleratesOddTimeStamps) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
-  Heard heard;
+  SessionEvents events;
   std::atomic<int> looks = 0;
   const Clock clock = {[&looks] { return 1000.0 + 0.001 * looks++; }, [](double) {}};
   LiveSession session(quick_request(folder), true, std::make_unique<OddStamps>(camera_of(scene)),
-                      heard.hooks(), clock);
-  ASSERT_TRUE(heard.wait([&] { return heard.motion.size() > 30; }));
+                      events.hooks(), clock);
+  ASSERT_TRUE(events.wait([&] { return events.motion.size() > 30; }));
   const LiveRates rates = session.state().rates;
   session.stop();
   double last = 1000.0;
-  for (const double taken : heard.taken) {
+  for (const double taken : events.taken) {
     EXPECT_GE(taken, last);
     EXPECT_LE(taken, clock.now());
     last = taken;
@@ -178,20 +178,20 @@ TEST(LiveThreads, ToleratesOddTimeStamps) {
   EXPECT_GE(rates.ms.wait, 0.0);
   EXPECT_GT(rates.ms.total, 0.0);
   EXPECT_LT(rates.ms.total_p95, 1e4);
-  EXPECT_EQ(heard.motion.front().state, TrackState::tracking);
+  EXPECT_EQ(events.motion.front().state, TrackState::tracking);
 }
 
 TEST(LiveThreads, MeasuresSilenceByItsOwnClock) {
   const ScratchFolder folder;
   const auto scene = std::make_shared<Scene>();
   scene->show(person());
-  Heard heard;
+  SessionEvents events;
   std::atomic<double> now = 0.0;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), heard.hooks(),
+  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks(),
                             {[&now] { return now.load(); }, [](double) {}});
-  ASSERT_TRUE(heard.wait([&] { return heard.motion.size() > 2; }));
+  ASSERT_TRUE(events.wait([&] { return events.motion.size() > 2; }));
   scene->show({});
-  ASSERT_TRUE(heard.wait([&] {
+  ASSERT_TRUE(events.wait([&] {
     now = now + 3.0;
     return session.state().phase == LivePhase::stopped;
   }));

@@ -212,8 +212,7 @@ TEST_F(LiveRun, EndOfFileIsNoFailure) {
   const LiveProgram program(request, camera_of(scene_), console());
   process_frames(program, 1);
   scene_->end();
-  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "the cable is out"); }))
-      << "the fault is reported";
+  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "the cable is out"); })) << "the fault is reported";
   EXPECT_EQ(program.report().state.phase, LivePhase::ended);
   EXPECT_FALSE(program.report().failure);
   const std::lock_guard lock(mutex_);

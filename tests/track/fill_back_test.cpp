@@ -23,7 +23,7 @@ Config filling(int most) {
   return config;
 }
 
-// A run that knows the person, and the records of the clip.
+// A run with a calibrated person, and the records of the clip.
 struct Tracked {
   explicit Tracked(const Config& config) : run(quick_run(config)), seeds(fill_back_seeds(config)) {
     run.scene.features.learn_background(clip().background);
@@ -32,7 +32,7 @@ struct Tracked {
       EXPECT_EQ(records.back().estimate.motion.state, TrackState::tracking) << frame.index;
     }
   }
-  // The record of a frame in which the tracker does not find the person whom it sees.
+  // The record of a frame in which the person is visible but not found.
   FrameRecord lost(std::size_t index) const {
     FrameRecord record = records.at(index);
     record.estimate.motion.state = TrackState::lost;
@@ -47,7 +47,7 @@ struct Tracked {
     queue.records.push_back(std::move(record));
     return fill_back(run.tracker, run.state, seeds, queue);
   }
-  // Takes the records out that are final by now.
+  // Removes and returns the records that are final.
   std::vector<FrameRecord> take() {
     std::vector<FrameRecord> taken;
     for (; queue.filled > 0; --queue.filled) {
@@ -63,7 +63,7 @@ struct Tracked {
   RecordQueue queue;
 };
 
-TEST(FillBack, FollowsThePersonWhoWasFound) {
+TEST(FillBack, FollowsTheFoundPersonBack) {
   Tracked t(filling(10));
   for (std::size_t i = 0; i + 1 < kPersonFrames; ++i) {
     EXPECT_EQ(t.push(t.lost(i)), 0U);
@@ -86,14 +86,14 @@ TEST(FillBack, FollowsThePersonWhoWasFound) {
   }
 }
 
-TEST(FillBack, StopsWhereNobodyIsSeen) {
+TEST(FillBack, StopsWhereNoPersonIsVisible) {
   Tracked t(filling(10));
   t.push(t.lost(0));
   FrameRecord empty = t.lost(1);
   empty.features.person_present = false;
   t.push(empty);
   auto records = t.take();
-  ASSERT_EQ(records.size(), 2U) << "nobody can be followed back to these";
+  ASSERT_EQ(records.size(), 2U) << "the person cannot be followed back to these";
   EXPECT_EQ(records[0].estimate.motion.state, TrackState::lost);
   EXPECT_EQ(records[0].estimate.note, "not found");
   EXPECT_EQ(records[1].estimate.motion.state, TrackState::lost);
@@ -106,7 +106,7 @@ TEST(FillBack, StopsWhereNobodyIsSeen) {
 
 TEST(FillBack, StopsWhereTheBodyNoLongerFits) {
   Tracked t(filling(10));
-  // The person's clothes on the other side of the picture only.
+  // Only clothes, on the other side of the image.
   FrameRecord other = t.lost(0);
   FrameFeatures elsewhere;
   elsewhere.labels = cv::Mat::zeros(other.estimate.prepared->labels.size(), CV_8UC1);
@@ -121,7 +121,7 @@ TEST(FillBack, StopsWhereTheBodyNoLongerFits) {
     t.push(record);
   }
   t.push(t.lost(4));
-  EXPECT_EQ(t.push(t.tracked(5)), 1U) << "the patience of two frames is at its end before the first one";
+  EXPECT_EQ(t.push(t.tracked(5)), 1U) << "the patience of two frames ends before the first one";
   const auto records = t.take();
   ASSERT_EQ(records.size(), 6U);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST(FillBack, StopsWhereTheBodyNoLongerFits) {
   }
 }
 
-TEST(FillBack, NoMoreFramesWaitThanConfigured) {
+TEST(FillBack, LimitsTheWaitingFrames) {
   Tracked t(filling(2));
   t.push(t.lost(0));
   t.push(t.lost(1));
@@ -140,10 +140,10 @@ TEST(FillBack, NoMoreFramesWaitThanConfigured) {
   EXPECT_EQ(records[0].estimate.motion.state, TrackState::lost);
   end_fill_back(t.run.tracker, t.queue);
   records = t.take();
-  ASSERT_EQ(records.size(), 2U) << "nobody is found any more";
+  ASSERT_EQ(records.size(), 2U) << "no person is found any more";
   EXPECT_EQ(records[1].estimate.motion.frame, 2);
   EXPECT_EQ(records[1].estimate.motion.state, TrackState::lost);
-  EXPECT_EQ(t.push(t.tracked(3)), 0U) << "what was taken out stays as it was";
+  EXPECT_EQ(t.push(t.tracked(3)), 0U) << "removed records do not change";
   EXPECT_EQ(t.take().size(), 1U);
 }
 
@@ -169,7 +169,7 @@ TEST(FillBack, FilledFramesCanBeChosen) {
   }
 }
 
-TEST(FillBack, SameSeedForAnyNumberOfThreads) {
+TEST(FillBack, SameSeedSamePosesForAnyThreads) {
   const auto poses = [](int threads, std::uint64_t seed) {
     Config config = filling(10);
     config.threads = threads;
@@ -191,7 +191,7 @@ TEST(FillBack, SameSeedForAnyNumberOfThreads) {
   EXPECT_NE(first, poses(1, 2)) << "the seed is used";
 }
 
-TEST(FillBack, LosesNobodyInARealClip) {
+TEST(FillBack, LosesNoPersonInARealClip) {
   const char* const variable = std::getenv("TELEMIME_DATA");
   const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
   const std::filesystem::path file = data / "real/seated_stereo/clip.mp4";
@@ -200,7 +200,7 @@ TEST(FillBack, LosesNobodyInARealClip) {
     std::cout << reason << '\n';
     GTEST_SKIP() << reason;
   }
-  // A man with a mask walks in sideways and bends over a chair. He is found where he sits.
+  // A man with a mask walks in sideways and bends over a chair. He is found once he sits.
   const ScratchFolder folder;
   TrackRequest request;
   request.input = file.string();
@@ -209,7 +209,7 @@ TEST(FillBack, LosesNobodyInARealClip) {
   request.overlay = false;
   request.most_frames = 60;
   request.config.field_of_view = 43.6;
-  EXPECT_EQ(track_file(request, {}).tracked, 60) << "40 of them before he is found";
+  EXPECT_EQ(track_file(request, {}).tracked, 60) << "40 of these before he is found";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace telemime {
 namespace {
 
-TEST(LookAhead, FitsTheShapeAndSaysWhereToStart) {
+TEST(LookAhead, FitsTheShapeAndChoosesTheStart) {
   Config config = quick_config();
   config.calibration.refine.rounds = 1;
   config.calibration.refine.pose_iterations = 20;
@@ -35,8 +35,8 @@ TEST(LookAhead, FitsTheShapeAndSaysWhereToStart) {
   }
 }
 
-// Somebody whose face is never found, and who is half hidden at first.
-TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
+// A person whose face is never found and who is half hidden at first.
+TEST(LookAhead, UsesLaterOutlineWithoutAFace) {
   std::vector<Frame> frames = clip().person;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Eigen::Vector2d head = clip().camera.project(clip().truth[i][Joint::head]);
@@ -46,7 +46,7 @@ TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
     cv::Mat masked = image(face);
     cv::blur(masked, masked, {15, 15});
     if (i == 0) {
-      // A board of the shirt's colour before the person.
+      // A board of the colour of the shirt in front of the person.
       const Eigen::Vector2d neck = clip().camera.project(clip().truth[i][Joint::neck]);
       const auto shirt = image.at<cv::Vec3b>(static_cast<int>(neck.y()) + 30, static_cast<int>(neck.x()));
       cv::rectangle(image, cv::Rect(10, static_cast<int>(neck.y()) + 60, image.cols - 20, 50),
@@ -62,7 +62,7 @@ TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
   const LookAhead ahead = look_ahead({.next = [&] { return source.next(); }}, run);
   ASSERT_TRUE(ahead.person);
   EXPECT_GT(ahead.person->start.frame, 0);
-  // It would have been the first frame, and there was no face.
+  // It would be the first frame, but it has no face.
   TrackingRun scout = quick_run(config);
   scout.scene.features.learn_background(clip().background);
   for (const Frame& frame : frames) {
@@ -73,8 +73,8 @@ TEST(LookAhead, WhereNoFaceIsSeenALaterOutlineIsTakenToo) {
   }
 }
 
-// Head and shoulders, the arms below the picture.
-TEST(LookAhead, APortraitKeepsAverageArms) {
+// Head and shoulders; the arms are below the image.
+TEST(LookAhead, PortraitKeepsAverageArms) {
   double lowest = 0.0;
   for (const JointPositions& joints : clip().truth) {
     for (const Joint shoulder : {Joint::l_shoulder, Joint::r_shoulder}) {
@@ -110,7 +110,7 @@ TEST(LookAhead, APortraitKeepsAverageArms) {
   }
 }
 
-TEST(LookAhead, FindsNobodyWhereNobodyIs) {
+TEST(LookAhead, FindsNoPersonInAnEmptyScene) {
   TrackingRun run = quick_run(quick_config());
   run.scene.features.learn_background(clip().background);
   support::ListSource empty({clip().background.begin(), clip().background.begin() + 3});
@@ -121,7 +121,7 @@ TEST(LookAhead, FindsNobodyWhereNobodyIs) {
   EXPECT_EQ(settled + ahead.records.size(), 3U) << "no frame is dropped";
 }
 
-TEST(LookAhead, StopsWhenAsked) {
+TEST(LookAhead, StopsOnRequest) {
   TrackingRun run = quick_run(quick_config());
   run.scene.features.learn_background(clip().background);
   support::ListSource person(clip().person);

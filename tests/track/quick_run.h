@@ -5,7 +5,7 @@
 #include "support/synthetic_clip.h"
 #include "telemime/tracker/track_frame.h"
 
-/// A run with little work to do, and a clip of a few frames for it.
+/// A run with few evaluations, and a clip of a few frames for it.
 namespace telemime {
 
 inline constexpr int kPersonFrames = 6;

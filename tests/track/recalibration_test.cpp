@@ -11,22 +11,22 @@
 namespace telemime {
 namespace {
 
-TEST(Recalibration, BeginsAnewWithThePerson) {
+TEST(Recalibration, RestartsWithThePerson) {
   TrackingRun run = quick_run(quick_config());
   run.scene.features.learn_background(clip().background);
   track_frame(clip().person[0], run);
   ASSERT_TRUE(run.state.person);
   forget_person(run);
   EXPECT_FALSE(run.state.person);
-  for (int i = 1; i < kPersonFrames; ++i) {  // it waits for a frame in which the face is looked for
+  for (int i = 1; i < kPersonFrames; ++i) {  // it waits for a frame with a face detection
     track_frame(clip().person[static_cast<std::size_t>(i)], run);
   }
   EXPECT_TRUE(run.state.person);
 }
 
-TEST(Recalibration, LeavesNoOldParticle) {
+TEST(Recalibration, KeepsNoOldParticle) {
   Config config = quick_config();
-  config.look_back = true;  // its candidates show what the filter holds
+  config.look_back = true;  // the candidates are the modes of the filter
   TrackingRun run = quick_run(config);
   run.scene.features.learn_background(clip().background);
   std::size_t most = 0;
@@ -34,7 +34,7 @@ TEST(Recalibration, LeavesNoOldParticle) {
     const FrameRecord seen = track_frame(frame, run);
     most = std::max(most, seen.estimate.modes.size());
   }
-  ASSERT_GT(most, 1U) << "the filter is at work";
+  ASSERT_GT(most, 1U) << "the filter is running";
   forget_person(run);
   for (const Frame& frame : clip().person) {
     const FrameRecord seen = track_frame(frame, run);
@@ -44,10 +44,10 @@ TEST(Recalibration, LeavesNoOldParticle) {
       return;
     }
   }
-  FAIL() << "nobody was calibrated again";
+  FAIL() << "no person was calibrated again";
 }
 
-// The person's blue shirt is red.
+// The blue shirt of the person becomes red.
 std::vector<Frame> in_other_clothes() {
   std::vector<Frame> frames = clip().person;
   const cv::Mat room = clip().background.front().image;
@@ -63,7 +63,7 @@ std::vector<Frame> in_other_clothes() {
   return frames;
 }
 
-TEST(Recalibration, LearnsTheColoursOfWhoeverIsThere) {
+TEST(Recalibration, LearnsColoursOfTheNewPerson) {
   const std::vector<Frame> frames = in_other_clothes();
   const auto clothes = [](const TrackingRun& run) {
     return run.scene.features.calibration().colours.clothes.front().mean;
@@ -79,7 +79,7 @@ TEST(Recalibration, LearnsTheColoursOfWhoeverIsThere) {
   ASSERT_GT((clothes(run) - clothes(expected)).norm(), 0.3F) << "they differ";
   forget_person(run);
   track_frame(clip().background.front(), run);
-  EXPECT_FALSE(run.state.person) << "nobody is there";
+  EXPECT_FALSE(run.state.person) << "no person is visible";
   for (std::size_t i = 0; i < frames.size() && !run.state.person; ++i) {
     track_frame(frames[i], run);
   }

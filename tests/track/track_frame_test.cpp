@@ -24,7 +24,7 @@ std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& f
   return motion;
 }
 
-// The person, then nobody, then the person again; numbered through.
+// The person, an empty scene, and the person again, numbered consecutively.
 std::vector<Frame> coming_and_going(int away) {
   std::vector<Frame> frames = clip().person;
   for (int i = 0; i < away; ++i) {
@@ -40,7 +40,7 @@ std::vector<Frame> coming_and_going(int away) {
   return frames;
 }
 
-TEST(Tracker, FollowsThePerson) {
+TEST(Tracker, TracksThePerson) {
   const auto motion = track(quick_config(), clip().person);
   ASSERT_EQ(motion.size(), clip().person.size());
   const Camera& camera = clip().camera;
@@ -61,18 +61,18 @@ TEST(Tracker, FollowsThePerson) {
   }
 }
 
-TEST(Tracker, SpendsItsIterationsAndLittleMore) {
+TEST(Tracker, UsesItsIterations) {
   Config config = quick_config();
   config.tracking.method = "two-step";
   const auto motion = track(config, clip().person);
   for (std::size_t i = 1; i < motion.size(); ++i) {
-    // Two more look at where to start.
+    // Two more evaluations choose the start.
     EXPECT_LE(motion[i].evaluations, config.registration.iterations + 2) << i;
-    EXPECT_FALSE(motion[i].spread) << "one pose alone knows no doubt";
+    EXPECT_FALSE(motion[i].spread) << "a single pose has no spread";
   }
 }
 
-TEST(Tracker, TheThesissFilterSpendsItsParticles) {
+TEST(Tracker, ThesisFilterUsesItsParticles) {
   Config config = quick_config();
   config.tracking.method = "condensation";
   config.filter.particles = 150;
@@ -83,12 +83,12 @@ TEST(Tracker, TheThesissFilterSpendsItsParticles) {
   }
 }
 
-TEST(Tracker, OurFilterSpendsItsParticlesAndWhatItTurnsAndFlips) {
+TEST(Tracker, DefaultFilterUsesParticlesAndFlips) {
   const Config config = quick_config();
   const FilterConfig& filter = config.filter;
   const auto motion = track(config, clip().person);
   for (std::size_t i = 1; i < motion.size(); ++i) {
-    // Three trunks at most, each from one of two starts.
+    // At most three trunks, each from one of two starts.
     const int turned = filter.turn_evaluations + 2 * filter.walk_evaluations + 3 * 2;
     EXPECT_LE(motion[i].evaluations,
               filter.particles + turned + 15 * filter.flip_candidates + 2 * filter.mode_least)
@@ -103,7 +103,7 @@ TEST(Tracker, OurFilterSpendsItsParticlesAndWhatItTurnsAndFlips) {
   }
 }
 
-TEST(Tracker, TheEffortIsAShareOfTheSearch) {
+TEST(Tracker, EffortIsAShareOfTheSearch) {
   for (const char* method : {"heuristics", "two-step"}) {
     const auto evaluations = [&](double effort) {
       Config config = quick_config();
@@ -120,7 +120,7 @@ TEST(Tracker, TheEffortIsAShareOfTheSearch) {
   }
 }
 
-TEST(Tracker, AtFiveFramesASecondThePersonIsFollowedToo) {
+TEST(Tracker, TracksAtFiveFramesPerSecond) {
   std::vector<Frame> frames = clip().person;
   for (Frame& frame : frames) {
     frame.time *= 5.0;
@@ -134,8 +134,8 @@ TEST(Tracker, AtFiveFramesASecondThePersonIsFollowedToo) {
   }
 }
 
-TEST(Tracker, AWiderPictureShowsThePersonAtTheSameDistance) {
-  // The same pictures with more of the wall beside them: 16:9.
+TEST(Tracker, WiderImageGivesSameDistance) {
+  // The same images with more of the wall on both sides: 16:9.
   constexpr int kBorder = 53;
   const auto widened = [](std::vector<Frame> frames) {
     for (Frame& frame : frames) {
@@ -161,7 +161,7 @@ TEST(Tracker, AWiderPictureShowsThePersonAtTheSameDistance) {
   }
 }
 
-TEST(Tracker, OneBadFrameLosesNobodyHoweverLongItLasts) {
+TEST(Tracker, OneBadFrameLosesNoPerson) {
   for (const char* method : {"two-step", "heuristics"}) {
     Config config = quick_config();
     config.tracking.method = method;
@@ -176,9 +176,9 @@ TEST(Tracker, OneBadFrameLosesNobodyHoweverLongItLasts) {
   }
 }
 
-TEST(TimeStep, IsOneWhereItIsUsualOrNotKnown) {
+TEST(TimeStep, IsOneIfUsualOrUnknown) {
   EXPECT_EQ(steps_between(0.0, 0.04), 1.0);
-  EXPECT_EQ(steps_between(1.0, 1.0415), 1.0);  // a camera's clock
+  EXPECT_EQ(steps_between(1.0, 1.0415), 1.0);  // the clock of a camera
   EXPECT_EQ(steps_between(7.0, 7.0), 1.0);
   EXPECT_EQ(steps_between(7.0, 3.0), 1.0);
   EXPECT_NEAR(steps_between(1.0, 1.2), 5.0, 1e-9);
@@ -187,7 +187,7 @@ TEST(TimeStep, IsOneWhereItIsUsualOrNotKnown) {
   EXPECT_EQ(steps_between(0.0, 0.001), 0.2);
 }
 
-TEST(Tracker, SameSeedSameMotion) {
+TEST(Tracker, SameSeedGivesSameMotion) {
   const std::vector<Frame> frames(clip().person.begin(), clip().person.begin() + 4);
   const auto a = track(quick_config(), frames);
   const auto b = track(quick_config(), frames);
@@ -202,7 +202,7 @@ TEST(Tracker, SameSeedSameMotion) {
   EXPECT_NE(track(other, frames).back().pose.vector(), a.back().pose.vector()) << "the seed is used";
 }
 
-TEST(Tracker, LosesThePersonAndFindsThemAgain) {
+TEST(Tracker, LosesAndFindsThePerson) {
   const auto frames = coming_and_going(8);
   TrackingRun run = quick_run(quick_config());
   run.scene.features.learn_background(clip().background);
@@ -213,7 +213,7 @@ TEST(Tracker, LosesThePersonAndFindsThemAgain) {
   const std::size_t gone = kPersonFrames + 7;  // the last frame without the person
   EXPECT_EQ(results[kPersonFrames - 1].motion.state, TrackState::tracking);
   EXPECT_EQ(results[gone].motion.state, TrackState::lost);
-  EXPECT_FALSE(results[gone].note.empty()) << "a reason is given";
+  EXPECT_FALSE(results[gone].note.empty()) << "the note has a reason";
   EXPECT_EQ(results.back().motion.state, TrackState::tracking);
   EXPECT_TRUE(results.back().note.empty());
   for (const FrameEstimate& r : results) {
@@ -221,7 +221,7 @@ TEST(Tracker, LosesThePersonAndFindsThemAgain) {
   }
 }
 
-TEST(Tracker, NobodyIsNotTracked) {
+TEST(Tracker, EmptySceneIsNotTracked) {
   const std::vector<Frame> empty(clip().background.begin(), clip().background.begin() + 4);
   for (const MotionFrame& m : track(quick_config(), empty)) {
     EXPECT_EQ(m.state, TrackState::lost);
@@ -230,7 +230,7 @@ TEST(Tracker, NobodyIsNotTracked) {
 }
 
 TEST(Tracker, BlackFramesAreNotTracked) {
-  TrackingRun run = quick_run(quick_config());  // without a background, too
+  TrackingRun run = quick_run(quick_config());  // also without a background
   for (int i = 0; i < 4; ++i) {
     const Frame black = {cv::Mat::zeros(240, 320, CV_8UC3), i, i / support::kClipFps};
     const FrameRecord result = track_frame(black, run);
@@ -239,7 +239,7 @@ TEST(Tracker, BlackFramesAreNotTracked) {
   }
 }
 
-TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
+TEST(Tracker, UsesCalibrationOfAnotherRun) {
   TrackingRun first = quick_run(quick_config());
   first.scene.features.learn_background(clip().background);
   track_frame(clip().person.front(), first);
@@ -252,7 +252,7 @@ TEST(Tracker, CalibrationOfAnotherRunIsTakenOver) {
             first.state.person->shape[Segment::l_forearm].length);
 }
 
-TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
+TEST(Tracker, ParallelStagesEqualSequentialOnes) {
   TrackingRun in_turn = quick_run(quick_config());
   in_turn.scene.features.learn_background(clip().background);
   TrackingRun beside = quick_run(quick_config());
@@ -284,7 +284,7 @@ TEST(Tracker, ImageAndSearchSideBySideGiveWhatTheyGiveInTurn) {
   EXPECT_GT(together, 3);
 }
 
-TEST(Tracker, StartsWithAPersonWhoIsKnown) {
+TEST(Tracker, StartsWithKnownPerson) {
   TrackingRun first = quick_run(quick_config());
   first.scene.features.learn_background(clip().background);
   const FrameRecord start = track_frame(clip().person.front(), first);
@@ -305,7 +305,7 @@ TEST(Tracker, StartsWithAPersonWhoIsKnown) {
   EXPECT_EQ(track_frame(clip().person[1], second).estimate.motion.state, TrackState::tracking);
 }
 
-TEST(Tracker, APersonWhoIsKnownIsTrackedBeforeTheFrameThatTheShapeWasFittedTo) {
+TEST(Tracker, TracksKnownPersonBeforeFittedFrame) {
   TrackingRun first = quick_run(quick_config());
   first.scene.features.learn_background(clip().background);
   const FrameRecord start = track_frame(clip().person.front(), first);
@@ -325,7 +325,7 @@ TEST(Tracker, APersonWhoIsKnownIsTrackedBeforeTheFrameThatTheShapeWasFittedTo) {
   EXPECT_NE(forearm_at_first(5), known.person.shape[Segment::l_forearm].length);
 }
 
-TEST(Tracker, TheSceneOfAnotherTrackerIsNotChangedByThisOne) {
+TEST(Tracker, KeepsSceneOfAnotherTrackerUnchanged) {
   TrackingRun first = quick_run(quick_config());
   first.scene.features.learn_background(clip().background);
   const cv::Mat before = first.scene.features.calibration().background.mean.l.clone();
@@ -337,7 +337,7 @@ TEST(Tracker, TheSceneOfAnotherTrackerIsNotChangedByThisOne) {
   const cv::Mat& after = first.scene.features.calibration().background.mean.l;
   EXPECT_EQ(cv::norm(before, after, cv::NORM_INF), 0.0);
   EXPECT_GT(cv::norm(before, second.scene.features.calibration().background.mean.l, cv::NORM_INF), 0.0)
-      << "it does follow the light";
+      << "it adapts to the light";
 }
 
 }  // namespace

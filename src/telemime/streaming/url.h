@@ -18,7 +18,7 @@ struct SendUrl {
   std::string user;      ///< may be empty
   std::string password;  ///< the secret: the password, or the access key of an http(s) link ("#k=..."); may
                          ///< be empty; must never be shown
-  std::string host;                   ///< a name or an address, IPv6 without brackets; never empty
+  std::string host;      ///< a name or an address, IPv6 without brackets; never empty
   std::optional<std::uint16_t> port;  ///< 1 to 65535
   std::string path = "/";
   std::vector<std::pair<std::string, std::string>> options;

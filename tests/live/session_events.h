@@ -19,8 +19,8 @@ inline constexpr std::chrono::minutes kPatience{5};
 inline constexpr std::chrono::minutes kPatience{1};
 #endif
 
-/// What a session said, to be waited for.
-class Heard {
+/// Records the calls of a session's hooks, and waits for them.
+class SessionEvents {
  public:
   LiveHooks hooks() {
     LiveHooks hooks;
@@ -37,7 +37,7 @@ class Heard {
     };
     return hooks;
   }
-  /// True as soon as `done` is; false when patience is at its end.
+  /// Waits until `done()`; false after kPatience.
   template <typename Done>
   bool wait(const Done& done) {
     std::unique_lock lock(mutex_);
@@ -54,7 +54,7 @@ class Heard {
   }
 
   std::vector<MotionFrame> motion;
-  std::vector<double> taken;  ///< of the same frames
+  std::vector<double> taken;  ///< times of the same frames
   int persons = 0;
   int pictures = 0;
   std::string messages;
