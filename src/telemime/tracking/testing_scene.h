@@ -61,7 +61,7 @@ struct Scene {
 
 /// A filter with its particles.
 struct RunningFilter {
-  RunningFilter(Scene& scene, const FilterConfig& config, Evaluators& evaluators, std::uint64_t seed)
+  RunningFilter(const Scene& scene, const FilterConfig& config, Evaluators& evaluators, std::uint64_t seed)
       : method(config, scene.search, scene.limits, evaluators), limits(scene.limits), state(seed) {}
   void start(const Pose& pose, bool backward = false) { start_filter(pose, limits, state, backward); }
   FilterResult step(const StepInput& input) { return method.step(input, state); }
