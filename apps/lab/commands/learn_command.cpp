@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "lab/experiments/learn.h"
 #include "lab/experiments/report.h"
+#include "telemime/offline/run_outputs.h"
 #include "telemime/outputs/file_output.h"
 
 namespace telemime {
