@@ -52,7 +52,7 @@ double overlap(const cv::Mat& mask) {
   return cv::countNonZero(mask & truth) / static_cast<double>(cv::countNonZero(mask | truth));
 }
 
-class EverySubtraction : public testing::TestWithParam<Subtraction> {};
+class EverySubtraction : public ::testing::TestWithParam<Subtraction> {};
 
 TEST_P(EverySubtraction, FindsThePersonInSteadyLight) {
   Random random(1);
@@ -67,7 +67,7 @@ TEST_P(EverySubtraction, NeedsPictures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EverySubtraction,
-                         testing::Values(Subtraction::rgb_difference, Subtraction::mixture,
+                         ::testing::Values(Subtraction::rgb_difference, Subtraction::mixture,
                                          Subtraction::reference, Subtraction::robust));
 
 TEST(Subtraction, OnlyChromaMethodsSurviveAChangeOfLight) {

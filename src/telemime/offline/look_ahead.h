@@ -32,9 +32,9 @@ struct LookAhead {
 struct LookAheadCalls {
   std::function<std::optional<Frame>()> next;  ///< the next frame; nothing at the end of the input
   /// A frame that the look-ahead is done with: nobody is in it who is tracked later. May be empty.
-  std::function<void(FrameRecord)> settle;
+  std::function<void(FrameRecord)> settle = nullptr;
   /// Asked after each frame with the record of it; false stops the look-ahead. May be empty.
-  std::function<bool(const FrameRecord&)> go_on;
+  std::function<bool(const FrameRecord&)> go_on = nullptr;
   int longest_side = 0;  ///< of the pictures that records keep, pixels; 0: none are kept
 };
 
