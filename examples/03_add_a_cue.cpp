@@ -6,7 +6,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/evaluate.h"
-#include "telemime/offline/run.h"
+#include "telemime/offline/track_file.h"
 #include "telemime/outputs/readers/jsonl.h"
 
 namespace {
@@ -32,7 +32,7 @@ constexpr telemime::Cue kArmsCue = {
 
 // Mean 3-D error of elbows and wrists, mm.
 double error_mm(const telemime::TrackRequest& request, const telemime::Truth& truth) {
-  run_track(request, {});
+  track_file(request, {});
   const telemime::PoseFile pose = telemime::read_pose_jsonl(request.out / "pose.jsonl");
   const telemime::Evaluation evaluation = evaluate(pose.frames, pose.camera, truth, {});
   return 1000.0 * evaluation.tracked.scored.aligned.value_or(0.0);

@@ -22,7 +22,7 @@ using live_testing::empty_room;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::receive;
-using live_testing::Scene;
+using live_testing::ScriptedScene;
 using Json = nlohmann::json;
 
 class Program : public ::testing::Test {
@@ -36,8 +36,8 @@ class Program : public ::testing::Test {
     options.version = "1.2.3";
     return options;
   }
-  static std::shared_ptr<Scene> person_frames() {
-    auto scene = std::make_shared<Scene>();
+  static std::shared_ptr<ScriptedScene> person_frames() {
+    auto scene = std::make_shared<ScriptedScene>();
     scene->show(person());
     return scene;
   }

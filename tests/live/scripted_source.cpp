@@ -18,7 +18,7 @@ const support::SyntheticClip& clip() {
 
 class SceneCamera final : public Source {
  public:
-  explicit SceneCamera(std::shared_ptr<Scene> scene) : scene_(std::move(scene)) {
+  explicit SceneCamera(std::shared_ptr<ScriptedScene> scene) : scene_(std::move(scene)) {
     info_.name = "scene";
     info_.width = scene_->first().image.cols;
     info_.height = scene_->first().image.rows;
@@ -30,13 +30,13 @@ class SceneCamera final : public Source {
   void stop() override { scene_->stop(); }
 
  private:
-  std::shared_ptr<Scene> scene_;
+  std::shared_ptr<ScriptedScene> scene_;
   SourceInfo info_;
 };
 
 }  // namespace
 
-void Scene::show(std::vector<Frame> frames) {
+void ScriptedScene::show(std::vector<Frame> frames) {
   {
     const std::lock_guard lock(mutex_);
     if (first_.image.empty()) {
@@ -48,11 +48,11 @@ void Scene::show(std::vector<Frame> frames) {
   changed_.notify_all();
 }
 
-void Scene::end() {
+void ScriptedScene::end() {
   stop();
 }
 
-void Scene::stop() {
+void ScriptedScene::stop() {
   {
     const std::lock_guard lock(mutex_);
     ended_ = true;
@@ -60,7 +60,7 @@ void Scene::stop() {
   changed_.notify_all();
 }
 
-std::optional<Frame> Scene::next() {
+std::optional<Frame> ScriptedScene::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, std::chrono::milliseconds(1), [this] { return ended_; });
   changed_.wait(lock, [this] { return ended_ || !frames_.empty(); });
@@ -74,7 +74,7 @@ std::optional<Frame> Scene::next() {
   return frame;
 }
 
-std::unique_ptr<Source> camera_of(std::shared_ptr<Scene> scene) {
+std::unique_ptr<Source> camera_of(std::shared_ptr<ScriptedScene> scene) {
   return std::make_unique<SceneCamera>(std::move(scene));
 }
 

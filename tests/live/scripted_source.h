@@ -14,7 +14,7 @@
 namespace telemime::live_testing {
 
 /// The images of a camera, repeated; a test can change them during a run.
-class Scene {
+class ScriptedScene {
  public:
   /// Without frames, the camera delivers nothing until there are some.
   void show(std::vector<Frame> frames);
@@ -36,7 +36,7 @@ class Scene {
 };
 
 /// A camera that delivers the scene, at most one image per millisecond. `scene` must have frames.
-std::unique_ptr<Source> camera_of(std::shared_ptr<Scene> scene);
+std::unique_ptr<Source> camera_of(std::shared_ptr<ScriptedScene> scene);
 
 /// A request for a quick tracker (few pixels, few evaluations) with the background as a folder of images.
 TrackRequest quick_request(const ScratchFolder& folder);

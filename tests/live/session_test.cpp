@@ -7,6 +7,7 @@
 #include "telemime/live/live_session.h"
 #include "telemime/tracker/set_up.h"
 #include "telemime/tracker/smoother.h"
+#include "telemime/tracker/track_frame.h"
 
 namespace telemime {
 namespace {
@@ -15,7 +16,7 @@ using live_testing::camera_of;
 using live_testing::empty_room;
 using live_testing::person;
 using live_testing::quick_request;
-using live_testing::Scene;
+using live_testing::ScriptedScene;
 using live_testing::SessionEvents;
 
 std::vector<Frame> several_times(int times) {
@@ -70,7 +71,7 @@ TEST(LiveSession, GuidesFromEmptySceneToTracking) {
   const ScratchFolder folder;
   TrackRequest request = quick_request(folder);
   request.background.clear();
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(empty_room());
   SessionEvents events;
   LiveSession session(request, true, camera_of(scene), events.hooks());
@@ -100,7 +101,7 @@ TEST(LiveSession, LearnsFromFirstFramesWithoutGuide) {
   const ScratchFolder folder;
   TrackRequest request = quick_request(folder);
   request.background.clear();
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(empty_room());
   SessionEvents events;
   const LiveSession session(request, false, camera_of(scene), events.hooks());

@@ -21,12 +21,12 @@ namespace {
 using live_testing::camera_of;
 using live_testing::person;
 using live_testing::quick_request;
-using live_testing::Scene;
+using live_testing::ScriptedScene;
 using live_testing::SessionEvents;
 
 TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
   const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(person());
   SessionEvents events;
   {
@@ -43,7 +43,7 @@ TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
 
 TEST(LiveThreads, ReportsTheEndOfTheCamera) {
   const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(person());
   SessionEvents events;
   const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
@@ -56,7 +56,7 @@ TEST(LiveThreads, ReportsTheEndOfTheCamera) {
 TEST(LiveThreads, PhaseIsOpeningUntilFirstFrame) {
   EXPECT_EQ(LiveState().phase, LivePhase::opening) << "before a session exists";
   const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(person());
   scene->show({});
   SessionEvents events;
@@ -157,7 +157,7 @@ class OddStamps final : public Source {
 
 TEST(LiveThreads, ToleratesOddTimeStamps) {
   const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(person());
   SessionEvents events;
   std::atomic<int> looks = 0;
@@ -183,7 +183,7 @@ TEST(LiveThreads, ToleratesOddTimeStamps) {
 
 TEST(LiveThreads, MeasuresSilenceByItsOwnClock) {
   const ScratchFolder folder;
-  const auto scene = std::make_shared<Scene>();
+  const auto scene = std::make_shared<ScriptedScene>();
   scene->show(person());
   SessionEvents events;
   std::atomic<double> now = 0.0;

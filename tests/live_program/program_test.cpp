@@ -19,7 +19,7 @@ using live_testing::Json;
 using live_testing::person;
 using live_testing::quick_request;
 using live_testing::receive;
-using live_testing::Scene;
+using live_testing::ScriptedScene;
 
 class LiveRun : public ::testing::Test {
  protected:
@@ -49,8 +49,8 @@ class LiveRun : public ::testing::Test {
     ASSERT_TRUE(comes_true([&] { return program.report().state.rates.frames >= before + frames; }));
   }
 
-  std::shared_ptr<Scene> scene_ = [] {
-    auto scene = std::make_shared<Scene>();
+  std::shared_ptr<ScriptedScene> scene_ = [] {
+    auto scene = std::make_shared<ScriptedScene>();
     scene->show(person());
     return scene;
   }();
@@ -160,7 +160,7 @@ TEST_F(LiveRun, NextRunListsAndResumesOutputs) {
     page.say(add);
     receive(page, "status", is("sending"));
   }
-  scene_ = std::make_shared<Scene>();
+  scene_ = std::make_shared<ScriptedScene>();
   scene_->show(person());
   while (receiver.receive(0)) {
   }
@@ -177,7 +177,7 @@ TEST_F(LiveRun, NextRunListsAndResumesOutputs) {
     page.say(Json{{"type", "output"}, {"off", url}}.dump());
     receive(page, "status", is("off"));
   }
-  scene_ = std::make_shared<Scene>();
+  scene_ = std::make_shared<ScriptedScene>();
   scene_->show(person());
   while (receiver.receive(0)) {
   }

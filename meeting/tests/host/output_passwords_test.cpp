@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "meeting/transport/all.h"
+#include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/live/saved_outputs.h"
@@ -18,7 +18,7 @@ const std::string kUrl = "mqtt://studio.p01:secret@127.0.0.1:9/home/studio";
 const std::string kShown = "mqtt://studio.p01@127.0.0.1:9/home/studio";
 
 TEST(OutputPasswords, AreUsedButNotShown) {
-  SenderList list(kAllSenderKinds);
+  SenderList list(meeting::kAllSenderKinds);
   list.add(kUrl);
   EXPECT_EQ(list.status().at(0).url, kShown);
   try {
@@ -40,7 +40,7 @@ TEST(OutputPasswords, SecretsOfLinksArePasswords) {
   const std::string link = "http://127.0.0.1:9/room?name=Ana#k=secret";
   const std::string shown = "http://127.0.0.1:9/room?name=Ana";
   const ScratchFolder folder;
-  SenderList list(kAllSenderKinds);
+  SenderList list(meeting::kAllSenderKinds);
   SavedOutputs saved(folder.path() / "live.json", list, nullptr);
   list.add(link);
   saved.keep(link);
@@ -65,7 +65,7 @@ TEST(OutputPasswords, AreNotSaved) {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "live.json";
   {
-    SenderList list(kAllSenderKinds);
+    SenderList list(meeting::kAllSenderKinds);
     SavedOutputs saved(file, list, nullptr);
     saved.keep(kUrl);
     saved.save();
@@ -76,7 +76,7 @@ TEST(OutputPasswords, AreNotSaved) {
   EXPECT_EQ(text.find("secret"), std::string::npos) << text;
 
   std::string reported;
-  SenderList list(kAllSenderKinds);
+  SenderList list(meeting::kAllSenderKinds);
   SavedOutputs saved(file, list,
                      [&reported](MessageLevel, const std::string& words) { reported += words + "\n"; });
   saved.offer(/*resume=*/true);
@@ -92,7 +92,7 @@ TEST(OutputPasswords, InAnEditedFileAreNotShown) {
   const std::filesystem::path file = folder.path() / "live.json";
   std::ofstream(file) << R"({"version":1,"outputs":[")" << kUrl << R"("]})";
   std::string reported;
-  SenderList list(kAllSenderKinds);
+  SenderList list(meeting::kAllSenderKinds);
   SavedOutputs saved(file, list,
                      [&reported](MessageLevel, const std::string& words) { reported += words + "\n"; });
   saved.offer(/*resume=*/true);
