@@ -68,7 +68,7 @@ TEST_P(EverySubtraction, NeedsPictures) {
 
 INSTANTIATE_TEST_SUITE_P(All, EverySubtraction,
                          ::testing::Values(Subtraction::rgb_difference, Subtraction::mixture,
-                                         Subtraction::reference, Subtraction::robust));
+                                           Subtraction::reference, Subtraction::robust));
 
 TEST(Subtraction, OnlyChromaMethodsSurviveAChangeOfLight) {
   Random random(2);

@@ -57,7 +57,7 @@ TEST(OutputPasswords, SecretsOfLinksArePasswords) {
     list.add(shown);
     ADD_FAILURE();
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("Secrets are not kept"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("Secrets are not stored"), std::string::npos) << e.what();
   }
 }
 
@@ -80,7 +80,7 @@ TEST(OutputPasswords, AreNotSaved) {
   SavedOutputs saved(file, list,
                      [&reported](MessageLevel, const std::string& words) { reported += words + "\n"; });
   saved.offer(/*resume=*/true);
-  EXPECT_NE(reported.find("Passwords are not kept"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("Passwords are not stored"), std::string::npos) << reported;
   ASSERT_EQ(list.status().size(), 1U);
   EXPECT_EQ(list.status()[0].state, SenderState::off);
   EXPECT_NO_THROW(list.add(kUrl));
