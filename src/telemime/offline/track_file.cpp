@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/offline/track_file.h"
 
-#include <chrono>
+#include <memory>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -42,8 +42,9 @@ OpenedFile open_file(const TrackRequest& request, const RunHooks& hooks) {
 
 // Frames of the source, no more than the request asks for.
 std::function<std::optional<Frame>()> frames_of(const TrackRequest& request, Source& source) {
-  return [&source, most = request.most_frames, count = std::int64_t{0}]() mutable {
-    return most == 0 || count++ < most ? source.next() : std::nullopt;
+  // Copies of the function count together.
+  return [&source, most = request.most_frames, count = std::make_shared<std::int64_t>(0)] {
+    return most == 0 || (*count)++ < most ? source.next() : std::nullopt;
   };
 }
 
