@@ -148,7 +148,7 @@ TEST(Replay, LinkGivesEveryoneASeat) {
     if (keys.empty()) {
       throw Error(ErrorKind::input, "no seat is free");
     }
-    const Credentials key = keys.back();
+    Credentials key = keys.back();
     keys.pop_back();
     return key;
   };

@@ -39,7 +39,7 @@ bool is_secret(const std::string& text) {
 
 MeetingSecrets secrets_of(const fs::path& path, const std::string& content) {
   const Json json = parse_object(content);
-  const MeetingSecrets secrets{
+  MeetingSecrets secrets{
       .speak = text_member(json, "speak"),
       .watch = text_member(json, "watch"),
       .chair = text_member(json, "chair"),

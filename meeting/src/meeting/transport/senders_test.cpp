@@ -21,7 +21,7 @@ SendUrl parsed(const std::string& url) {
 class BrokerKeys : public ::testing::Test {
  protected:
   std::string file(const std::string& content, mode_t mode = 0600) const {
-    const std::string path = folder_.file("key.json");
+    std::string path = folder_.file("key.json");
     std::ofstream(path) << content;
     EXPECT_EQ(::chmod(path.c_str(), mode), 0);
     return path;

@@ -40,7 +40,7 @@ std::string authority(const std::string& name) {
 class Certificates : public ::testing::Test {
  protected:
   std::string file(const std::string& content) const {
-    const std::string path = folder_.file("ca.pem");
+    std::string path = folder_.file("ca.pem");
     std::ofstream(path, std::ios::binary) << content;
     return path;
   }
