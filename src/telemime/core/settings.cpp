@@ -92,7 +92,8 @@ bool read(std::optional<double>& to, const Json& from) {
 
 void collect(const Json& object, const std::string& group, SettingValues& values) {
   for (const auto& [key, value] : object.items()) {
-    const std::string name = group.empty() ? key : group + "." + key;
+    std::string name = group;
+    name.append(group.empty() ? "" : ".").append(key);
     if (value.is_object() && !value.empty()) {
       collect(value, name, values);
     } else {
