@@ -124,7 +124,7 @@ TEST(Humanoid, TheMirroredPoseIsTheMirroredAvatar) {
   const HumanoidMotion seen = humanoid_motion(body, mirrored(pose), pose.root);
   const HumanoidMotion own = humanoid_motion(body, pose, pose.root);
   const auto expect_mirrored = [&](HumanBone a, HumanBone b) {
-    const Eigen::Quaterniond q = own[a];
+    const Eigen::Quaterniond& q = own[a];
     EXPECT_NEAR(seen[b].angularDistance(Eigen::Quaterniond(q.w(), q.x(), -q.y(), -q.z())), 0.0, 1e-6)
         << kHumanBoneNames[static_cast<std::size_t>(a)];
   };
