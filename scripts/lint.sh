@@ -40,7 +40,7 @@ tidy_one() {
   if [[ -n "$TELEMIME_LINT_QUICK" ]]; then
     checks="--checks=-*,bugprone-use-after-move,bugprone-dangling-handle,bugprone-sizeof-expression,\
 bugprone-integer-division,bugprone-misplaced-widening-cast,performance-*,-performance-no-int-to-ptr,-performance-inefficient-vector-operation,\
--performance-inefficient-string-concatenation,\
+-performance-inefficient-string-concatenation,-performance-no-automatic-move,-performance-unnecessary-copy-initialization,\
 -performance-unnecessary-value-param,readability-braces-around-statements,misc-unused-parameters,\
 modernize-use-override"
   elif [[ "$file" == *_test.cpp ]]; then

@@ -37,7 +37,7 @@ TEST(HeadingSearch, AnUprightTrunkIsTurnedHalfOfTheTime) {
     ASSERT_LE(count, 1U);
     came += static_cast<int>(count);
   }
-  EXPECT_NEAR(came, kSeeds / 2, 15);
+  EXPECT_NEAR(came, kSeeds / 2.0, 15);
 }
 
 TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
@@ -54,7 +54,7 @@ TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
       EXPECT_GT(std::abs(generation.particles[1].pose[Angle::root_torsion] - 0.6), 0.1);
     }
   }
-  EXPECT_NEAR(two, kSeeds / 2, 15);
+  EXPECT_NEAR(two, kSeeds / 2.0, 15);
 }
 
 TEST(HeadingSearch, ABentTrunkIsStraightenedAboutTheNeck) {
