@@ -107,7 +107,8 @@ TEST_F(Stream, FramesAreInOrderWithLocalTime) {
     last = frame.taken;
     index = frame.index;
     const int grey = level(frame.image);
-    EXPECT_NEAR(grey, 40 + 30 * ((grey - 25) / 30), 4) << "none of the six images";
+    const int nearest = 40 + 30 * ((grey - 25) / 30);
+    EXPECT_NEAR(grey, nearest, 4) << "none of the six images";
     return ++count == 30;
   }));
   EXPECT_LE(last, seconds());
