@@ -159,7 +159,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
       !given.contains("particles") && !given.contains("budget") && !given.contains("registration.iterations");
   const std::string& input = command.live.request.input;
   if (command.loop && !is_file(input)) {
-    throw Error(ErrorKind::usage, shown_url(input) + " is no file: it cannot be repeated", "Omit --loop.");
+    throw Error(ErrorKind::usage, shown_url(input) + " is not a file: it cannot be repeated", "Omit --loop.");
   }
   command.live.version = TELEMIME_VERSION;
   command.live.avatars = avatar_folder();

@@ -44,7 +44,7 @@ inline bool was_published(const Subscriber& subscriber, const std::string& topic
   });
 }
 
-/// Whether at least so many frames of the participant arrive.
+/// Whether at least `count` frames of the participant arrive.
 inline bool has_frames(const Subscriber& subscriber, const std::string& participant, std::size_t count) {
   return comes_true([&] { return subscriber.frames(participant).size() >= count; });
 }

@@ -61,7 +61,8 @@ void check_settings(Structure structure) {
 /// Values by the names of their settings.
 using SettingValues = std::map<std::string, nlohmann::json>;
 
-/// The values of a JSON object whose groups are nested objects. Throws Error(config) when it is no object.
+/// The values of a JSON object whose groups are nested objects. Throws Error(config) when it is not an
+/// object.
 SettingValues flatten(const nlohmann::json& object);
 
 /// The inverse of flatten, for all settings of the table.

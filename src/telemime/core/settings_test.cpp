@@ -92,7 +92,7 @@ TEST(Settings, RulesAreChecked) {
 TEST(Settings, UnknownNamesGetTheNearestOne) {
   EXPECT_NE(refusal({{"tray", 1}}).find("'trays'"), std::string::npos);
   EXPECT_NE(refusal({{"heat", 100}}).find("'rack.heat'"), std::string::npos) << refusal({{"heat", 100}});
-  EXPECT_NE(refusal({{"rack", 3}}), "") << "a group is no setting";
+  EXPECT_NE(refusal({{"rack", 3}}), "") << "a group is not a setting";
 }
 
 TEST(Settings, ExplainSelectsAGroup) {

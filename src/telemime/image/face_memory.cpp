@@ -79,7 +79,7 @@ void label_hands_over_face(FaceMemory& memory, const LogColour& image, const Hea
   cv::warpAffine(difference, change, image_from_grid(head), labels.size(), cv::INTER_LINEAR,
                  cv::BORDER_CONSTANT, 0);
   cv::Mat changed = (change(box) > kChanged) & (labels(box) == kHead) & skin(box);
-  // If most of the head differs, it turned away or the track drifted; that is no evidence of a hand.
+  // If most of the head differs, it turned away or the track drifted; that is not evidence of a hand.
   if (cv::countNonZero(changed) * 5 > cv::countNonZero(labels(box) == kHead) * 3) {
     return;
   }

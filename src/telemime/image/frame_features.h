@@ -41,7 +41,7 @@ struct FrameFeatures {
   double time = 0.0;                  ///< of the frame, s
   bool has_colour_model = false;      ///< the person's colours are known: the labels can be trusted
   bool face_learned = false;          ///< the colours were learned in this frame
-  bool person_present = false;        ///< somebody is in the picture
+  bool person_present = false;        ///< a person is in the image
   std::string note;                   ///< why the person's colours are not known
   std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
   double ms = 0.0;                    ///< time that the image side took

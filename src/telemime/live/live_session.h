@@ -43,7 +43,7 @@ struct LiveState {
 /// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of
 /// the one before. Each thread has one frame at most and the source keeps the newest, so nothing is ever late
 /// by more than the work in hand. A source that drops no frame gives the poses that track_frame() gives
-/// one after the other. A camera that is gone is waited for, and what happens to it is told by
+/// one after the other. A camera that is gone is waited for, and its changes are reported by
 /// LiveHooks::message.
 class LiveSession {
  public:

@@ -50,7 +50,7 @@ std::size_t fill_from_end(const Tracker& tracker, const TrackerState& state, Ran
   start_filter(records[found].estimate.motion.pose, tracker.limits, filter, true);
   const TrackingConfig& config = tracker.config.tracking;
   std::vector<FrameEstimate> followed;  // the last frame first
-  std::size_t good = 0;                 // so many of them: the body fits in the last of these
+  std::size_t good = 0;                 // number of frames up to the last that the body fits
   double bad_for = 0.0;                 // 1/25 s
   int bad_frames = 0;                   // in a row
   // As long as check_fit() would go on.

@@ -14,7 +14,7 @@ namespace telemime {
 struct FittedPerson {
   KnownStart start;
   std::int64_t frames = 0;  ///< in which the person was tracked
-  /// The shape was fitted to so many frames; 0: too few of them showed the arms, and it is as one frame gave
+  /// Number of frames that the shape was fitted to; 0: too few showed the arms, and it is as one frame gave
   /// it.
   std::size_t keyframes = 0;
   double cost_before = 0.0;  ///< of refine_shape(), before and after

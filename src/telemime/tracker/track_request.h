@@ -22,7 +22,7 @@ struct TrackRequest {
   OutputOptions output_options;
   bool overlay = true;
   std::int64_t most_frames = 0;  ///< 0: all
-  bool keep_pace = false;        ///< live only: fewer evaluations where there is no time for all
+  bool keep_pace = false;        ///< live only: fewer evaluations when time is short
   Config config;
 };
 

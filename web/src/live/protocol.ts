@@ -20,7 +20,7 @@ const mapOf = <T>(value: v.GenericSchema<unknown, T>) =>
     v.transform((all): Map<string, T> => new Map(Object.entries(all))),
   );
 
-/** The items that fit the schema; what is no array is an empty list. */
+/** The items that fit the schema; anything but an array gives an empty list. */
 const listOf = <T>(item: v.GenericSchema<unknown, T>) =>
   v.pipe(
     v.fallback(v.array(v.unknown()), []),

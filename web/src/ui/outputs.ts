@@ -61,7 +61,7 @@ export class OutputList {
   setOutputs(outputs: readonly Output[]): void {
     const { pending } = this;
     const active = (all: readonly Output[]) => all.some((o) => o.url === pending?.shown && o.state !== "off");
-    // An address that was in the list before is no answer: its error is still to come.
+    // An address that was in the list before is not an answer: its error is still to come.
     if (active(outputs) && !active(this.outputs)) this.pending = null;
     if (this.error.textContent === NO_CONNECTION) this.showError("");
     this.connected = true;
