@@ -47,10 +47,10 @@ cv::Point fixed(double u, double v) {
   return {static_cast<int>(std::lround(clip(u) * scale)), static_cast<int>(std::lround(clip(v) * scale))};
 }
 
-void draw_skeleton(cv::Mat& canvas, const MotionFrame& motion, double unit) {
+void draw_skeleton(cv::Mat& canvas, const OverlayView& view, const Camera& camera, double unit) {
   const int thick = std::max(1, static_cast<int>(std::lround(unit * 2.0)));
   const auto at = [&](Joint j) {
-    const Eigen::Vector2d& p = motion.pixels[static_cast<std::size_t>(j)];
+    const Eigen::Vector2d p = view.camera.pixel_in(camera, view.motion->pixels[static_cast<std::size_t>(j)]);
     return fixed(p.x(), p.y());
   };
   for (const Bone& bone : kBones) {
@@ -63,10 +63,10 @@ void draw_skeleton(cv::Mat& canvas, const MotionFrame& motion, double unit) {
   }
 }
 
-void draw_contour(cv::Mat& canvas, const OverlayView& view) {
+void draw_contour(cv::Mat& canvas, const OverlayView& view, const Camera& camera) {
   Rendering rendering;
   std::vector<Eigen::Vector2f> contour;
-  render(view.model->mesh, forward_kinematics(view.model->body, view.motion->pose), view.camera, rendering);
+  render(view.model->mesh, forward_kinematics(view.model->body, view.motion->pose), camera, rendering);
   occluding_contour(view.model->mesh, rendering, contour);
   for (const Eigen::Vector2f& p : contour) {
     cv::circle(canvas, fixed(p.x(), p.y()), 1 << (kFractionBits - 1), kContour, cv::FILLED, cv::LINE_AA,
@@ -137,8 +137,9 @@ cv::Mat draw_overlay(const cv::Mat& image, const OverlayView& view) {
   cv::Mat panel = canvas(cv::Rect(image.cols, 0, canvas.cols - image.cols, canvas.rows));
   const int top_rows = static_cast<int>(panel.rows * 0.78);
   if (tracking) {
-    draw_contour(picture, view);
-    draw_skeleton(picture, *view.motion, unit);
+    const Camera camera = view.camera.scaled_to(image.cols, image.rows);
+    draw_contour(picture, view, camera);
+    draw_skeleton(picture, view, camera, unit);
     cv::Mat top = panel.rowRange(0, top_rows);
     draw_top_view(top, *view.motion, unit);
   }

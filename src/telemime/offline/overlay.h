@@ -14,7 +14,7 @@ namespace telemime {
 struct OverlayView {
   const MotionFrame* motion = nullptr;
   const Model* model = nullptr;  ///< for the contour
-  Camera camera;                 ///< of the input image
+  Camera camera;                 ///< of the input's frames; the drawn image may be smaller
   std::string note;              ///< words for the lower edge
 };
 
