@@ -33,7 +33,7 @@
 namespace telemime {
 namespace {
 
-// Without a page for so long, none is being loaded anew.
+// A page that is reloaded is back within this time.
 constexpr std::chrono::seconds kReload{3};
 // That a browser may take to start and to show the page, when it was asked for.
 constexpr std::chrono::seconds kFirstPage{30};

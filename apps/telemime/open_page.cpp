@@ -41,7 +41,7 @@ bool has_display() {
     give_up(report, errno);
   }
   if (opener > 0) {
-    ::_exit(0);  // whoever waits for this process need not wait for the browser
+    ::_exit(0);  // the parent need not wait for the browser
   }
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

@@ -204,7 +204,7 @@ struct LiveProgram::State {
     const std::string text = spoken->body();
     {
       const std::lock_guard lock(mutex);
-      body = text;  // first: a page that comes now is told by its greeting, or by the message
+      body = text;  // first: a page that connects now gets it with its greeting or as the message
     }
     server->send_text(kWords, shared(text));
     senders.person(header);
@@ -271,7 +271,7 @@ struct LiveProgram::State {
     }
   }
 
-  // Pages have their list of outputs; whoever looks at the console alone has not.
+  // Pages show the list of outputs; the console reports changes.
   void tell_outputs() {
     for (const SenderStateReporter::Report& report : sender_states.update(senders.status())) {
       if (console) {

@@ -285,7 +285,7 @@ struct LiveSession::State {
     followed = times;
   }
 
-  // What fails in a thread ends the run, in words; false then.
+  // An exception in a thread is reported and ends the run; false then.
   template <typename Work>
   bool guarded(const Work& work) {
     try {
@@ -318,7 +318,7 @@ struct LiveSession::State {
   bool empty_promised = false;  // changed by the image side alone: the user says that the room is empty
   bool opened = false;          // a picture has come
   LivePhase phase = LivePhase::person;
-  std::string reason;  // in words, why nobody is tracked
+  std::string reason;  // why nobody is tracked, for the user
   std::string failure;
   std::optional<double> waiting_since;  // for a picture, s of the clock
   std::string camera_words;             // why there is none

@@ -25,7 +25,7 @@ struct LiveHooks {
   std::function<void(const Frame&)> picture;        ///< each frame that is looked at, first of all
   std::function<void(const StreamHeader&)> person;  ///< a person was calibrated: their frames follow
   std::function<void(const MotionFrame&, double taken)> motion;   ///< smoothed
-  std::function<void(MessageLevel, const std::string&)> message;  ///< what the user should know, in words
+  std::function<void(MessageLevel, const std::string&)> message;  ///< messages for the user
 };
 
 /// As long as there is no session yet: `opening`.
@@ -33,10 +33,10 @@ struct LiveState {
   LivePhase phase = LivePhase::opening;
   std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
   LiveRates rates;
-  /// In the phase `background`: the user said that the room is empty. Else it is learned around whoever is
-  /// there.
+  /// In the phase `background`: the user said that the room is empty. Otherwise the background is learned
+  /// around the person.
   bool room_empty = false;
-  /// What was told by LiveHooks::message and is still so, of the camera and of the person.
+  /// Warnings of LiveHooks::message that still apply, about the camera and the person.
   std::vector<std::string> warnings;
 };
 

@@ -18,7 +18,7 @@ class PoseMessages {
   std::string body() const;
   /// One frame, in the order of the stream. `stamp` is ms of the program's monotonic clock.
   std::string pose(const MotionFrame& frame, double stamp);
-  /// A frame that nobody is told of; the messages behind it are as if it had been told.
+  /// Takes a frame into account without a message: later messages are the same as if it had been sent.
   void pass(const MotionFrame& frame) { motion_(motion_.clean(frame)); }
 
  private:

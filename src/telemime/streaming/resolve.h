@@ -9,8 +9,8 @@
 
 namespace telemime {
 
-/// Addresses of a host as text, IPv4 first (most programs listen there alone); throws LinkBroken in words
-/// when there is none.
+/// Addresses of a host as text, IPv4 first (most programs listen there alone); throws LinkBroken with
+/// a message for the user when there is none.
 using Lookup = std::function<std::vector<std::string>(const std::string& host)>;
 
 /// getaddrinfo. Blocks, for as long as the name servers let it.

@@ -16,7 +16,7 @@ class io_context;
 
 namespace telemime {
 
-/// The connection is gone or cannot be made: why, in words for the user, without "trying again".
+/// The connection is lost or cannot be made. The message gives the reason, without "trying again".
 class LinkBroken : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -57,7 +57,7 @@ class Link {
 
   /// Connects. Throws LinkBroken.
   virtual void open() = 0;
-  /// The person whose frames follow: after each open(), and when they were calibrated anew.
+  /// The person whose frames follow: after each open(), and after a recalibration.
   virtual void person(const std::shared_ptr<const StreamHeader>& person) = 0;
   /// Writes a frame; `taken` as in Sender::send. False when there was nobody to send it to, which is no
   /// failure. Throws LinkBroken.

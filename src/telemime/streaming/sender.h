@@ -41,7 +41,7 @@ class Sender {
   /// Stops at once, whatever the receiver does.
   virtual ~Sender() = default;
 
-  /// The person whose frames follow. Called again when the person was calibrated anew.
+  /// The person whose frames follow. Called again after a recalibration.
   virtual void begin(const StreamHeader& header) = 0;
   /// `taken`: when the camera took the picture, ms of the program's monotonic clock.
   virtual void send(const MotionFrame& frame, double taken) = 0;
@@ -66,7 +66,7 @@ using SenderKinds = std::span<const SenderKind>;
 SenderKinds sender_kinds();
 
 /// By the scheme of the URL: one of `kinds`. Throws Error(usage) for one that is unknown or
-/// malformed, in words that show a right one.
+/// malformed; the message shows a valid one.
 std::unique_ptr<Sender> make_sender(const std::string& url, SenderKinds kinds = sender_kinds());
 
 /// What the URL means, as text: two that mean the same output have the same one. The scheme, the user, the

@@ -49,7 +49,7 @@ bool web_post(const WebRequest& request, const WebNames& names, std::string_view
 /// What stands in `content`, for that request.
 WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers);
 
-/// Plain words with a status, and the end of the connection.
+/// A plain text answer with a status; then the connection is closed.
 WebAnswer web_refusal(boost::beast::http::status status, const std::string& words);
 
 }  // namespace telemime

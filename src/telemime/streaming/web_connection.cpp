@@ -218,7 +218,7 @@ void WebConnection::write() {
 
 void WebConnection::write_some() {
   stream_.expires_after(
-      hub_->options().stalled_after);  // anew for each part: a slow reader is none that stopped
+      hub_->options().stalled_after);  // restarted for each part: a slow reader has not stalled
   http::async_write_some(stream_, *serializer_, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) {
       return;

@@ -50,8 +50,9 @@ ip::tcp::acceptor listen_on(boost::asio::io_context& io, const ip::tcp::endpoint
                 "Choose one above 1023, for instance --port 7070.");
   }
   if (error == boost::system::errc::address_not_available) {
-    throw Error(ErrorKind::usage, "this computer has no address " + address,
-                "127.0.0.1 is for this computer alone, 0.0.0.0 for whoever can reach it.");
+    throw Error(
+        ErrorKind::usage, "this computer has no address " + address,
+        "127.0.0.1 is for this computer alone, 0.0.0.0 accepts any computer that can reach this one.");
   }
   throw Error(ErrorKind::output,
               "nothing can be served at " + address + ", port " + number + ": " + error.message());
@@ -62,7 +63,8 @@ ip::address address_of(const std::string& text) {
   ip::address address = ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
   if (error) {
     throw Error(ErrorKind::usage, "'" + text + "' is no address",
-                "Write numbers: 127.0.0.1 is for this computer alone, 0.0.0.0 for whoever can reach it.");
+                "Write numbers: 127.0.0.1 is for this computer alone, 0.0.0.0 accepts any computer that can "
+                "reach this one.");
   }
   return address;
 }

@@ -18,7 +18,7 @@ namespace telemime {
 std::vector<boost::asio::ip::tcp::acceptor> listen_at(boost::asio::io_context& io, const std::string& address,
                                                       std::uint16_t port);
 
-/// Makes a connection of whoever comes. It must outlive the run of its io_context.
+/// Accepts clients, one connection each. It must outlive the run of its io_context.
 class WebListener {
  public:
   WebListener(std::shared_ptr<WebHub> hub, boost::asio::ip::tcp::acceptor acceptor);

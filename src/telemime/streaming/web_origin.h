@@ -10,7 +10,7 @@
 namespace telemime {
 
 /// The names under which a server may be called. A page of another web site can make the browser ask this
-/// server: its own name for this address (DNS rebinding) is told by Host, its requests by Origin.
+/// server: Host shows its own name for this address (DNS rebinding), Origin shows where requests come from.
 class WebNames {
  public:
   /// localhost, 127.0.0.1 and [::1] at `port`, and `hosts`: names at `port`, or "name:port". Throws

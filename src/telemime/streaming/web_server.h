@@ -45,7 +45,7 @@ struct WebServerOptions {
   std::uint16_t port = 7070;          ///< 0: any free one
   std::vector<std::string> hosts;     ///< further names under which the page may be called (Host, Origin):
                                       ///< "studio", or "studio:8080" when a proxy has another port
-  std::size_t most_clients = 32;      ///< open WebSockets; more are refused in words
+  std::size_t most_clients = 32;      ///< open WebSockets; more are refused with a message
   /// Connections in all, beside the clients: requests, and those that browsers keep open for the next one.
   /// From three quarters of them on none is kept open.
   std::size_t more_connections = 96;
@@ -66,7 +66,7 @@ struct WebHandlers {
   /// a backslash.
   std::function<std::optional<WebContent>(const std::string& path)> get;
   /// A POST. `answer` is called once, from any thread and at any time, also when the server is gone; a client
-  /// that waits too long is told so (503). Empty: there is nothing to be posted (405).
+  /// that waits too long gets status 503. Empty: POST is not allowed (405).
   std::function<void(WebPost post, std::function<void(WebContent)> answer)> post;
   /// The content security policy of what was asked for under that Host; empty: that of the live page.
   std::function<std::string(std::string_view host)> policy;

@@ -9,7 +9,7 @@ namespace telemime {
 /// at intervals; while somebody is, `check_fit` decides after each frame whether the tracker still holds
 /// them.
 
-/// Searches for a person in a frame: calibrates whoever is new (thesis 3.3), else finds the pose of the known
+/// Searches for a person in a frame: calibrates a new person (thesis 3.3), else finds the pose of the known
 /// person. Sets the phase, and the note when nobody is found.
 void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
                  FrameEstimate& result);

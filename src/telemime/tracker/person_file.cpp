@@ -23,7 +23,7 @@ std::filesystem::path scene_of(std::filesystem::path file) {
 
 Error bad(const std::filesystem::path& file, const std::string& why) {
   return {ErrorKind::config, "calibration file " + file.string() + ": " + why,
-          "Make it anew with `telemime calibrate`."};
+          "Create it again with `telemime calibrate`."};
 }
 
 double number(const Json& json, const char* key, double low, double high) {

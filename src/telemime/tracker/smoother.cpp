@@ -19,7 +19,7 @@ class NoSmoother final : public Smoother {
   MotionFrame operator()(const MotionFrame& frame) override { return frame; }
 };
 
-/// What all filters share: when to start anew, and how a smoothed pose becomes a frame.
+/// What all filters share: when to restart, and how a smoothed pose becomes a frame.
 class RotationSmoother : public Smoother {
  public:
   RotationSmoother(const Body& body, const Camera& camera) : body_(body), camera_(camera) {}

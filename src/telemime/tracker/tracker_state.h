@@ -97,7 +97,7 @@ TrackingRun make_tracking_run(const Config& config, const Camera& camera);
 /// Takes over the person and the scene that another run of the same camera calibrated.
 void use_calibration(const CalibratedPerson& person, const ImageCalibration& image, TrackingRun& run);
 
-/// Forgets the person, but not the scene: the next frames calibrate whoever they show, their colours
+/// Forgets the person, but not the scene: the next frames calibrate the person they show, colours
 /// included. Neither `extract` nor `estimate` may run at the same time.
 void forget_person(TrackingRun& run);
 

@@ -34,7 +34,7 @@ void add_message(RecordedParticipant& person, const RecordedMessage& message) {
   } else if (message.topic.kind != TopicKind::state) {
     person.takes_part = person.takes_part || !message.payload.empty();
   } else if (const auto state = read_state(message.payload); state && person.names.size() < kMostNames) {
-    person.names.insert(state->name);  // the state may be a retained one of somebody who has left
+    person.names.insert(state->name);  // the state may be a retained one of a participant who has left
   }
 }
 

@@ -15,7 +15,7 @@
 namespace telemime::fields {
 
 /// The JSON value in `text`, or nothing when it is not JSON. Throws Error(input) when it is nested deeper
-/// than any file of ours (a trap for whoever copies it).
+/// than any file of this project (deep values would overflow the stack when they are copied).
 std::optional<nlohmann::json> parse(std::string_view text, const std::string& where);
 
 const nlohmann::json& member(const nlohmann::json& object, const std::string& key, const std::string& where);
