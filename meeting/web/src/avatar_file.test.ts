@@ -3,27 +3,13 @@ import { sha256 } from "@noble/hashes/sha2";
 import { bytesToHex } from "@noble/hashes/utils";
 import { describe, expect, it } from "vitest";
 import { STRANGERS } from "./bounds";
-import { AvatarError, REQUIRED_BONES } from "#web/avatar/inspect";
+import { AvatarError } from "#web/avatar/inspect";
+import { glbFile, vrm1 } from "#web/avatar/testing_file";
 import { describeFile, ownLook, strangersFile } from "./avatar_file";
 import { MAX_AVATAR } from "./messages";
 
-/** A VRM that passes a first look. */
-function vrm(): Uint8Array<ArrayBuffer> {
-  const humanBones = Object.fromEntries(REQUIRED_BONES.map((b, node) => [b, { node }]));
-  const json = {
-    nodes: REQUIRED_BONES.map((name) => ({ name })),
-    extensions: { VRMC_vrm: { meta: { name: "A" }, humanoid: { humanBones } } },
-  };
-  const text = new TextEncoder().encode(JSON.stringify(json));
-  const out = new Uint8Array(20 + text.length);
-  const v = new DataView(out.buffer);
-  [0x46546c67, 2, out.length, text.length, 0x4e4f534a].forEach((x, i) => v.setUint32(4 * i, x, true));
-  out.set(text, 20);
-  return out;
-}
-
 const URL_ = "https://example.org/a.vrm";
-const DATA = vrm();
+const DATA = glbFile(vrm1());
 const FILE = { url: URL_, sha256: bytesToHex(sha256(DATA)), bytes: DATA.length };
 const giving =
   (data: Uint8Array<ArrayBuffer>, init?: ResponseInit): typeof fetch =>

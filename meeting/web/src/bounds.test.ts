@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import { glbFile } from "#web/avatar/testing_file";
 import { STRANGERS, checkBounds, pictureSize } from "./bounds";
 
 const PNG = (width: number, height: number): Uint8Array => {
@@ -40,18 +41,7 @@ function file(change: (json: Json) => void = () => undefined, picture = PNG(64, 
     nodes: [{ children: [1, 2] }, { mesh: 0 }, { children: [] }],
   };
   change(json);
-  const text = new TextEncoder().encode(JSON.stringify(json));
-  const pad = (4 - (text.length % 4)) % 4;
-  const out = new Uint8Array(20 + text.length + pad + 8 + bin.length);
-  const v = new DataView(out.buffer);
-  [0x46546c67, 2, out.length, text.length + pad, 0x4e4f534a].forEach((x, i) => v.setUint32(4 * i, x, true));
-  out.set(text, 20);
-  out.fill(0x20, 20 + text.length, 20 + text.length + pad);
-  const at = 20 + text.length + pad;
-  v.setUint32(at, bin.length, true);
-  v.setUint32(at + 4, 0x004e4942, true);
-  out.set(bin, at + 8);
-  return out.buffer;
+  return glbFile(json, bin).buffer;
 }
 
 const set =

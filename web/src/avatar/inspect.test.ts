@@ -2,32 +2,11 @@
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { describe, expect, it, vi } from "vitest";
 import { REQUIRED_BONES, boneWords, checkSize, inspect } from "./inspect";
+import { glbFile, vrm1 } from "./testing_file";
 
-function file(json: unknown): ArrayBuffer {
-  const text = new TextEncoder().encode(typeof json === "string" ? json : JSON.stringify(json));
-  const b = new ArrayBuffer(20 + text.length);
-  const v = new DataView(b);
-  [0x46546c67, 2, b.byteLength, text.length, 0x4e4f534a].forEach((x, i) => v.setUint32(i * 4, x, true));
-  new Uint8Array(b, 20).set(text);
-  return b;
-}
-
-const nodes = REQUIRED_BONES.map((name) => ({ name }));
-const vrm1 = (without?: string) => ({
-  nodes,
-  extensions: {
-    VRMC_vrm: {
-      meta: { name: "Ada", authors: ["B", "C"] },
-      humanoid: {
-        humanBones: Object.fromEntries(
-          REQUIRED_BONES.map((b, i) => [b, { node: i }] as const).filter(([b]) => b !== without),
-        ),
-      },
-    },
-  },
-});
+const file = (json: unknown): ArrayBuffer => glbFile(json).buffer;
 const vrm0 = (without?: string) => ({
-  nodes,
+  nodes: vrm1().nodes,
   extensions: {
     VRM: {
       meta: { title: "Old", author: "D" },
@@ -38,7 +17,7 @@ const vrm0 = (without?: string) => ({
   },
 });
 
-describe("a look at avatar files", () => {
+describe("inspection of avatar files", () => {
   it("knows VRM 1.0 and VRM 0.x", () => {
     expect(inspect(file(vrm1()))).toEqual({ version: "1", title: "Ada", author: "B, C" });
     expect(inspect(file(vrm0()))).toEqual({ version: "0", title: "Old", author: "D" });
@@ -51,9 +30,9 @@ describe("a look at avatar files", () => {
     expect(() => inspect(file(none))).toThrow("and 12 more");
   });
   it("does not count a bone whose node is not there", () => {
-    expect(() => inspect(file({ ...vrm1(), nodes: nodes.slice(0, 14) }))).toThrow("right foot");
+    expect(() => inspect(file({ ...vrm1(), nodes: vrm1().nodes.slice(0, 14) }))).toThrow("right foot");
   });
-  it("refuses what is no avatar, in words", () => {
+  it("refuses other files and says why", () => {
     expect(() => inspect(new ArrayBuffer(3))).toThrow("too short");
     expect(() => inspect(new ArrayBuffer(100))).toThrow("not a VRM avatar");
     expect(() => inspect(file("{broken"))).toThrow("broken");
@@ -78,7 +57,7 @@ describe("a look at avatar files", () => {
       "(KHR_draco_mesh_compression, KHR_texture_basisu)",
     );
   });
-  it("lets in what can be left out, and what the 3-D library only warns of", async () => {
+  it("accepts optional and unknown extensions", async () => {
     const required = ["VRMC_vrm", "VRMC_materials_mtoon", "KHR_texture_transform", "ACME_unheard_of"];
     const unknown = { ...vrm1(), extensionsUsed: required, extensionsRequired: required };
     expect(inspect(file(unknown)).title).toBe("Ada");
@@ -100,7 +79,7 @@ describe("a look at avatar files", () => {
     expect(() => checkSize(201 * 1024 * 1024)).toThrow("201 MB");
     expect(() => checkSize(200 * 1024 * 1024)).not.toThrow();
   });
-  it("says bones as people do", () => {
+  it("writes bone names as words", () => {
     expect(boneWords("leftUpperArm")).toBe("left upper arm");
   });
 });

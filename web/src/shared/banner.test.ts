@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import { Banner } from "./banner";
-import { fakeDocument, type FakeElement } from "./testing_dom";
+import { useFakePage } from "./testing_dom";
 
-let element: (id: string) => FakeElement;
+const element = useFakePage();
 let banner: Banner;
 const words = (): string => element("banner-words").textContent;
 const lost = (why: string) =>
   banner.setState({ kind: "lost", retryAt: performance.now() + 4000, words: why });
 
 beforeEach(() => {
-  vi.useFakeTimers();
-  element = fakeDocument();
   banner = new Banner(() => {});
-});
-afterEach(() => {
-  vi.clearAllTimers();
-  vi.useRealTimers();
-  vi.unstubAllGlobals();
 });
 
 describe("the banner", () => {
@@ -35,7 +28,7 @@ describe("the banner", () => {
     expect(element("banner").hidden).toBe(true);
   });
 
-  it("says why when that was told, also while it tries again", () => {
+  it("gives the reason, also during the next try", () => {
     lost("Too many pages are open.");
     expect(words()).toBe("Too many pages are open. Trying again in 4 s.");
     banner.setState({ kind: "connecting" });

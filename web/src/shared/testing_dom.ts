@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: as much of a document as the parts of the page touch. Elements are there as soon as they are asked for.
+// For tests: as much of a document as the parts of the page touch. An element exists as soon as its id is used.
 
-import { vi } from "vitest";
+import { afterEach, beforeEach, vi } from "vitest";
 
 type Child = FakeElement | string;
 
@@ -18,7 +18,7 @@ export class FakeElement {
   value = "";
   private nodes: Child[] = [];
   private readonly attributes = new Map<string, string>();
-  private readonly heard = new Map<string, (e: unknown) => void>();
+  private readonly listeners = new Map<string, (e: unknown) => void>();
 
   get children(): FakeElement[] {
     return this.nodes.filter((n) => typeof n !== "string");
@@ -61,20 +61,35 @@ export class FakeElement {
   focus(): void {}
 
   addEventListener(type: string, then: (e: unknown) => void): void {
-    this.heard.set(type, then);
+    this.listeners.set(type, then);
   }
-  hear(type: string): void {
-    this.heard.get(type)?.({ preventDefault: () => {} });
+  dispatch(type: string): void {
+    this.listeners.get(type)?.({ preventDefault: () => {} });
   }
   press(): void {
-    this.hear("click");
+    this.dispatch("click");
   }
 }
 
-const KINDS = ["Element", "Button", "Input", "Form", "Canvas"];
+/**
+ * Gives each test of a file fake timers and a new document in place of the browser's. Returns a function that gives the
+ * element of an id.
+ */
+export function useFakePage(): (id: string) => FakeElement {
+  let element!: (id: string) => FakeElement;
+  beforeEach(() => {
+    vi.useFakeTimers();
+    element = fakeDocument();
+  });
+  afterEach(() => {
+    vi.clearAllTimers();
+    vi.useRealTimers();
+    vi.unstubAllGlobals();
+  });
+  return (id) => element(id);
+}
 
-/** A new document in place of the browser's; gives the element of an id. vi.unstubAllGlobals() takes it away. */
-export function fakeDocument(): (id: string) => FakeElement {
+function fakeDocument(): (id: string) => FakeElement {
   const elements = new Map<string, FakeElement>();
   const element = (id: string): FakeElement => {
     const known = elements.get(id) ?? new FakeElement();
@@ -83,8 +98,8 @@ export function fakeDocument(): (id: string) => FakeElement {
   };
   vi.stubGlobal("window", globalThis);
   vi.stubGlobal("addEventListener", () => {});
-  for (const kind of KINDS)
-    vi.stubGlobal(kind === "Element" ? "HTMLElement" : `HTML${kind}Element`, FakeElement);
+  for (const kind of ["", "Button", "Input", "Form", "Canvas"])
+    vi.stubGlobal(`HTML${kind}Element`, FakeElement);
   vi.stubGlobal("document", {
     activeElement: null,
     getElementById: element,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import { AvatarError } from "../avatar/inspect";
 import type { Avatar } from "../avatar/load";
 import { Avatars } from "./avatars";
-import { fakeDocument } from "../shared/testing_dom";
+import { useFakePage } from "../shared/testing_dom";
 
 vi.mock("../avatar/store", () => ({
   listAvatars: async () => [],
@@ -11,6 +11,7 @@ vi.mock("../avatar/store", () => ({
 }));
 vi.mock("../shared/graphics", () => ({ drawsInSoftware: () => false }));
 
+useFakePage();
 let asked: string[]; // looks of the program
 let answers: Map<string, (there: boolean) => void>;
 let said: string[];
@@ -26,7 +27,7 @@ const settle = () => new Promise((resolve) => setTimeout(resolve, 5));
 const file = (text: string) => new File([text], "mine.vrm");
 
 beforeEach(() => {
-  fakeDocument();
+  vi.useRealTimers();
   asked = [];
   said = [];
   remembered = [];
@@ -50,7 +51,6 @@ beforeEach(() => {
     "look:casual",
   );
 });
-afterEach(() => vi.unstubAllGlobals());
 
 describe("a bad file before anything is shown", () => {
   it("makes way for the avatar that was chosen, and promises nothing", async () => {

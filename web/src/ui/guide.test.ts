@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Command, Phase, Status } from "../live/protocol";
 import { Guide } from "./guide";
-import { fakeDocument, type FakeElement } from "../shared/testing_dom";
+import { useFakePage } from "../shared/testing_dom";
 
-let element: (id: string) => FakeElement;
+const element = useFakePage();
 let sent: Command[];
 let said: string[];
 let connected: boolean;
@@ -14,8 +14,6 @@ const enter = (phase: Phase, roomEmpty = false): void =>
   guide.setStatus({ phase, roomEmpty, words: "" } as unknown as Status);
 
 beforeEach(() => {
-  vi.useFakeTimers();
-  element = fakeDocument();
   sent = [];
   said = [];
   connected = true;
@@ -28,10 +26,6 @@ beforeEach(() => {
     (words) => said.push(words),
     () => {},
   );
-});
-afterEach(() => {
-  vi.useRealTimers();
-  vi.unstubAllGlobals();
 });
 
 describe("the guide", () => {

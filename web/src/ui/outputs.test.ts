@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Command, Output } from "../live/protocol";
 import { OutputList } from "./outputs";
-import { fakeDocument, type FakeElement } from "../shared/testing_dom";
+import { useFakePage } from "../shared/testing_dom";
 
-let element: (id: string) => FakeElement;
+const element = useFakePage();
 let outputs: OutputList;
 let sent: Command[];
 let connected: boolean;
@@ -22,12 +22,10 @@ const complaint = (): string => element("output-error").textContent;
 const input = (): string => element("output-url").value;
 function add(url: string): void {
   element("output-url").value = url;
-  element("output-form").hear("submit");
+  element("output-form").dispatch("submit");
 }
 
 beforeEach(() => {
-  vi.useFakeTimers();
-  element = fakeDocument();
   sent = [];
   connected = true;
   outputs = new OutputList((c) => {
@@ -35,10 +33,6 @@ beforeEach(() => {
     return connected;
   });
   outputs.setOutputs([]);
-});
-afterEach(() => {
-  vi.useRealTimers();
-  vi.unstubAllGlobals();
 });
 
 describe("an address that is added", () => {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Status } from "../live/protocol";
 import { Recordings } from "./recordings";
-import { fakeDocument, type FakeElement } from "../shared/testing_dom";
+import { useFakePage } from "../shared/testing_dom";
 
-let element: (id: string) => FakeElement;
+const element = useFakePage();
 let recordings: Recordings;
 let sent: boolean[];
 let said: string[];
@@ -19,8 +19,6 @@ const status = (seconds: number | null, phase = "tracking"): void =>
 const label = (): string => element("record-label").textContent;
 
 beforeEach(() => {
-  vi.useFakeTimers();
-  element = fakeDocument();
   sent = [];
   said = [];
   connected = true;
@@ -32,10 +30,6 @@ beforeEach(() => {
     (words) => said.push(words),
   );
   status(null);
-});
-afterEach(() => {
-  vi.useRealTimers();
-  vi.unstubAllGlobals();
 });
 
 describe("recording", () => {

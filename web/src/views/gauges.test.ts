@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { beforeEach, describe, expect, it, vi } from "vitest";
 import type { Phase, Status } from "../live/protocol";
-import { fakeDocument, type FakeElement } from "../shared/testing_dom";
+import { useFakePage } from "../shared/testing_dom";
 import { Gauges } from "./gauges";
 
 const lines = vi.hoisted(() => ({ cleared: 0 }));
@@ -16,7 +16,7 @@ vi.mock("./sparkline", () => ({
 }));
 
 const IDS = ["tracked", "input", "dropped", "median", "p95", "total", "f", "dc", "cpu"];
-let element: (id: string) => FakeElement;
+const element = useFakePage();
 let gauges: Gauges;
 const shown = () => Object.fromEntries(IDS.map((id) => [id, element(`gauge-${id}`).textContent]));
 
@@ -34,11 +34,9 @@ const status = (phase: Phase): void =>
   } as unknown as Status);
 
 beforeEach(() => {
-  element = fakeDocument();
   lines.cleared = 0;
   gauges = new Gauges();
 });
-afterEach(() => vi.unstubAllGlobals());
 
 describe("gauges", () => {
   it("show a latency while somebody is tracked, and only then", () => {
