@@ -2,6 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { about, angleBetween, multiply, type Quat } from "#web/shared/quaternion";
 import { BONES, MAX_FRAME, MAX_BONES, decodeFrame, encodeFrame, type PoseFrame } from "./frame";
+import { frameOf } from "./testing_meeting";
 
 /** Numbers in [0, 1), the same each time. */
 function chance(seed: number): () => number {
@@ -14,16 +15,13 @@ function anyRotation(next: () => number): Quat {
   return multiply(turn("x"), multiply(turn("y"), turn("z")));
 }
 
-const frame = (change: Partial<PoseFrame> = {}): PoseFrame => ({
-  tracked: true,
-  still: false,
-  session: 4660,
-  sequence: 7,
-  captured: 123456789n,
-  hips: [0.012, 0.94, -0.3],
-  bones: BONES.slice(0, 13).map((_, bone) => ({ bone, rotation: [0, 0, 0, 1], confidence: bone })),
-  ...change,
-});
+const frame = (change: Partial<PoseFrame> = {}): PoseFrame =>
+  frameOf({
+    session: 4660,
+    hips: [0.012, 0.94, -0.3],
+    bones: BONES.slice(0, 13).map((_, bone) => ({ bone, rotation: [0, 0, 0, 1], confidence: bone })),
+    ...change,
+  });
 
 describe("frames", () => {
   it("of 13 bones have 111 bytes", () => {
@@ -46,7 +44,7 @@ describe("frames", () => {
     }
     expect(worst).toBeLessThan(1.5e-4); // rad
   });
-  it("turn the short way for either sign of a rotation", () => {
+  it("read a rotation of either sign", () => {
     for (const rotation of [
       [0.5, 0.5, 0.5, 0.5],
       [-0.5, -0.5, -0.5, -0.5],
@@ -64,12 +62,12 @@ describe("frames", () => {
     larger.set(bytes, 5);
     expect(decodeFrame(larger.subarray(5, 5 + bytes.length))).toEqual(decodeFrame(bytes));
   });
-  it("hold large times exactly, and hips within their range", () => {
+  it("keep large times and limit the hips", () => {
     const captured = 2n ** 63n + 1n;
     expect(decodeFrame(encodeFrame(frame({ captured })))!.captured).toBe(captured);
     expect(decodeFrame(encodeFrame(frame({ hips: [99, -99, 0] })))!.hips).toEqual([32.767, -32.768, 0]);
   });
-  it("that cannot be said are refused", () => {
+  it("that do not fit the format are refused", () => {
     const bone = { bone: 0, rotation: [0, 0, 0, 1] as Quat, confidence: 0 };
     expect(() => encodeFrame(frame({ session: 0 }))).toThrow(RangeError);
     expect(() => encodeFrame(frame({ bones: [bone, bone] }))).toThrow(RangeError);
@@ -95,7 +93,7 @@ describe("malformed frames", () => {
       expect(decodeFrame(b)).toBeNull();
     }
   });
-  it("of another version, without a session, with more bones than there are", () => {
+  it("of another version, session or bone count", () => {
     expect(decodeFrame(good)).not.toBeNull();
     expect(decodeFrame(changed(0, 2))).toBeNull();
     const none = changed(2, 0);
@@ -121,7 +119,7 @@ describe("malformed frames", () => {
     expect(decodeFrame(long)).toBeNull();
     expect(decodeFrame(changed(32, 0xff))).toBeNull(); // the unused half of the confidences
   });
-  it("of noise never harm, and rotations are always unit", () => {
+  it("of noise give only unit rotations", () => {
     const next = chance(3);
     for (let n = 0; n < 3000; n++) {
       const b = Uint8Array.from({ length: 26 + Math.floor(next() * 130) }, () => Math.floor(next() * 256));

@@ -22,7 +22,7 @@ describe("a page in a meeting", () => {
     expect(bo.names).toEqual(["Ana", "Bo"]);
     expect(ana.seats).toEqual({ p01: 0, p02: 1 });
     expect(bo.seats).toEqual(ana.seats);
-    expect(broker.told).toBe(4); // a presence and a state of each
+    expect(broker.retained).toBe(4); // a presence and a state of each
     bo.client.say("hello");
     await wait(100);
     bo.client.leave();
@@ -35,7 +35,7 @@ describe("a page in a meeting", () => {
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     for (let i = 0; i < 60; i++) {
-      broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: i % 2 === 0, session: 5 }), true);
+      broker.presence("p09", i % 2 === 0);
       await wait(3000);
     }
     expect(ana.said.length).toBeLessThan(20);
@@ -52,25 +52,23 @@ describe("a page in a meeting", () => {
     const bo = new Page(broker, "p02", "Bo");
     await wait(1000);
     expect(bo.seats).toEqual({ p02: 0 });
-    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: true, session: 5 }), true);
-    const state = { session: 5, kind: "tracker", name: "Ana", seat: 0, avatar: null };
-    broker.publish(`${TOPIC}/p/p01/state`, toBytes(state), true);
+    broker.presence("p01", true);
+    broker.state("p01", "Ana", 0);
     await wait(1000);
     expect(bo.seats).toEqual({ p01: 0, p02: 1 });
-    broker.publish(`${TOPIC}/p/p01/presence`, toBytes({ here: false, session: 5 }), true);
+    broker.presence("p01", false);
     await wait(1000);
     expect(bo.seats).toEqual({ p02: 1 }); // nobody is moved because somebody leaves
   });
   it("keeps its seat among those who want any", async () => {
     for (const [i, id] of ["p13", "p14"].entries()) {
-      broker.publish(`${TOPIC}/p/${id}/presence`, toBytes({ here: true, session: 5 }), true);
-      const state = { session: 5, kind: "tracker", name: `T${i}`, seat: null, avatar: null };
-      broker.publish(`${TOPIC}/p/${id}/state`, toBytes(state), true);
+      broker.presence(id, true);
+      broker.state(id, `T${i}`, null);
     }
     const bo = new Page(broker, "p02", "Bo");
     await wait(3000);
     expect(bo.seats).toEqual({ p02: 2, p13: 0, p14: 1 });
-    expect(broker.told).toBe(6); // and no dispute with oneself
+    expect(broker.retained).toBe(6); // the page does not contend with itself
   });
   it("only watches without a seat", async () => {
     new Page(broker, "p01", "Ana");
@@ -199,7 +197,7 @@ describe("a broker that is not heard for a while", () => {
 
 describe("somebody whom only the broker still knows", () => {
   it("is not seen for long, and leaves without a word", async () => {
-    broker.publish(`${TOPIC}/p/p09/presence`, toBytes({ here: true, session: 5, every: 1.25 }), true);
+    broker.presence("p09", true, { every: 1.25 });
     await wait(100);
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
@@ -221,7 +219,7 @@ describe("one connection that breaks", () => {
     expect(bo.client.state.kind).toBe("open");
     expect(ana.said).toEqual(["* Bo joined.", "* Bo left.", "* Bo joined."]);
     // The will of the old connection comes only now: Bo is here none the less, for those who come later, too.
-    broker.publish(`${TOPIC}/p/p02/presence`, toBytes({ here: false, session: 1 }), true);
+    broker.presence("p02", false, { session: 1 });
     await wait(2000);
     const late = new Page(broker, "p03", "Chidi");
     await wait(1000);
@@ -263,10 +261,10 @@ describe("the blackboard", () => {
 });
 
 describe("those who chair the meeting", () => {
-  const kept = () => JSON.parse(new TextDecoder().decode(broker.kept.get(`${TOPIC}/room`)));
-  const told = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
+  const stored = () => broker.stored("room");
+  const meeting = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
   it("change its title, seats and lock, and leave all else as it is", async () => {
-    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
     const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
     const bo = new Page(broker, "p02", "Bo");
     await wait(2000);
@@ -274,16 +272,16 @@ describe("those who chair the meeting", () => {
     const both = [ana.client.alter({ title: "Red", seats: 12 }), ana.client.alter({ locked: true })];
     await wait(500);
     expect(await Promise.all(both)).toEqual(["", ""]);
-    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true });
+    expect(stored()).toEqual({ v: 1, ...meeting, title: "Red", seats: 12, locked: true });
     expect(bo.client.roster.meeting).toMatchObject({ title: "Red", seats: 12, locked: true });
     ana.client.wipe();
     await wait(500);
-    expect(kept()).toEqual({ v: 1, ...told, title: "Red", seats: 12, locked: true, epoch: 5 });
+    expect(stored()).toEqual({ v: 1, ...meeting, title: "Red", seats: 12, locked: true, epoch: 5 });
     expect(await bo.client.alter({ title: "Mine" })).toContain("Only chairs");
-    expect(kept().title).toBe("Red");
+    expect(stored().title).toBe("Red");
   });
   it("hear in words when the meeting does not take it", async () => {
-    broker.publish(`${TOPIC}/room`, toBytes(told), true);
+    broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
     const ana = new Page(broker, "p01", "Ana", ["speak", "chair"]);
     await wait(2000);
     const publish = broker.publish.bind(broker);

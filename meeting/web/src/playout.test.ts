@@ -3,21 +3,19 @@ import { describe, expect, it } from "vitest";
 import { about, angleBetween, type Quat } from "#web/shared/quaternion";
 import type { PoseFrame } from "./frame";
 import { Playout } from "./playout";
+import { frameOf } from "./testing_meeting";
 
 const SHIFT = 5000; // s that our clock is ahead
 const angleAt = (t: number): number => 0.8 * Math.sin(2 * t);
 
 function frame(t: number, change: Partial<PoseFrame> = {}): PoseFrame {
-  return {
-    tracked: true,
-    still: false,
-    session: 1,
+  return frameOf({
     sequence: Math.round(t * 1000),
     captured: BigInt(Math.round(t * 1e6)),
     hips: [t, 1, 0],
     bones: [{ bone: 4, rotation: about("y", angleAt(t)), confidence: 0 }],
     ...change,
-  };
+  });
 }
 
 const turn = (q: Quat | undefined): number => 2 * Math.atan2(q![1], q![3]);

@@ -3,31 +3,22 @@ import { describe, expect, it } from "vitest";
 import { encodeFrame } from "./frame";
 import { toBytes } from "./messages";
 import { COME_BACK, MAX_PARTICIPANTS, Roster, type MeetingEvent } from "./roster";
+import { TOPIC, frameOf } from "./testing_meeting";
 
-const BASE = "r/lab/main";
 const NOTHING = new Uint8Array(0);
 
-const pose = (sequence: number, session = 5): Uint8Array =>
-  encodeFrame({
-    tracked: true,
-    still: false,
-    session,
-    sequence,
-    captured: BigInt(1e6 + sequence * 33333),
-    hips: [0, 1, 0],
-    bones: [],
-  });
+const pose = (sequence: number): Uint8Array => encodeFrame(frameOf({ session: 5, sequence }));
 
 class Meeting {
-  readonly roster = new Roster(BASE);
+  readonly roster = new Roster(TOPIC);
   now = 100;
 
   say(id: string, what: string, payload: object | Uint8Array, kept = false): MeetingEvent[] {
     const bytes = payload instanceof Uint8Array ? payload : toBytes(payload);
-    return this.roster.receive(`${BASE}/p/${id}/${what}`, bytes, this.now, kept);
+    return this.roster.receive(`${TOPIC}/p/${id}/${what}`, bytes, this.now, kept);
   }
 
-  /** What the broker has kept. */
+  /** A retained message. */
   kept(id: string, what: string, payload: object | Uint8Array): MeetingEvent[] {
     return this.say(id, what, payload, true);
   }
@@ -40,8 +31,8 @@ class Meeting {
   }
 }
 
-describe("who is here", () => {
-  it("comes and goes by presence, in either order with the state", () => {
+describe("a participant", () => {
+  it("comes and goes by presence", () => {
     const r = new Meeting();
     expect(r.enter("p01", "Ana")).toEqual([{ kind: "came", id: "p01" }]);
     r.say("p02", "state", { session: 5, kind: "tracker", name: "Bo", seat: 1, avatar: null });
@@ -53,17 +44,17 @@ describe("who is here", () => {
     ]);
     expect(Object.fromEntries(r.roster.seats)).toEqual({ p01: 0, p02: 1 });
     expect(r.say("p02", "presence", { here: false, session: 5 })).toEqual([{ kind: "left", id: "p02" }]);
-    expect(r.roster.get("p02")!.state?.name).toBe("Bo"); // to say who left
+    expect(r.roster.get("p02")!.state?.name).toBe("Bo"); // for the note
     r.say("p02", "state", NOTHING);
     expect(r.roster.get("p02")!.state).toBeNull();
   });
-  it("stays when an older session is told to be gone, and goes when its presence is cleared", () => {
+  it("stays when an older session leaves", () => {
     const r = new Meeting();
     r.enter("p01", "Ana");
     expect(r.say("p01", "presence", { here: false, session: 4 })).toEqual([]);
     expect(r.say("p01", "presence", NOTHING)).toEqual([{ kind: "left", id: "p01" }]);
   });
-  it("is here by its frames alone, as long as they come", () => {
+  it("is here while frames arrive", () => {
     const r = new Meeting();
     expect(r.say("p03", "pose", pose(0))).toEqual([{ kind: "came", id: "p03" }]);
     expect(r.roster.names.get("p03")).toBe("p03");
@@ -72,7 +63,7 @@ describe("who is here", () => {
     r.now += 2;
     expect(r.roster.step(r.now)).toEqual([{ kind: "left", id: "p03" }]);
   });
-  it("is told by the topic, whatever the message says of itself", () => {
+  it("is identified by the topic alone", () => {
     const r = new Meeting();
     r.enter("p01", "Ana");
     r.say("p02", "presence", { here: false, session: 5, participant: "p01", id: "p01" });
@@ -82,7 +73,7 @@ describe("who is here", () => {
     const events = r.say("p02", "chat", { id: "5-1", text: "hi", from: "p01" });
     expect(events).toEqual([{ kind: "said", id: "p02", message: { id: "5-1", text: "hi" } }]);
   });
-  it("is not changed by a new state of others, nor by what cannot be read", () => {
+  it("keeps its state for unreadable messages", () => {
     const r = new Meeting();
     r.enter("p01", "Ana");
     r.enter("p02", "Bo");
@@ -100,7 +91,7 @@ describe("who is here", () => {
     expect(r.roster.get("p02")!.stream.reading(r.now).malformed).toBe(0);
     expect(r.roster.names.get("p01")).toBe("Ann");
   });
-  it("is bounded; who left makes room", () => {
+  it("is bounded, without those who have left", () => {
     const r = new Meeting();
     for (let i = 0; i < MAX_PARTICIPANTS + 50; i++) r.enter(`p${i}`, "X");
     expect(r.roster.here.length).toBe(MAX_PARTICIPANTS);
@@ -108,16 +99,16 @@ describe("who is here", () => {
     r.say("p3", "presence", { here: false, session: 5 });
     expect(r.enter("new", "N")).toEqual([{ kind: "came", id: "new" }]);
   });
-  it("hears topics of no meeting without harm", () => {
+  it("ignores topics of other meetings", () => {
     const r = new Meeting();
-    for (const topic of ["", "x", `${BASE}/p/../pose`, `${BASE}/p/__proto__/state`, "r/lab/other/room"]) {
+    for (const topic of ["", "x", `${TOPIC}/p/../pose`, `${TOPIC}/p/__proto__/state`, "r/lab/other/room"]) {
       r.roster.receive(topic, NOTHING, 0);
     }
     expect(r.roster.here).toEqual([]);
   });
 });
 
-describe("somebody who vanishes", () => {
+describe("a participant that vanishes", () => {
   const breath = { here: true, session: 5, every: 2 };
   const CAME = [{ kind: "came", id: "p01" }];
   const LEFT = [{ kind: "left", id: "p01" }];
@@ -132,7 +123,7 @@ describe("somebody who vanishes", () => {
     }
     return events;
   };
-  it("is gone when three promised signs of life are missing, and back with the next", () => {
+  it("leaves after three missing signs of life", () => {
     const r = new Meeting();
     expect(r.say("p01", "presence", breath)).toEqual(CAME);
     expect(pass(r, 6)).toEqual([]);
@@ -144,7 +135,7 @@ describe("somebody who vanishes", () => {
     expect(pass(r, 0.5)).toEqual(LEFT);
     expect(r.say("p01", "presence", { here: false, session: 5 })).toEqual([]);
   });
-  it("is here while anything is heard, and without a promise for ever", () => {
+  it("stays while it publishes or promises nothing", () => {
     const r = new Meeting();
     r.say("p01", "presence", breath);
     r.say("p02", "presence", { here: true, session: 5 });
@@ -155,7 +146,7 @@ describe("somebody who vanishes", () => {
     };
     expect(pass(r, 100, talk)).toEqual([]);
   });
-  it("is not anybody who was silent while this page stood still", () => {
+  it("is nobody silent while this page is suspended", () => {
     const r = new Meeting();
     r.say("p01", "presence", breath);
     pass(r, 1);
@@ -163,7 +154,7 @@ describe("somebody who vanishes", () => {
     expect(r.roster.step(r.now)).toEqual([]);
     expect(r.say("p01", "presence", breath)).toEqual([]);
   });
-  it("has time to come back when the connection was lost", () => {
+  it("may return after a lost connection", () => {
     const r = new Meeting();
     r.roster.connected(r.now);
     r.say("p01", "presence", breath);
@@ -173,10 +164,10 @@ describe("somebody who vanishes", () => {
     expect(pass(r, COME_BACK)).toEqual([]);
     expect(pass(r, 1)).toEqual(LEFT);
     r.roster.connected(r.now);
-    expect(r.kept("p01", "presence", breath)).toEqual([]); // nothing new of who has gone
+    expect(r.kept("p01", "presence", breath)).toEqual([]); // retained, so nothing new
     expect(r.kept("p01", "presence", { ...breath, session: 6 })).toEqual(CAME);
   });
-  it("is gone as soon in the first seconds of a connection, even when the broker has kept it", () => {
+  it("leaves as soon after joining, also if retained", () => {
     for (const kept of [true, false]) {
       const r = new Meeting();
       r.roster.connected(r.now);
@@ -185,7 +176,7 @@ describe("somebody who vanishes", () => {
       expect(r.roster.get("p01")!.met).toBe(!kept);
     }
   });
-  it("is not anybody who was silent while the broker was, too: it is the connection that is dead", () => {
+  it("is nobody silent while the broker is silent", () => {
     const r = new Meeting();
     r.say("p01", "presence", breath);
     expect(pass(r, 2)).toEqual([]);
@@ -196,7 +187,7 @@ describe("somebody who vanishes", () => {
     expect(r.say("p01", "presence", breath)).toEqual([]);
     expect(pass(r, 7)).toEqual(LEFT);
   });
-  it("is back with anything said, not with what others clear or the broker has kept", () => {
+  it("returns with any new message of its own", () => {
     const words: [string, object][] = [
       ["chat", { id: "5-1", text: "hi" }],
       ["board/0", { epoch: 0, strokes: [{ c: "#ffffff", w: 4, p: [1, 2, 3, 4] }] }],
@@ -214,13 +205,13 @@ describe("somebody who vanishes", () => {
       expect(r.say("p01", what, message)[0]).toEqual(CAME[0]);
     }
   });
-  it("does not stay when an older session still says what was on its way", () => {
+  it("leaves despite late messages of old sessions", () => {
     const r = new Meeting();
     const tracker = { ...breath, session: 50, every: 1.25 };
     r.say("p01", "presence", breath);
     r.say("p01", "presence", tracker);
     r.now += 0.1;
-    expect(r.say("p01", "presence", breath)).toEqual([]); // a page's, that has not yet heard of the tracker
+    expect(r.say("p01", "presence", breath)).toEqual([]); // of a page that does not know the tracker yet
     expect(r.roster.get("p01")).toMatchObject({ presence: 50, every: 1.25 });
     expect(r.say("p01", "presence", { here: false, session: 50 })).toEqual(LEFT);
     expect(r.say("p01", "presence", breath)).toEqual(CAME);
@@ -232,7 +223,7 @@ describe("somebody who vanishes", () => {
 });
 
 describe("a lost connection", () => {
-  it("makes nobody leave who comes back in time", () => {
+  it("keeps those who return in time", () => {
     const r = new Meeting();
     r.enter("p01", "Ana");
     r.enter("p02", "Bo");
@@ -250,9 +241,9 @@ describe("the meeting", () => {
   it("is what its topic says", () => {
     const r = new Meeting();
     const message = toBytes({ title: "Blue", seats: 3, epoch: 7, chairs: ["p01"], locked: false });
-    expect(r.roster.receive(`${BASE}/room`, message, 0)).toEqual([{ kind: "meeting" }]);
+    expect(r.roster.receive(`${TOPIC}/room`, message, 0)).toEqual([{ kind: "meeting" }]);
     expect(r.roster.meeting).toMatchObject({ title: "Blue", seats: 3, epoch: 7 });
-    r.roster.receive(`${BASE}/room`, toBytes({ epoch: "x" }), 0);
+    r.roster.receive(`${TOPIC}/room`, toBytes({ epoch: "x" }), 0);
     expect(r.roster.refused).toBe(1);
     expect(r.roster.meeting.epoch).toBe(7);
   });

@@ -4,22 +4,17 @@ import { about } from "#web/shared/quaternion";
 import { encodeFrame } from "./frame";
 import { qualityText } from "./quality";
 import { PoseStream } from "./stream";
+import { frameOf } from "./testing_meeting";
 
 const START = 7; // s of our clock
 
 function bytes(sequence: number, session = 10, tracked = true, t = sequence / 30): Uint8Array {
-  return encodeFrame({
-    tracked,
-    still: false,
-    session,
-    sequence,
-    captured: BigInt(Math.round((50 + t) * 1e6)),
-    hips: [0, 0.94, 0],
-    bones: tracked ? [{ bone: 4, rotation: about("x", 0.3), confidence: 15 }] : [],
-  });
+  const captured = BigInt(Math.round((50 + t) * 1e6));
+  const bones = tracked ? [{ bone: 4, rotation: about("x", 0.3), confidence: 15 }] : [];
+  return encodeFrame(frameOf({ tracked, session, sequence, captured, bones }));
 }
 
-/** Hears frames `from` to `to` - 1, 30 a second. */
+/** Receives frames `from` to `to` - 1, 30 a second. */
 function run(s: PoseStream, from: number, to: number, session = 10): number {
   let now = START;
   for (let i = from; i < to; i++) {
@@ -31,7 +26,7 @@ function run(s: PoseStream, from: number, to: number, session = 10): number {
 }
 
 describe("a stream of frames", () => {
-  it("drops what is old, in its session", () => {
+  it("drops old frames of its session", () => {
     const s = new PoseStream();
     run(s, 0, 10);
     expect(s.receive(bytes(9), START + 1)).toBe("outOfOrder");
@@ -39,7 +34,7 @@ describe("a stream of frames", () => {
     expect(s.receive(bytes(20), START + 1)).toBe("taken");
     expect(s.reading(START + 1)).toMatchObject({ outOfOrder: 2, malformed: 0, replayed: 0 });
   });
-  it("starts anew with another session, and takes nothing of the old one again", () => {
+  it("restarts with each session and refuses old ones", () => {
     const s = new PoseStream();
     run(s, 0, 10);
     expect(s.receive(bytes(0, 11, true, 1), START + 1)).toBe("taken");
@@ -48,7 +43,7 @@ describe("a stream of frames", () => {
     expect(s.shown?.session).toBe(11);
     expect(s.reading(START + 1).replayed).toBe(1);
   });
-  it("counts what is malformed, and goes on", () => {
+  it("counts malformed frames and continues", () => {
     const s = new PoseStream();
     run(s, 0, 5);
     for (const bad of [
@@ -78,14 +73,14 @@ describe("a stream of frames", () => {
     expect(qualityText(r).level).toBe("wait");
     expect(qualityText(r).words).toMatch(/^27 fps · \d+ ms · 10\.\d % lost$/);
   });
-  it("is not impressed by a leap of the sequence", () => {
+  it("survives a jump of the sequence", () => {
     const s = new PoseStream();
     run(s, 0, 3);
     s.receive(bytes(0xffffffff, 10, true, 0.2), START + 0.2);
     expect(s.reading(START + 0.2).loss).toBeCloseTo(1, 6);
     expect(s.receive(bytes(4, 10, true, 0.3), START + 0.3)).toBe("outOfOrder");
   });
-  it("takes what waited while the page was held up, but no flood", () => {
+  it("takes frames that waited, but no flood", () => {
     const s = new PoseStream();
     run(s, 0, 30);
     for (let i = 30; i < 180; i++) expect(s.receive(bytes(i), START + 6)).toBe("taken");
@@ -93,7 +88,7 @@ describe("a stream of frames", () => {
     expect(s.reading(START + 6).flooded).toBeGreaterThan(1000);
     expect(s.receive(bytes(2100), START + 8)).toBe("taken");
   });
-  it("fades to rest in 0.7 s when nothing comes for 1 s, and comes back", () => {
+  it("fades to rest when no frames arrive", () => {
     const s = new PoseStream();
     let now = run(s, 0, 60);
     expect(s.pose(now).rest).toBe(0);
@@ -110,7 +105,7 @@ describe("a stream of frames", () => {
     now = run(s, 160, 190);
     expect(s.pose(now).rest).toBe(0);
   });
-  it("fades to rest when the person is lost, though frames come", () => {
+  it("fades to rest when the person is lost", () => {
     const s = new PoseStream();
     run(s, 0, 30);
     let rest = 0;
@@ -121,7 +116,7 @@ describe("a stream of frames", () => {
     expect(rest).toBe(1);
     expect(s.alive(START + 70 / 30, 1)).toBe(true);
   });
-  it("of somebody who has left ends, but for a will that came too late", () => {
+  it("ends when its participant has left", () => {
     const s = new PoseStream();
     const now = run(s, 0, 30);
     s.leave(10, now);

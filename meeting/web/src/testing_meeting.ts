@@ -1,19 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: a broker in memory, and pages that are connected to it.
+// For tests: frames, a broker in memory, and pages that are connected to it.
 import type { Line, Outbox } from "./chat";
 import type { Entered, Role } from "./entry";
+import { encodeFrame, type PoseFrame } from "./frame";
 import type { Dial, WireEvents } from "./link";
+import { toBytes } from "./messages";
 import { MeetingClient } from "./meeting_client";
 
 export const TOPIC = "r/lab/main";
 
-/** A broker in memory: keeps what is retained, tells everybody, speaks last wills. */
+/** A frame without bones, changed. */
+export const frameOf = (change: Partial<PoseFrame> = {}): PoseFrame => {
+  const sequence = change.sequence ?? 7;
+  const captured = BigInt(sequence * 33333);
+  return {
+    tracked: true,
+    still: false,
+    session: 77,
+    sequence,
+    captured,
+    hips: [0, 1, 0],
+    bones: [],
+    ...change,
+  };
+};
+
+/** A broker in memory: it stores retained messages and publishes last wills. */
 export class FakeBroker {
   readonly kept = new Map<string, Uint8Array>();
   private readonly there = new Set<{ topic: string; events: WireEvents; will: (() => void) | null }>();
   up = true;
-  told = 0; // what is kept
-  deaf = false; // takes everything, says nothing
+  retained = 0; // number of retained messages
+  deaf = false; // accepts messages and delivers none
 
   dialer =
     (will: { topic: string; payload: (session: number) => Uint8Array } | null): Dial =>
@@ -53,15 +71,31 @@ export class FakeBroker {
   publish(topic: string, bytes: Uint8Array, retain: boolean): void {
     if (retain && bytes.length) this.kept.set(topic, bytes);
     if (retain && !bytes.length) this.kept.delete(topic);
-    if (retain) this.told++;
-    // It takes a while, for who has said it, too.
+    if (retain) this.retained++;
+    // Delivery takes time, also to the sender.
     setTimeout(() => {
       for (const one of [...this.there]) this.deliver(one.events, topic, bytes, false);
     }, 30);
   }
 
-  presenceOf(id: string): unknown {
-    return JSON.parse(new TextDecoder().decode(this.kept.get(`${TOPIC}/p/${id}/presence`)));
+  /** A client of this participant with session 5 announces itself, or that it leaves. */
+  presence(id: string, here: boolean, more: object = {}): void {
+    this.publish(`${TOPIC}/p/${id}/presence`, toBytes({ here, session: 5, ...more }), true);
+  }
+
+  /** A tracker of this participant publishes its state. */
+  state(id: string, name: string, seat: number | null, more: object = {}): void {
+    const state = { session: 5, kind: "tracker", name, seat, avatar: null, ...more };
+    this.publish(`${TOPIC}/p/${id}/state`, toBytes(state), true);
+  }
+
+  frame(id: string, sequence: number): void {
+    this.publish(`${TOPIC}/p/${id}/pose`, encodeFrame(frameOf({ sequence })), false);
+  }
+
+  /** The retained message of this topic below the meeting's. */
+  stored(topic: string): Record<string, unknown> {
+    return JSON.parse(new TextDecoder().decode(this.kept.get(`${TOPIC}/${topic}`)));
   }
 
   private deliver(to: WireEvents, topic: string, bytes: Uint8Array, kept: boolean): void {
@@ -70,7 +104,7 @@ export class FakeBroker {
     to.message(topic, bytes, kept);
   }
 
-  /** Dies with all that it knew; nobody's will is spoken. */
+  /** Ends and forgets everything, without publishing last wills. */
   die(): void {
     this.up = false;
     this.kept.clear();
@@ -79,7 +113,7 @@ export class FakeBroker {
     for (const one of all) one.events.closed({ refused: false, words: "lost" });
   }
 
-  /** The newest connection's page vanishes: nobody is told. */
+  /** The page of the newest connection vanishes without a message. */
   lose(): void {
     this.there.delete([...this.there].at(-1)!);
   }
