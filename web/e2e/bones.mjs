@@ -4,14 +4,23 @@
 import { conj, mul } from "../mock/quat.mjs";
 import { PARENT } from "../mock/motion.mjs";
 
-const degrees = (q) => (2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3])) * 180) / Math.PI;
+/** The angle between two rotations, degrees. */
+export function angleBetween(a, b) {
+  const q = mul(conj(a), b);
+  return (2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3])) * 180) / Math.PI;
+}
 
-/** The turn of a bone in the world, by what was sent of it and of the bones that it hangs on. */
+export const meanAndWorst = (errors) => ({
+  mean: errors.reduce((a, b) => a + b, 0) / errors.length,
+  worst: Math.max(...errors),
+});
+
+/** The rotation of a bone in the world, from the sent rotations of it and its parents. */
 const turned = (bones, name) => (PARENT[name] ? mul(turned(bones, PARENT[name]), bones[name]) : bones[name]);
 
 const otherSide = (bone) => bone.replace(/^(left|right)/, (side) => ({ left: "right", right: "left" })[side]);
 
-/** Seen in a mirror that stands at the person's side: M R M with M = diag(-1, 1, 1). */
+/** The mirror image of a rotation: M R M with M = diag(-1, 1, 1). */
 const mirrored = ([x, y, z, w]) => [x, -y, -z, w];
 
 /** The next pose that is drawn: its frame number and how the file's own bones are turned in the world. */
@@ -36,7 +45,7 @@ const nextDrawn = (page, last) =>
  */
 export async function boneErrors(page, poses, count, { mirror = false } = {}) {
   const errors = [];
-  // What was drawn before the avatar or a setting was changed says nothing.
+  // Poses that were drawn before the avatar or a setting changed do not count.
   let drawn = await nextDrawn(page, (await nextDrawn(page, null)).frame);
   for (let n = 0; n < count;) {
     drawn = await nextDrawn(page, drawn.frame);
@@ -45,8 +54,8 @@ export async function boneErrors(page, poses, count, { mirror = false } = {}) {
     n++;
     for (const name of Object.keys(pose.bones)) {
       const sent = turned(pose.bones, mirror ? otherSide(name) : name);
-      errors.push(degrees(mul(conj(mirror ? mirrored(sent) : sent), drawn.bones[name])));
+      errors.push(angleBetween(mirror ? mirrored(sent) : sent, drawn.bones[name]));
     }
   }
-  return { mean: errors.reduce((a, b) => a + b, 0) / errors.length, worst: Math.max(...errors) };
+  return meanAndWorst(errors);
 }

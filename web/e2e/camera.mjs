@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A network camera: serves what it is told to show as Motion JPEG over HTTP.
+// A network camera: serves the pictures of show() as Motion JPEG over HTTP.
 
 import { execFileSync } from "node:child_process";
 import { createServer } from "node:http";
@@ -15,8 +15,8 @@ export function picturesOf(file) {
   );
   const pictures = [];
   for (let from = 0; from < all.length;) {
-    const end = all.indexOf(EOI, from) + 2; // an end that is no end is escaped inside of a JPEG
-    if (end < 2) throw new Error(`${file}: ffmpeg's answer is cut off`);
+    const end = all.indexOf(EOI, from) + 2; // these bytes occur only at the end of a JPEG
+    if (end < 2) throw new Error(`${file}: the output of ffmpeg is incomplete`);
     pictures.push(all.subarray(from, end));
     from = end;
   }

@@ -1,46 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong around the page: tabs that close or stall; clients that never read; a program that dies.
+// Faults: tabs that close or stall, clients that never read, a program that dies.
 
 import assert from "node:assert/strict";
 import { once } from "node:events";
 import { readFileSync } from "node:fs";
 import { connect } from "node:net";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { setTimeout as pause } from "node:timers/promises";
 import { WebSocket } from "ws";
 import { Listener } from "./listener.mjs";
-import {
-  FLAT,
-  LIGHT,
-  PATIENCE,
-  follows,
-  hasAvatar,
-  openPage,
-  startBrowser,
-  startProgram,
-} from "./program.mjs";
-
-const LONG = { timeout: 2 * PATIENCE };
+import { LIGHT, LONG, follows, hasAvatar, openPage, renderers, setUp, startProgram } from "./program.mjs";
 
 let program, browser, flat, listener;
-before(async () => {
-  browser = await startBrowser();
-  flat = await startBrowser(FLAT); // costs less
-  program = await startProgram(["demo", ...LIGHT]);
-  listener = await Listener.open(program);
-  await listener.inPhase("tracking");
-});
-after(async () => {
-  await browser?.close();
-  await flat?.close();
-  listener?.close();
-  assert.equal(await program?.stop(), 0, "the program ends well");
-});
+const all = setUp(
+  async (t) => {
+    ({ program, browser, flat, listener } = t);
+    await listener.inPhase("tracking");
+  },
+  { flat: true }, // pages of a browser without 3-D cost less
+);
 
 const memory = () =>
   Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${program.pid}/status`, "utf8"))[1]) / 1024; // MB
 
-test("a page that is closed and opened again", LONG, async () => {
+test("a page is closed and opened again", LONG, async () => {
   const first = await openPage(browser, program);
   await follows(first.page);
   await first.close();
@@ -51,16 +34,11 @@ test("a page that is closed and opened again", LONG, async () => {
   await second.close();
 });
 
-test("a tab that stalls holds nobody up, and goes on when it is let", LONG, async () => {
-  const session = await browser.newBrowserCDPSession();
-  const renderers = async () =>
-    (await session.send("SystemInfo.getProcessInfo")).processInfo
-      .filter((p) => p.type === "renderer")
-      .map((p) => p.id);
-  const others = await renderers();
+test("a suspended tab blocks nobody and continues", LONG, async () => {
+  const others = await renderers(browser);
   const { page, complaints, close } = await openPage(browser, program);
   await follows(page);
-  const mine = (await renderers()).filter((id) => !others.includes(id));
+  const mine = (await renderers(browser)).filter((id) => !others.includes(id));
   assert.ok(mine.length > 0, "the page has a process of its own");
   const before = await page.evaluate(() => window.telemime.counters.poses);
   for (const id of mine) process.kill(id, "SIGSTOP");
@@ -77,7 +55,7 @@ test("a tab that stalls holds nobody up, and goes on when it is let", LONG, asyn
   await close();
 });
 
-test("clients that never read cost no memory and hold nobody up", LONG, async () => {
+test("clients that never read block nobody", LONG, async () => {
   await listener.tracked(25);
   const before = memory();
   const idle = await Promise.all(
@@ -107,7 +85,7 @@ test("clients that never read cost no memory and hold nobody up", LONG, async ()
   await close();
 });
 
-test("a page too many is told so, and comes in when another is closed", LONG, async () => {
+test("a page beyond the limit waits for a place", LONG, async () => {
   const others = [];
   const oneMore = async () => {
     const socket = new WebSocket(`ws://localhost:${program.port}/ws`, { perMessageDeflate: false });
@@ -120,7 +98,7 @@ test("a page too many is told so, and comes in when another is closed", LONG, as
     others.push(socket);
     return true;
   };
-  // Again after a while: a page of an earlier test may still have been there.
+  // Twice: a page of an earlier test may still be connected.
   for (let i = 0; i < 2; i++) {
     while (await oneMore()) assert.ok(others.length <= 40);
     await pause(500);
@@ -136,7 +114,7 @@ test("a page too many is told so, and comes in when another is closed", LONG, as
   await close();
 });
 
-test("the program dies and starts again at its port: the page comes back by itself", LONG, async () => {
+test("the page reconnects to a restarted program", LONG, async () => {
   const { page, close } = await openPage(browser, program);
   await follows(page);
   await hasAvatar(page, "Plain");
@@ -148,8 +126,8 @@ test("the program dies and starts again at its port: the page comes back by itse
     assert.equal(await page.locator(id).textContent(), "–");
   }
   await page.waitForFunction(() => window.telemime.counters.rest === 1); // the avatar goes to rest
-  program = await startProgram(["demo", ...LIGHT], { port: program.port });
-  listener = await Listener.open(program);
+  program = all.program = await startProgram(["demo", ...LIGHT], { port: program.port });
+  listener = all.listener = await Listener.open(program);
   await follows(page);
   await page.waitForFunction(() => window.telemime.counters.rest === 0);
   assert.equal(await page.locator("#banner").isVisible(), false);

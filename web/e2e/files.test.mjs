@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are dropped on the page: avatars, and what is none.
+// Files that are dropped on the page: avatars and others.
 
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { badAvatars, boxes, strangersVrm0 } from "./avatars.mjs";
 import { boneErrors } from "./bones.mjs";
-import { Listener } from "./listener.mjs";
-import { LIGHT, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
+import { LONG, drop, hasAvatar, openPage, setUp } from "./program.mjs";
 
-const LONG = { timeout: 2 * PATIENCE };
+let program, listener, browser, page, complaints;
+setUp(
+  async (t) => {
+    ({ program, listener, browser, page, complaints } = t);
+    await hasAvatar(page, "Plain");
+  },
+  { page: true },
+);
 
-let program, listener, browser, page, close, complaints;
-before(async () => {
-  browser = await startBrowser();
-  program = await startProgram(["demo", ...LIGHT]);
-  listener = await Listener.open(program);
-  ({ page, close, complaints } = await openPage(browser, program));
-  await hasAvatar(page, "Plain");
-});
-after(async () => {
-  await close?.();
-  await browser?.close();
-  listener?.close();
-  assert.equal(await program?.stop(), 0, "the program ends well");
-});
-
-test("what cannot be an avatar is told in words, and the old one stays", LONG, async () => {
+test("other files are refused with a reason", LONG, async () => {
   for (const [file, words] of badAvatars(program.folder)) {
     await drop(page, file);
     const toast = page.locator(".toast.error").last();
@@ -46,7 +37,7 @@ for (const [name, version, make] of [
   ["boxes", "1", (folder) => boxes(folder)],
   ["stranger", "0", (folder) => strangersVrm0(program, folder)],
 ]) {
-  test(`VRM ${version} with rests of its own, dropped: ${name}`, LONG, async () => {
+  test(`VRM ${version} with rest rotations: ${name}`, LONG, async () => {
     await drop(page, await make(program.folder));
     await hasAvatar(page, name);
     assert.equal(await page.evaluate(() => window.telemime.avatar.version), version);
@@ -56,12 +47,12 @@ for (const [name, version, make] of [
     const side = (bone) => page.evaluate((b) => window.telemime.boneRotations()[b].position[0], bone);
     assert.ok((await side("leftUpperArm")) > (await side("rightUpperArm")) + 0.1, "it faces the camera");
     await page.reload();
-    await hasAvatar(page, name); // the browser has kept it
+    await hasAvatar(page, name); // the browser has stored it
     assert.deepEqual(complaints, []);
   });
 }
 
-test("a file dropped while the kept avatar still loads stays, now and the next time", LONG, async () => {
+test("a dropped file replaces one that still loads", LONG, async () => {
   const other = await openPage(browser, program);
   await hasAvatar(other.page, "Plain");
   await other.page.evaluate(() =>
@@ -81,9 +72,9 @@ test("a file dropped while the kept avatar still loads stays, now and the next t
   writeFileSync(none, "this is no avatar at all");
   const again = other.page.waitForRequest(casual);
   await drop(other.page, none);
-  const told = other.page.locator(".toast.error").filter({ hasText: "not a VRM avatar" });
-  await told.waitFor();
-  assert.doesNotMatch(await told.innerText(), /is shown|stays/); // nobody knows yet whether casual comes
+  const toast = other.page.locator(".toast.error").filter({ hasText: "not a VRM avatar" });
+  await toast.waitFor();
+  assert.doesNotMatch(await toast.innerText(), /is shown|stays/); // casual may still arrive
   await again;
   await drop(other.page, boxes(program.folder));
   await hasAvatar(other.page, "boxes");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The avatar does what was tracked: the four gestures, a VRM 1.0 and a VRM 0.x avatar, read back from one page that
-// stays open while the program ends and starts again.
+// The avatar shows the tracked motion: four gestures on a VRM 1.0 and a VRM 0.x avatar, read from one page that stays open
+// while the program is restarted.
 
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
@@ -10,16 +10,7 @@ import { fileURLToPath } from "node:url";
 import { strangersVrm0 } from "./avatars.mjs";
 import { boneErrors } from "./bones.mjs";
 import { Listener } from "./listener.mjs";
-import {
-  LIGHT,
-  PATIENCE,
-  drop,
-  hasAvatar,
-  inPhase,
-  openPage,
-  startBrowser,
-  startProgram,
-} from "./program.mjs";
+import { LIGHT, LONG, drop, hasAvatar, inPhase, openPage, startBrowser, startProgram } from "./program.mjs";
 
 const FRAMES = 15; // of each gesture and avatar
 const CLIPS =
@@ -54,7 +45,7 @@ const choose = async (name) => {
 
 const order = ["Plain", "stranger"];
 for (const [gesture, args] of inputs()) {
-  test(gesture, { timeout: 2 * PATIENCE }, async () => {
+  test(gesture, LONG, async () => {
     program = await startProgram([...args, ...LIGHT], { port: program?.port });
     const listener = await Listener.open(program);
     if (!page) {
@@ -76,7 +67,7 @@ for (const [gesture, args] of inputs()) {
     }
     order.reverse(); // the next begins with the one that is shown
     listener.close();
-    assert.equal(await program.stop(), 0, "the program ends well");
+    assert.equal(await program.stop(), 0, "the exit status of the program");
     await page.locator("#banner").filter({ hasText: "No connection to Telemime" }).waitFor();
   });
 }

@@ -1,39 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guided start, by keyboard alone: the real program with a network camera, and a real Chromium.
+// The guided setup by keyboard alone, with a network camera.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { after, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { picturesOf, startCamera } from "./camera.mjs";
-import { Listener } from "./listener.mjs";
-import { LIGHT, PATIENCE, inPhase, openPage, startBrowser, startProgram, tabTo } from "./program.mjs";
+import { LIGHT, LONG, inPhase, setUp, tabTo } from "./program.mjs";
 
 const DEMO = process.env.TELEMIME_DEMO ?? fileURLToPath(new URL("../../data/demo", import.meta.url));
 const room = picturesOf(`${DEMO}/background.mp4`);
 const person = picturesOf(`${DEMO}/video.mp4`);
 
-let camera, program, listener, browser, page, close, complaints;
-before(async () => {
-  browser = await startBrowser();
-  camera = await startCamera(room, 15);
-  program = await startProgram([camera.url, ...LIGHT]);
-  listener = await Listener.open(program); // from here on somebody is there to be guided
-  ({ page, close, complaints } = await openPage(browser, program));
-  await page.evaluate(() => {
-    window.steps = [];
-    const guide = document.getElementById("guide");
-    const note = () => guide.hidden || window.steps.push(guide.dataset.step);
-    new MutationObserver(note).observe(guide, { attributes: true, attributeFilter: ["data-step"] });
-  });
-});
-after(async () => {
-  await close?.();
-  await browser?.close();
-  listener?.close();
-  const code = await program?.stop();
-  camera?.close();
-  assert.equal(code, 0, "the program ends well");
-});
+let camera, page, listener, program, complaints;
+setUp(
+  async (t) => {
+    ({ page, listener, program, complaints } = t);
+    await page.evaluate(() => {
+      window.steps = [];
+      const guide = document.getElementById("guide");
+      const note = () => guide.hidden || window.steps.push(guide.dataset.step);
+      new MutationObserver(note).observe(guide, { attributes: true, attributeFilter: ["data-step"] });
+    });
+  },
+  { args: async () => [(camera = await startCamera(room, 15)).url, ...LIGHT], page: true },
+);
+after(() => camera?.close());
 
 const title = (words) => page.locator("#guide-title").filter({ hasText: words }).waitFor();
 const steps = () => page.evaluate(() => window.steps.splice(0));
@@ -44,7 +35,7 @@ const following = async () => {
   await page.waitForFunction(() => window.telemime.counters.rest === 0 && window.telemime.counters.shown > 0);
 };
 
-test("steps out, counts down, steps in, is followed", { timeout: 2 * PATIENCE }, async () => {
+test("the countdown, then the person steps in", LONG, async () => {
   await title("Step out of view");
   assert.equal(await page.locator("#main").getAttribute("data-layout"), "guide");
   await tabTo(page, "#guide-count");
@@ -59,15 +50,15 @@ test("steps out, counts down, steps in, is followed", { timeout: 2 * PATIENCE },
   camera.show(person);
   await following();
   assert.deepEqual(await steps(), ["Capturing the background", "Step in and face the camera", "Done"]);
-  assert.match(program.heard.err, /background: the empty room/);
+  assert.match(program.output.err, /background: the empty room/);
 });
 
-test("again, without the countdown", { timeout: 2 * PATIENCE }, async () => {
+test("again, without the countdown", LONG, async () => {
   await page.keyboard.press("g");
   await title("Step out of view");
   camera.show(room);
-  await listener.heard((m) => m.type === "status"); // the program has had pictures of the room since
-  await listener.heard((m) => m.type === "status");
+  await listener.next((m) => m.type === "status"); // the program has frames of the room by then
+  await listener.next((m) => m.type === "status");
   await tabTo(page, "#guide-now");
   await page.keyboard.press("Enter");
   await title("Step in and face the camera");
@@ -75,7 +66,7 @@ test("again, without the countdown", { timeout: 2 * PATIENCE }, async () => {
   await following();
 });
 
-test("again, and skipped with the person in the picture", { timeout: 2 * PATIENCE }, async () => {
+test("again, skipped with the person in view", LONG, async () => {
   await page.keyboard.press("g");
   await title("Step out of view");
   await tabTo(page, "#guide-skip");
@@ -84,6 +75,6 @@ test("again, and skipped with the person in the picture", { timeout: 2 * PATIENC
   await following();
   const seen = await steps();
   assert.ok(seen.includes("Capturing the background around you"), seen.join());
-  assert.ok(!seen.includes("Capturing the background"), "nobody was to stay out of the picture");
+  assert.ok(!seen.includes("Capturing the background"), "nobody has to stay out of view");
   assert.deepEqual(complaints, []);
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client of the program beside the page: what it says, to compare with, and when it says it, to wait for.
+// A client of the program beside the page: it collects the messages of the program and waits for them.
 
 import { WebSocket } from "ws";
 
@@ -13,17 +13,20 @@ export class Listener {
   static async open(program) {
     const listener = new Listener();
     listener.#socket = new WebSocket(`ws://localhost:${program.port}/ws`, { perMessageDeflate: false });
-    listener.#socket.on("message", (data, binary) => binary || listener.#hear(JSON.parse(data.toString())));
+    listener.#socket.on(
+      "message",
+      (data, binary) => binary || listener.#receive(JSON.parse(data.toString())),
+    );
     listener.#socket.on("error", () => {}); // followed by close
     listener.#socket.on("close", () => {
       for (const w of listener.#waiting) w.reject(new Error("the program has closed the connection"));
     });
-    await listener.heard((m) => m.type === "hello");
-    listener.say({ type: "pictures", on: false });
+    await listener.next((m) => m.type === "hello");
+    listener.send({ type: "pictures", on: false });
     return listener;
   }
 
-  #hear(message) {
+  #receive(message) {
     if (message.type === "pose") this.poses.set(message.frame, message);
     if (message.type === "status") this.status = message;
     for (const w of [...this.#waiting]) {
@@ -33,22 +36,22 @@ export class Listener {
     }
   }
 
-  /** The next message that is `wanted`. */
-  heard(wanted) {
+  /** The next message for which `wanted` gives true. */
+  next(wanted) {
     return new Promise((resolve, reject) => this.#waiting.add({ wanted, resolve, reject }));
   }
 
   /** Another `count` frames in which the person was tracked. */
   async tracked(count) {
     let seen = 0;
-    await this.heard((m) => m.type === "pose" && m.state === "tracking" && ++seen >= count);
+    await this.next((m) => m.type === "pose" && m.state === "tracking" && ++seen >= count);
   }
 
   async inPhase(phase) {
-    if (this.status?.phase !== phase) await this.heard((m) => m.type === "status" && m.phase === phase);
+    if (this.status?.phase !== phase) await this.next((m) => m.type === "status" && m.phase === phase);
   }
 
-  say(message) {
+  send(message) {
     this.#socket.send(JSON.stringify(message));
   }
 

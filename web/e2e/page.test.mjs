@@ -1,44 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person does with the page while it tracks, with the real program and a real Chromium.
+// Use of the page while the program tracks.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, afterEach, before, test } from "node:test";
+import { afterEach, test } from "node:test";
 import { boneErrors } from "./bones.mjs";
-import { Listener } from "./listener.mjs";
-import {
-  LIGHT,
-  PATIENCE,
-  hasAvatar,
-  inPhase,
-  openPage,
-  startBrowser,
-  startProgram,
-  tabTo,
-} from "./program.mjs";
+import { LONG, hasAvatar, inPhase, setUp, tabTo } from "./program.mjs";
 
-const LONG = { timeout: 2 * PATIENCE };
-
-let browser, program, listener, page, close, complaints;
-before(async () => {
-  browser = await startBrowser();
-  program = await startProgram(["demo", ...LIGHT]);
-  listener = await Listener.open(program);
-  ({ page, close, complaints } = await openPage(browser, program));
-  await hasAvatar(page, "Plain");
-  await inPhase(page, "tracking");
-});
-after(async () => {
-  await close?.();
-  await browser?.close();
-  listener?.close();
-  assert.equal(await program?.stop(), 0, "the program ends well");
-});
+let listener, page, complaints;
+setUp(
+  async (t) => {
+    ({ listener, page, complaints } = t);
+    await hasAvatar(page, "Plain");
+    await inPhase(page, "tracking");
+  },
+  { page: true },
+);
 afterEach(() => assert.deepEqual(complaints.splice(0), []));
 
 const pressed = (id) => page.locator(id).getAttribute("aria-pressed");
 
-test("the avatar as in a mirror, and back", LONG, async () => {
+test("the avatar is mirrored, and back", LONG, async () => {
   assert.equal(await pressed("#mirror-avatar"), "false");
   await page.keyboard.press("m");
   assert.equal(await pressed("#mirror-avatar"), "true");
@@ -52,14 +34,14 @@ test("the avatar as in a mirror, and back", LONG, async () => {
 });
 
 test("recalibrates by keyboard", LONG, async () => {
-  const measured = listener.heard((m) => m.type === "body");
+  const measured = listener.next((m) => m.type === "body");
   await page.keyboard.press("c");
   await measured;
-  await listener.heard((m) => m.type === "pose" && m.state === "tracking");
+  await listener.next((m) => m.type === "pose" && m.state === "tracking");
   await inPhase(page, "tracking");
 });
 
-test("what was chosen is kept when the page is loaded again", LONG, async () => {
+test("a reloaded page keeps the choices", LONG, async () => {
   for (const key of ["m", "M", "o", "z"]) await page.keyboard.press(key);
   await page.keyboard.press("1");
   assert.equal(await page.evaluate(() => document.activeElement.id), "tab-avatar");
@@ -91,7 +73,7 @@ test("what was chosen is kept when the page is loaded again", LONG, async () => 
   assert.ok((await boneErrors(page, listener.poses, 5, { mirror: true })).mean < 2);
 });
 
-test("in a narrow window, too, the panel's key leads into it, and Escape out of it", LONG, async () => {
+test("keys open and close a narrow panel", LONG, async () => {
   const wide = page.viewportSize();
   await page.setViewportSize({ width: 900, height: 640 });
   await page.locator("#panel").waitFor({ state: "hidden" });
@@ -103,32 +85,31 @@ test("in a narrow window, too, the panel's key leads into it, and Escape out of 
   await page.setViewportSize(wide);
 });
 
-test("help by keyboard; single keys can be turned off", LONG, async () => {
+test("single-key shortcuts can be turned off", LONG, async () => {
   const help = page.locator("#help-dialog");
   const overlay = await pressed("#overlay");
+  const switchAndClose = async () => {
+    await page.locator("#help-keys").focus();
+    await page.keyboard.press("Space");
+    await page.keyboard.press("Escape");
+    await help.waitFor({ state: "hidden" });
+    await page.keyboard.press("o");
+  };
   await page.keyboard.press("?");
   await help.waitFor();
-  await page.keyboard.press("o"); // the dialog has the keys
+  await page.keyboard.press("o"); // keys go to the dialog
   assert.equal(await pressed("#overlay"), overlay);
-  await page.locator("#help-keys").focus();
-  await page.keyboard.press("Space");
-  await page.keyboard.press("Escape");
-  await help.waitFor({ state: "hidden" });
-  await page.keyboard.press("o");
+  await switchAndClose();
   assert.equal(await pressed("#overlay"), overlay);
   await page.locator("#help").focus();
   await page.keyboard.press("Enter");
-  await page.locator("#help-keys").focus();
-  await page.keyboard.press("Space");
-  await page.keyboard.press("Escape");
-  await help.waitFor({ state: "hidden" });
-  await page.keyboard.press("o");
+  await switchAndClose();
   assert.notEqual(await pressed("#overlay"), overlay);
 });
 
-test("records by keyboard; every file can be saved; a recording can be deleted", LONG, async () => {
+test("records, downloads and deletes by keyboard", LONG, async () => {
   await page.keyboard.press("r");
-  await listener.heard((m) => m.type === "status" && m.recording?.frames >= 40);
+  await listener.next((m) => m.type === "status" && m.recording?.frames >= 40);
   await page.keyboard.press("r");
   await page.keyboard.press("3");
   const links = page.locator('a[href*="/recordings/"]');
@@ -151,16 +132,16 @@ test("records by keyboard; every file can be saved; a recording can be deleted",
   await links.first().waitFor({ state: "detached" });
 });
 
-test("a recording that is started and stopped before any status is over", LONG, async () => {
+test("a recording is stopped before its status", LONG, async () => {
   await page.keyboard.press("r");
   await page.keyboard.press("r");
   await page.locator("#record-label").filter({ hasText: "Record" }).waitFor();
-  let heard = 0; // 2 s: what was started would have pictures by now
-  const late = await listener.heard((m) => m.type === "status" && ++heard >= 4);
+  let count = 0; // 2 s: a recording would have frames by now
+  const late = await listener.next((m) => m.type === "status" && ++count >= 4);
   assert.equal(late.recording, null);
 });
 
-test("outputs come and go, wrong ones are refused in words", LONG, async () => {
+test("outputs are added, paused and removed", LONG, async () => {
   await page.keyboard.press("2");
   const box = page.locator("#output-url");
   await box.fill("vmc://localhost:39539");
@@ -175,7 +156,7 @@ test("outputs come and go, wrong ones are refused in words", LONG, async () => {
   const row = page.locator("#outputs").getByText("vmc://localhost:39539", { exact: true });
   const press = (what) => page.getByRole("button", { name: `${what} vmc://localhost:39539` }).press("Enter");
   const state = (is) =>
-    listener.heard(
+    listener.next(
       (m) => m.type === "status" && m.outputs.length === 1 && (m.outputs[0].state === "off") === is,
     );
   await press("Pause");
@@ -183,6 +164,6 @@ test("outputs come and go, wrong ones are refused in words", LONG, async () => {
   await press("Resume");
   await state(false);
   await press("Remove");
-  await listener.heard((m) => m.type === "status" && m.outputs.length === 0);
+  await listener.next((m) => m.type === "status" && m.outputs.length === 0);
   await row.waitFor({ state: "detached" });
 });

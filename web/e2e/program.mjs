@@ -1,63 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real program and a real Chromium, for the tests beside this file. TELEMIME_PROGRAM says where the former is,
-// TELEMIME_CHROMIUM where the latter is.
+// The real program and a real Chromium, for the tests beside this file. TELEMIME_PROGRAM and TELEMIME_CHROMIUM name them.
 
-import { spawn } from "node:child_process";
+import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { after, before } from "node:test";
 import { chromium } from "playwright-core";
+import { Listener } from "./listener.mjs";
+import { launch } from "./process.mjs";
 
 const PROGRAM = process.env.TELEMIME_PROGRAM;
 const CHROMIUM = process.env.TELEMIME_CHROMIUM ?? "/usr/bin/chromium";
 
-/** What a test on a busy computer may take at most, ms; nothing waits for so long when all is well. */
+/** How long one step of a test may take on a busy computer, ms. */
 export const PATIENCE = 120000;
+export const LONG = { timeout: 6 * PATIENCE };
 
 /** Options of the program for tests that do not judge the tracking: the processor is the browser's. */
 export const LIGHT = ["--particles", "400", "--threads", "1"];
 
-/** `telemime live ...`, at any free port; `folder` is its own and goes away with stop() or kill(). */
+/** `telemime live ...` at any free port; its `folder` is removed by stop() or kill(). */
 export async function startProgram(args, { port = 0 } = {}) {
-  if (!PROGRAM) throw new Error("TELEMIME_PROGRAM does not say where the program is");
+  if (!PROGRAM) throw new Error("TELEMIME_PROGRAM does not name the program");
   const folder = mkdtempSync(join(tmpdir(), "telemime-page-"));
-  const child = spawn(
-    PROGRAM,
-    ["live", ...args, "--port", String(port), "--recordings", join(folder, "recordings")],
-    {
-      stdio: ["ignore", "pipe", "pipe"],
-      env: { ...process.env, XDG_CONFIG_HOME: folder }, // nobody's own settings
-    },
-  );
-  const heard = { out: "", err: "" };
-  child.stdout.on("data", (d) => (heard.out += d));
-  child.stderr.on("data", (d) => (heard.err += d));
-  const ended = new Promise((resolve) => child.on("exit", resolve));
-  const opened = await new Promise((resolve, reject) => {
-    child.stdout.on("data", () => {
-      const found = /localhost:(\d+)/.exec(heard.out);
-      if (found) resolve(Number(found[1]));
-    });
-    void ended.then((code) => reject(new Error(`the program ended (${code}): ${heard.err}`)));
+  const options = ["--port", String(port), "--recordings", join(folder, "recordings")];
+  const program = await launch(PROGRAM, ["live", ...args, ...options], {
+    env: { XDG_CONFIG_HOME: folder }, // no settings of a user
+    ready: (output) => /localhost:(\d+)/.exec(output)?.[1],
   });
   const end = async (signal) => {
-    child.kill(signal);
-    const code = await ended;
+    const code = await program.end(signal);
     rmSync(folder, { recursive: true, force: true });
     return code;
   };
   return {
-    pid: child.pid,
-    port: opened,
-    url: `http://localhost:${opened}/`,
+    pid: program.pid,
+    port: Number(program.found),
+    url: `http://localhost:${program.found}/`,
     folder,
-    heard,
+    output: program.output,
     stop: () => end("SIGINT"),
     kill: () => end("SIGKILL"),
   };
 }
 
-/** Of a browser that cannot draw in 3-D. */
+/** Arguments of a browser that cannot draw in 3-D. */
 export const FLAT = ["--disable-gpu", "--disable-3d-apis"];
 
 // As on a computer without a graphics card: WebGL in software, the page itself drawn without it.
@@ -65,11 +53,19 @@ export function startBrowser(args = ["--enable-unsafe-swiftshader"]) {
   return chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", ...args] });
 }
 
+/** The processes that draw pages of this browser. */
+export async function renderers(browser) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  return processInfo.filter((p) => p.type === "renderer").map((p) => p.id);
+}
+
 /**
- * The page, opened. `complaints` holds what the console and the page said against themselves (a broken content
- * security policy, too). Half the pixels: without a graphics card each costs processor time.
+ * Opens a page of `program`, or of another `url`. `complaints` holds the errors of the console and the page (also of the
+ * content security policy); `requested` all addresses that it requested. `script` runs before the page's own. It has half
+ * the pixels: without a graphics card each costs processor time.
  */
-export async function openPage(browser, program, options = {}) {
+export async function openPage(browser, { url }, { script = null, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1220, height: 640 },
     deviceScaleFactor: 0.5,
@@ -77,14 +73,40 @@ export async function openPage(browser, program, options = {}) {
     ...options,
   });
   context.setDefaultTimeout(PATIENCE);
+  if (script) await context.addInitScript(script);
   const page = await context.newPage();
-  const complaints = [];
+  const [complaints, requested] = [[], []];
   page.on("console", (m) => {
     if (m.type() === "error") complaints.push(m.text());
   });
   page.on("pageerror", (e) => complaints.push(String(e)));
-  await page.goto(program.url);
-  return { page, complaints, close: () => context.close() };
+  page.on("request", (r) => requested.push(r.url()));
+  await page.goto(url);
+  return { page, complaints, requested, close: () => context.close() };
+}
+
+/**
+ * Before the tests of a file: a browser, the program, and a client that listens to it; with `flat` a browser without 3-D,
+ * with `page` an open page. `ready` gets them all. After the tests they are closed.
+ */
+export function setUp(ready, { args = () => ["demo", ...LIGHT], flat = false, page = false } = {}) {
+  const t = {};
+  before(async () => {
+    t.browser = await startBrowser();
+    if (flat) t.flat = await startBrowser(FLAT);
+    t.program = await startProgram(await args());
+    t.listener = await Listener.open(t.program);
+    if (page) Object.assign(t, await openPage(t.browser, t.program));
+    await ready(t);
+  });
+  after(async () => {
+    await t.close?.();
+    await t.browser?.close();
+    await t.flat?.close();
+    t.listener?.close();
+    assert.equal(await t.program?.stop(), 0, "the exit status of the program");
+  });
+  return t;
 }
 
 export const inPhase = (page, phase) => page.waitForFunction((p) => window.telemime?.phase === p, phase);
@@ -92,7 +114,7 @@ export const inPhase = (page, phase) => page.waitForFunction((p) => window.telem
 export const hasAvatar = (page, name) =>
   page.waitForFunction((n) => window.telemime?.avatar?.name === n, name);
 
-/** Waits until the page has what came after this call. */
+/** Waits until the page has received poses that are newer than this call. */
 export async function follows(page) {
   await inPhase(page, "tracking");
   const before = await page.evaluate(() => window.telemime.counters.poses);
@@ -108,7 +130,7 @@ export async function tabTo(page, selector) {
   throw new Error(`${selector} cannot be reached by keyboard`);
 }
 
-/** Lets go of files as a file manager does over the page: the browser itself reads them. */
+/** Drops files on the page as a file manager does: the browser itself reads them. */
 export async function drop(page, ...files) {
   const session = await page.context().newCDPSession(page);
   const data = { items: [], files, dragOperationsMask: 1 };

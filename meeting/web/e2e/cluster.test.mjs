@@ -1,88 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// People meet in a meeting whose broker is a cluster: two pages at two nodes of nats-server, a tracker at the third.
+// A meeting whose broker is a cluster: two pages at two nodes of nats-server, a tracker at the third.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { startCluster } from "../mock/cluster.mjs";
-import { startBrowser, PATIENCE } from "#e2e/program";
+import { LONG } from "#e2e/program";
 import {
   dressed,
   drawLine,
+  followsPerson,
+  hasText,
   inTheMeeting,
   isIn,
-  motionError,
-  openMeeting,
+  lostBanner,
+  setUpMeeting,
   shows,
   strokes,
+  write,
 } from "./meeting.mjs";
 
-const LONG = { timeout: 8 * PATIENCE };
-const MOST = 2; // degrees, on average
-
 let browser, meeting, ana, first, second;
-before(async () => {
-  browser = await startBrowser();
-  meeting = await openMeeting({ accounts: 8, startBroker: startCluster });
-  ana = await meeting.person({ name: "Ana", gesture: "wave", avatar: { look: "plain" } });
-  first = await inTheMeeting(browser, meeting, { name: "Chidi", role: "chair", look: "office" });
-  second = await inTheMeeting(browser, meeting, { name: "Dara", look: "summer" });
-});
-after(async () => {
-  for (const visit of [first, second]) await visit?.close();
-  await browser?.close();
-  await meeting?.end();
+const t = setUpMeeting((all) => ({ browser, meeting, ana, first, second } = all), {
+  meeting: { accounts: 8, startBroker: startCluster },
+  people: { ana: { name: "Ana", gesture: "wave", avatar: { look: "plain" } } },
+  pages: {
+    first: { name: "Chidi", role: "chair", look: "office" },
+    second: { name: "Dara", look: "summer" },
+  },
 });
 
 const seesAna = async (page) => {
   await dressed(page, [ana.participant]);
-  const error = await motionError(page, ana);
-  console.log(`bones ${error.mean.toFixed(3)} degrees off, at most ${error.worst.toFixed(2)}`);
-  assert.ok(error.mean <= MOST);
+  await followsPerson(page, ana);
 };
-const say = async (page, text) => {
-  if (!(await page.locator("#chat-text").isVisible())) {
-    await page.locator("#meeting-canvas").focus();
-    await page.keyboard.press("c");
-  }
-  await page.locator("#chat-text").fill(text);
-  await page.locator("#chat-text").press("Enter");
-};
-const hears = (page, text) => page.locator("#lines").getByText(text).waitFor({ state: "attached" });
 
-test("at two nodes, they see the same people, chat and blackboard", LONG, async () => {
-  assert.deepEqual(meeting.broker.led, [0, 1], "each page has a node of its own");
+test("pages at two nodes share the meeting", LONG, async () => {
+  assert.deepEqual(meeting.broker.nodes, [0, 1], "each page has its own node");
   for (const { page } of [first, second]) {
     await shows(page, ["Ana", "Chidi", "Dara"]);
     await seesAna(page);
   }
-  await say(first.page, "from the first node");
-  await hears(second.page, "from the first node");
-  await say(second.page, "from the second node");
-  await hears(first.page, "from the second node");
-  for (const visit of [first, second]) assert.deepEqual(visit.complaints, []);
+  await write(first.page, "from the first node");
+  await hasText(second.page, "from the first node");
+  await write(second.page, "from the second node");
+  await hasText(first.page, "from the second node");
+  t.quiet();
 });
 
-test("a node dies: its page comes back by another, the other page notices nothing", LONG, async () => {
+test("a page moves from a dead node to another", LONG, async () => {
   await meeting.broker.kill(0);
-  await first.page
-    .locator("#banner")
-    .filter({ hasText: /connection to the meeting is lost|broker does not answer/ })
-    .waitFor();
+  await lostBanner(first.page);
   await seesAna(second.page);
   assert.equal(await second.page.locator("#banner").isVisible(), false);
   await first.page.locator("#banner").waitFor({ state: "hidden" });
   await isIn(first.page);
-  assert.ok(meeting.broker.led.length >= 3 && meeting.broker.led.slice(2).every((n) => n === 1));
+  assert.ok(meeting.broker.nodes.length >= 3 && meeting.broker.nodes.slice(2).every((n) => n === 1));
   for (const { page } of [first, second]) {
     await shows(page, ["Ana", "Chidi", "Dara"]);
     await seesAna(page);
   }
-  await say(first.page, "back again");
-  await hears(second.page, "back again");
+  await write(first.page, "back again");
+  await hasText(second.page, "back again");
   assert.deepEqual(second.complaints, []);
 });
 
-test("the node comes back, and who comes in by it finds the meeting whole", LONG, async () => {
+test("a restarted node knows the meeting", LONG, async () => {
   await first.page.locator("#meeting-canvas").focus();
   await first.page.keyboard.press("b");
   await drawLine(first.page, [
@@ -91,12 +73,12 @@ test("the node comes back, and who comes in by it finds the meeting whole", LONG
   ]);
   await strokes(second.page, 1);
   await meeting.broker.again(0);
-  const before = meeting.broker.led.length;
+  const before = meeting.broker.nodes.length;
   const late = [
     await inTheMeeting(browser, meeting, { name: "Emeka" }),
     await inTheMeeting(browser, meeting, { name: "Fumiko" }),
   ];
-  assert.ok(meeting.broker.led.slice(before).includes(0), "one of the two is at the node that came back");
+  assert.ok(meeting.broker.nodes.slice(before).includes(0), "one of the two is at the node that came back");
   for (const { page } of late) {
     await shows(page, ["Ana", "Chidi", "Dara", "Emeka", "Fumiko"]);
     await strokes(page, 1);

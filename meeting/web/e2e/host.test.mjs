@@ -1,60 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// `telemime meeting` as its users meet it: two people come in by its links in a real Chromium.
+// A meeting of `telemime meeting`: two people join by its links in a real Chromium.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import mqtt from "mqtt";
-import { startBrowser, PATIENCE, tabTo } from "#e2e/program";
-import { atTheEntry, inTheMeeting, isIn, openMeeting, shows } from "./meeting.mjs";
-
-const LONG = { timeout: 4 * PATIENCE };
+import { LONG, tabTo } from "#e2e/program";
+import { atTheEntry, hasText, isIn, join, refusedWith, setUpMeeting, shows, write } from "./meeting.mjs";
 
 let browser, meeting, chair, guest;
-before(async () => {
-  if (!process.env.TELEMIME_PROGRAM) throw new Error("TELEMIME_PROGRAM does not say where the program is");
-  [browser, meeting] = await Promise.all([
-    startBrowser(),
-    openMeeting({ hosted: process.env.TELEMIME_PROGRAM, title: "Blue room" }),
-  ]);
-  chair = await inTheMeeting(browser, meeting, { name: "Chidi", role: "chair", look: "robot" });
-  guest = await inTheMeeting(browser, meeting, { name: "Dara", look: "summer" });
-});
-after(async () => {
-  for (const visit of [chair, guest]) await visit?.close();
-  await browser?.close();
-  await meeting?.end();
+const { pages, quiet, ignoreComplaints } = setUpMeeting((t) => ({ browser, meeting, chair, guest } = t), {
+  meeting: {
+    hosted: process.env.TELEMIME_PROGRAM ?? "TELEMIME_PROGRAM names no program",
+    title: "Blue room",
+  },
+  pages: {
+    chair: { name: "Chidi", role: "chair", look: "robot" },
+    guest: { name: "Dara", look: "summer" },
+  },
 });
 
-const pages = () => [chair.page, guest.page];
-const quiet = () => {
-  for (const visit of [chair, guest]) assert.deepEqual(visit.complaints.splice(0), []);
-};
-
-test("two people come in by their links, see each other, and talk", LONG, async () => {
+test("two people meet by their links", LONG, async () => {
   for (const page of pages()) {
     await shows(page, ["Chidi", "Dara"]);
     assert.equal(await page.locator("#title").innerText(), "Blue room");
     assert.equal(new URL(page.url()).hash, "");
   }
-  await guest.page.keyboard.press("c");
-  await guest.page.locator("#chat-text").fill("hello from Dara");
-  await guest.page.keyboard.press("Enter");
-  for (const page of pages())
-    await page.locator("#lines").getByText("hello from Dara").waitFor({ state: "attached" });
+  await write(guest.page, "hello from Dara");
+  for (const page of pages()) await hasText(page, "hello from Dara");
   quiet();
 });
 
 test("a wrong link opens nothing", LONG, async () => {
   const wrong = { link: () => `${meeting.url}#k=${"x".repeat(32)}` };
   const { page, close } = await atTheEntry(browser, wrong);
-  await page.locator("#name").fill("Mallory");
-  await page.locator("#enter").click();
-  await page.locator("#entry-error").filter({ hasText: "not valid" }).waitFor();
+  await join(page, "Mallory");
+  await refusedWith(page, "not valid");
   await close();
   await shows(guest.page, ["Chidi", "Dara"]);
 });
 
-test("who loads the page anew is who they were; the broker may die meanwhile", LONG, async () => {
+test("a reloaded page keeps its participant", LONG, async () => {
   const me = await guest.page.evaluate(() => window.telemimeMeeting.me);
   const broker = meeting.broker.pid;
   meeting.broker.kill();
@@ -70,111 +55,94 @@ test("who loads the page anew is who they were; the broker may die meanwhile", L
   await isIn(guest.page);
   assert.equal(await guest.page.evaluate(() => window.telemimeMeeting.me), me);
   await shows(chair.page, ["Chidi", "Dara"]);
-  for (const visit of [chair, guest]) visit.complaints.length = 0; // Chromium tells of each failed socket
+  ignoreComplaints();
 });
 
-test(
-  "who chairs the meeting names it and locks it; nobody new comes in until it is unlocked",
-  LONG,
-  async () => {
-    const { page } = chair;
-    await page.locator("#meeting-canvas").focus();
-    await page.keyboard.press("r");
-    await tabTo(page, "#meeting-title");
-    await page.keyboard.press("ControlOrMeta+a");
-    await page.keyboard.type("Green room");
-    await tabTo(page, "#meeting-seats");
-    await page.keyboard.press("ControlOrMeta+a");
-    await page.keyboard.type("101");
-    await page.keyboard.press("Enter");
-    await page.locator("#chair-words").filter({ hasText: "from 1 to 100" }).waitFor();
-    await page.keyboard.press("ControlOrMeta+a");
-    await page.keyboard.type("12");
-    await page.keyboard.press("Enter");
-    await page.locator("#chair-words").filter({ hasText: "Saved." }).waitFor();
-    for (const p of pages()) {
-      await p.locator("#title").filter({ hasText: "Green room" }).waitFor();
-      await p.locator("#meeting-is").filter({ hasText: "12 seats" }).waitFor({ state: "attached" });
-    }
-    await tabTo(page, "#meeting-locked");
-    await page.keyboard.press("Space");
-    await page.locator("#chair-words").filter({ hasText: "Locked." }).waitFor();
-    for (const p of pages()) await p.locator("#meeting-badge").waitFor();
-    const { page: late, close } = await atTheEntry(browser, meeting);
-    await late.locator("#name").fill("Emeka");
-    await late.locator("#enter").click();
-    await late.locator("#entry-error").filter({ hasText: "The meeting is locked" }).waitFor();
-    await page.locator("#meeting-locked").click();
-    for (const p of pages()) await p.locator("#meeting-badge").waitFor({ state: "hidden" });
-    await late.locator("#enter").click();
-    await isIn(late);
-    assert.equal(await late.locator("#title").innerText(), "Green room");
-    await close();
-    for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
-    assert.equal(
-      await guest.page.locator("#chair").getAttribute("hidden"),
-      "",
-      "no controls without the role",
-    );
-    await page.keyboard.press("Escape");
-    quiet();
-  },
-);
+test("a chair renames, locks and unlocks it", LONG, async () => {
+  const { page } = chair;
+  await page.locator("#meeting-canvas").focus();
+  await page.keyboard.press("r");
+  await tabTo(page, "#meeting-title");
+  await page.keyboard.press("ControlOrMeta+a");
+  await page.keyboard.type("Green room");
+  await tabTo(page, "#meeting-seats");
+  await page.keyboard.press("ControlOrMeta+a");
+  await page.keyboard.type("101");
+  await page.keyboard.press("Enter");
+  await page.locator("#chair-words").filter({ hasText: "from 1 to 100" }).waitFor();
+  await page.keyboard.press("ControlOrMeta+a");
+  await page.keyboard.type("12");
+  await page.keyboard.press("Enter");
+  await page.locator("#chair-words").filter({ hasText: "Saved." }).waitFor();
+  for (const p of pages()) {
+    await p.locator("#title").filter({ hasText: "Green room" }).waitFor();
+    await p.locator("#meeting-is").filter({ hasText: "12 seats" }).waitFor({ state: "attached" });
+  }
+  await tabTo(page, "#meeting-locked");
+  await page.keyboard.press("Space");
+  await page.locator("#chair-words").filter({ hasText: "Locked." }).waitFor();
+  for (const p of pages()) await p.locator("#meeting-badge").waitFor();
+  const { page: late, close } = await atTheEntry(browser, meeting);
+  await join(late, "Emeka");
+  await refusedWith(late, "The meeting is locked");
+  await page.locator("#meeting-locked").click();
+  for (const p of pages()) await p.locator("#meeting-badge").waitFor({ state: "hidden" });
+  await late.locator("#enter").click();
+  await isIn(late);
+  assert.equal(await late.locator("#title").innerText(), "Green room");
+  await close();
+  for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
+  assert.equal(await guest.page.locator("#chair").getAttribute("hidden"), "", "no controls without the role");
+  await page.keyboard.press("Escape");
+  quiet();
+});
 
-test(
-  "the command for a camera is who it says: the page leaves the avatar to it, and takes it back",
-  LONG,
-  async () => {
-    const { page } = guest;
-    const me = await page.evaluate(() => window.telemimeMeeting.me);
-    await page.locator("#meeting-canvas").focus();
-    await page.keyboard.press("r");
-    assert.equal(
-      await page.locator("#camera-command").textContent(),
-      "",
-      "no password before it is asked for",
-    );
-    await tabTo(page, "#camera-show");
-    await page.keyboard.press("Enter");
-    const command = await page.locator("#camera-command").innerText();
-    const [, address] = /^telemime live --send '([^'\s]+)'$/.exec(command);
-    const url = new URL(address);
-    const [tenant, name] = url.pathname.slice(1).split("/");
-    assert.equal(`r/${tenant}/${name}`, meeting.topic);
-    assert.equal(`mqtt://${url.host}`, meeting.broker.tcp);
-    assert.equal(url.username, `${name}.${me}`);
-    assert.equal(url.searchParams.get("name"), "Dara");
-    assert.equal(url.searchParams.get("look"), "summer");
-    const presence = `${meeting.topic}/p/${me}/presence`;
-    const tracker = await mqtt.connectAsync(`mqtt://${url.host}`, {
-      protocolVersion: 4,
-      username: decodeURIComponent(url.username),
-      password: decodeURIComponent(url.password),
-    });
-    const tell = (topic, message) =>
-      tracker.publishAsync(topic, JSON.stringify({ v: 1, session: 7, ...message }), { qos: 1, retain: true });
-    const state = { kind: "tracker", name: "Dara's camera", seat: 3, avatar: { look: "robot" } };
-    await tell(presence, { here: true });
-    await tell(`${meeting.topic}/p/${me}/state`, state);
-    for (const p of pages()) await shows(p, ["Chidi", "Dara's camera"]);
-    await page.locator("#camera-here").waitFor();
-    assert.match(await page.locator("#state-words").textContent(), /Your tracker moves your avatar/);
-    await page.locator("#camera-show").click();
-    assert.equal(await page.locator("#camera-command").textContent(), "", "hidden again");
-    await tell(presence, { here: false });
-    await tracker.endAsync();
-    for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
-    await page.locator("#camera-here").waitFor({ state: "hidden" });
-    await page.keyboard.press("Escape");
-    quiet();
-  },
-);
+test("the tracker of the command moves the avatar", LONG, async () => {
+  const { page } = guest;
+  const me = await page.evaluate(() => window.telemimeMeeting.me);
+  await page.locator("#meeting-canvas").focus();
+  await page.keyboard.press("r");
+  assert.equal(await page.locator("#camera-command").textContent(), "", "no password before it is asked for");
+  await tabTo(page, "#camera-show");
+  await page.keyboard.press("Enter");
+  const command = await page.locator("#camera-command").innerText();
+  const [, address] = /^telemime live --send '([^'\s]+)'$/.exec(command);
+  const url = new URL(address);
+  const [tenant, name] = url.pathname.slice(1).split("/");
+  assert.equal(`r/${tenant}/${name}`, meeting.topic);
+  assert.equal(`mqtt://${url.host}`, meeting.broker.tcp);
+  assert.equal(url.username, `${name}.${me}`);
+  assert.equal(url.searchParams.get("name"), "Dara");
+  assert.equal(url.searchParams.get("look"), "summer");
+  const presence = `${meeting.topic}/p/${me}/presence`;
+  const tracker = await mqtt.connectAsync(`mqtt://${url.host}`, {
+    protocolVersion: 4,
+    username: decodeURIComponent(url.username),
+    password: decodeURIComponent(url.password),
+  });
+  const publish = (topic, message) =>
+    tracker.publishAsync(topic, JSON.stringify({ v: 1, session: 7, ...message }), { qos: 1, retain: true });
+  const state = { kind: "tracker", name: "Dara's camera", seat: 3, avatar: { look: "robot" } };
+  await publish(presence, { here: true });
+  await publish(`${meeting.topic}/p/${me}/state`, state);
+  for (const p of pages()) await shows(p, ["Chidi", "Dara's camera"]);
+  await page.locator("#camera-here").waitFor();
+  assert.match(await page.locator("#state-words").textContent(), /Your tracker moves your avatar/);
+  await page.locator("#camera-show").click();
+  assert.equal(await page.locator("#camera-command").textContent(), "", "hidden again");
+  await publish(presence, { here: false });
+  await tracker.endAsync();
+  for (const p of pages()) await shows(p, ["Chidi", "Dara"]);
+  await page.locator("#camera-here").waitFor({ state: "hidden" });
+  await page.keyboard.press("Escape");
+  quiet();
+});
 
-test("no secret is in what the program says beside its links", LONG, async () => {
+test("secrets are only in the links", LONG, async () => {
   const answer = await meeting.enter({ invite: meeting.invites.speak });
-  const words = meeting.heard.err;
+  const printed = meeting.output.err;
   for (const secret of [...Object.values(meeting.invites), answer.password, answer.return])
-    assert.ok(!words.includes(secret));
+    assert.ok(!printed.includes(secret));
   for (const visit of [chair, guest])
     for (const address of visit.requested)
       assert.ok(!Object.values(meeting.invites).some((secret) => address.includes(secret)), address);

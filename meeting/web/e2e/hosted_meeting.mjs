@@ -1,34 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real `telemime meeting`, in the shape of mock/meeting.mjs. TELEMIME_MOSQUITTO names its broker.
 
-import { spawn, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { launch } from "#e2e/process";
 
 const ROLES = ["speak", "watch", "chair"];
 
-/** `args`: further options of the program. All of its ports are free ones. */
-export async function startHostedMeeting(program, { title = "Blue room", args = [] } = {}) {
+/** The links by their roles, once the meeting is open. */
+function linksIn(output) {
+  const links = ROLES.map((role) => [role, new RegExp(`^to ${role}: (\\S+)$`, "m").exec(output)?.[1]]);
+  return output.includes("MQTT at port") && links.every(([, link]) => link) && Object.fromEntries(links);
+}
+
+/** All ports of the program are free ones. */
+export async function startHostedMeeting(command, { title = "Blue room" } = {}) {
   const folder = mkdtempSync(join(tmpdir(), "telemime-hosted-"));
   const ports = ["--port", "0", "--mqtt-port", "0", "--ws-port", "0"];
   const mosquitto = process.env.TELEMIME_MOSQUITTO ? ["--mosquitto", process.env.TELEMIME_MOSQUITTO] : [];
-  const child = spawn(program, ["meeting", "--title", title, ...ports, ...mosquitto, ...args], {
-    stdio: ["ignore", "pipe", "pipe"],
-    env: { ...process.env, XDG_STATE_HOME: folder }, // nobody's own meetings
+  const program = await launch(command, ["meeting", "--title", title, ...ports, ...mosquitto], {
+    env: { XDG_STATE_HOME: folder }, // no meetings of a user
+    ready: linksIn,
   });
-  const heard = { out: "", err: "" };
-  child.stdout.on("data", (d) => (heard.out += d));
-  child.stderr.on("data", (d) => (heard.err += d));
-  const ended = new Promise((resolve) => child.on("exit", resolve));
-  const links = await new Promise((resolve, reject) => {
-    child.stdout.on("data", () => {
-      const found = ROLES.map((role) => new RegExp(`^to ${role}: (\\S+)$`, "m").exec(heard.out)?.[1]);
-      if (found.every(Boolean) && heard.out.includes("MQTT at port"))
-        resolve(Object.fromEntries(ROLES.map((role, i) => [role, found[i]])));
-    });
-    void ended.then((code) => reject(new Error(`the program ended (${code}): ${heard.err}`)));
-  });
+  const links = program.found;
   const url = links.speak.split("#")[0];
   const invites = Object.fromEntries(ROLES.map((role) => [role, links[role].split("#k=")[1]]));
   const enter = async (question) => {
@@ -42,15 +38,13 @@ export async function startHostedMeeting(program, { title = "Blue room", args = 
   };
   const watcher = await enter({ invite: invites.watch, watch: true });
   const brokers = () =>
-    spawnSync("ps", ["--ppid", String(child.pid), "-o", "pid="], { encoding: "utf8" })
+    spawnSync("ps", ["--ppid", String(program.pid), "-o", "pid="], { encoding: "utf8" })
       .stdout.trim()
       .split(/\s+/)
       .filter(Boolean)
       .map(Number);
   return {
-    program: child,
-    heard,
-    ended,
+    output: program.output,
     folder,
     url,
     topic: watcher.topic,
@@ -70,13 +64,12 @@ export async function startHostedMeeting(program, { title = "Blue room", args = 
       signal(name) {
         for (const pid of brokers()) process.kill(pid, name);
       },
-      again() {}, // by itself
+      again() {}, // the program restarts it
     },
-    /** A newcomer's, for a tracker. */
+    /** A new account, for a tracker. */
     takeAccount: () => enter({ invite: invites.speak }),
     async close() {
-      child.kill("SIGTERM");
-      await ended;
+      await program.end();
       rmSync(folder, { recursive: true, force: true });
     },
   };

@@ -2,15 +2,17 @@
 // Pages of a meeting for the tests beside this file: a real Mosquitto, a real Chromium, synthetic trackers. The meeting is that of
 // mock/meeting.mjs, or the real program's where TELEMIME_MEETING_PROGRAM names it.
 
+import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { conj, mul } from "#mock/quat";
+import * as path from "node:path";
+import { after, before } from "node:test";
 import { loadCodec, startPerson } from "../mock/people.mjs";
 import { startMeeting } from "../mock/meeting.mjs";
 import { startHostedMeeting } from "./hosted_meeting.mjs";
-import { PATIENCE } from "#e2e/program";
+import { angleBetween, meanAndWorst } from "#e2e/bones";
+import { openPage, startBrowser } from "#e2e/program";
 
 export const LOOKS = ["plain", "casual", "office", "summer", "robot"];
 
@@ -19,11 +21,11 @@ export const LOOKS = ["plain", "casual", "office", "summer", "robot"];
  * that opens it (`telemime meeting`).
  */
 export async function openMeeting({ hosted = process.env.TELEMIME_MEETING_PROGRAM, ...options } = {}) {
-  const folder = mkdtempSync(join(tmpdir(), "telemime-room-"));
+  const folder = mkdtempSync(path.join(tmpdir(), "telemime-room-"));
   const program = process.env.TELEMIME_PROGRAM;
   if (program && !hosted) {
     for (const look of LOOKS)
-      execFileSync(program, ["avatar", "--look", look, "--out", join(folder, `${look}.vrm`)]);
+      execFileSync(program, ["avatar", "--look", look, "--out", path.join(folder, `${look}.vrm`)]);
   }
   const codec = await loadCodec();
   const meeting = hosted
@@ -46,29 +48,18 @@ export async function openMeeting({ hosted = process.env.TELEMIME_MEETING_PROGRA
   });
 }
 
-/**
- * A page at the door. `complaints` holds what the console and the page said against themselves; `requested` all addresses
- * that it asked for. `script` runs before the page's own. Few pixels: without a graphics card each costs processor time.
- */
-export async function atTheEntry(browser, meeting, { role = "speak", script = null, ...options } = {}) {
-  const context = await browser.newContext({
-    viewport: { width: 900, height: 560 },
-    deviceScaleFactor: 0.5,
-    ...options,
-  });
-  context.setDefaultTimeout(PATIENCE);
-  if (script) await context.addInitScript(script);
-  const page = await context.newPage();
-  const complaints = [];
-  const requested = [];
-  page.on("console", (m) => {
-    if (m.type() === "error") complaints.push(m.text());
-  });
-  page.on("pageerror", (e) => complaints.push(String(e)));
-  page.on("request", (r) => requested.push(r.url()));
-  await page.goto(meeting.link(role));
-  return { page, complaints, requested, close: () => context.close() };
+/** A page at the entry form, with few pixels: without a graphics card each costs processor time. */
+export const atTheEntry = (browser, meeting, { role = "speak", ...options } = {}) =>
+  openPage(browser, { url: meeting.link(role) }, { viewport: { width: 900, height: 560 }, ...options });
+
+/** Fills in a name and joins. */
+export async function join(page, name) {
+  await page.locator("#name").fill(name);
+  await page.locator("#enter").click();
 }
+
+/** Waits until the form gives this reason why the user cannot join. */
+export const refusedWith = (page, words) => page.locator("#entry-error").filter({ hasText: words }).waitFor();
 
 export const isIn = (page) => page.waitForFunction(() => window.telemimeMeeting.settled);
 
@@ -77,9 +68,8 @@ export async function inTheMeeting(browser, meeting, { name = "", look = "plain"
   const visit = await atTheEntry(browser, meeting, options);
   const { page } = visit;
   if (name) {
-    await page.locator("#name").fill(name);
     await page.locator(`input[name="look"][value="look:${look}"]`).check({ force: true });
-    await page.locator("#enter").click();
+    await join(page, name);
   } else {
     await page.locator("#watch").click();
   }
@@ -103,8 +93,6 @@ export const dressed = (page, ids) =>
     return wanted.every((id) => all.find((p) => p.id === id)?.dressed);
   }, ids);
 
-const degrees = (q) => (2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3])) * 180) / Math.PI;
-
 /** The next pose of that participant that is shown in full. */
 const nextPose = (page, id, last) =>
   page.evaluate(
@@ -120,19 +108,54 @@ const nextPose = (page, id, last) =>
     [id, last],
   );
 
-/**
- * How far the avatar's bones are from what the person did at the moment that is shown, over `count` pictures, degrees.
- */
-export async function motionError(page, person, count = 10) {
+/** The error of the avatar's bones at the shown moment, over `count` pictures, degrees. */
+async function motionError(page, person, count = 10) {
   const errors = [];
   let shown = await nextPose(page, person.participant, null);
   for (let n = 0; n < count; n++) {
     shown = await nextPose(page, person.participant, shown.captured);
     const { bones } = person.poseOf(shown.captured);
-    for (const [bone, q] of Object.entries(bones)) errors.push(degrees(mul(conj(q), shown.bones[bone])));
+    for (const [bone, q] of Object.entries(bones)) errors.push(angleBetween(q, shown.bones[bone]));
   }
-  return { mean: errors.reduce((a, b) => a + b, 0) / errors.length, worst: Math.max(...errors) };
+  return meanAndWorst(errors);
 }
+
+/** Asserts that the avatar of the person moves as the person does. */
+export async function followsPerson(page, person, count = 10) {
+  const error = await motionError(page, person, count);
+  console.log(
+    `${person.participant}: bones ${error.mean.toFixed(3)} degrees off, at most ${error.worst.toFixed(2)}`,
+  );
+  assert.ok(error.mean <= 2);
+}
+
+/** Asserts that no frame of this participant was refused. */
+export async function nothingRefused(page, { participant }) {
+  const r = await page.evaluate(
+    (id) => window.telemimeMeeting.participants.find((p) => p.id === id).reading,
+    participant,
+  );
+  assert.deepEqual([r.malformed, r.replayed, r.flooded], [0, 0, 0]);
+}
+
+/** Writes a message into the chat. */
+export async function write(page, text) {
+  if (!(await page.locator("#chat-text").isVisible())) {
+    await page.locator("#meeting-canvas").focus();
+    await page.keyboard.press("c");
+  }
+  await page.locator("#chat-text").fill(text);
+  await page.locator("#chat-text").press("Enter");
+}
+
+/** Waits until the chat contains the text. */
+export const hasText = (page, text) => page.locator("#lines").getByText(text).waitFor({ state: "attached" });
+
+export const lostBanner = (page) =>
+  page
+    .locator("#banner")
+    .filter({ hasText: /connection to the meeting is lost|broker does not answer/ })
+    .waitFor();
 
 /** Draws a line on the open blackboard; x, y from 0 to 1. */
 export async function drawLine(page, points) {
@@ -147,14 +170,31 @@ export async function drawLine(page, points) {
 export const strokes = (page, count) =>
   page.waitForFunction((n) => window.telemimeMeeting.strokes.length === n, count);
 
-/** The renderer's processes of the pages that `open` opens. */
-export async function processesOf(browser, open) {
-  const session = await browser.newBrowserCDPSession();
-  const all = async () =>
-    (await session.send("SystemInfo.getProcessInfo")).processInfo
-      .filter((p) => p.type === "renderer")
-      .map((p) => p.id);
-  const before = await all();
-  const opened = await open();
-  return { opened, ids: (await all()).filter((id) => !before.includes(id)) };
+/**
+ * Before the tests of a file: a browser, a meeting, synthetic people and pages in the meeting, by their keys. `ready` gets
+ * them all. After the tests they are closed.
+ */
+export function setUpMeeting(ready, { meeting = {}, people = {}, pages = {} }) {
+  const t = {
+    /** The open pages. */
+    pages: () => Object.keys(pages).map((key) => t[key].page),
+    /** Asserts that these pages have not complained since the last call. */
+    quiet: () => Object.keys(pages).forEach((key) => assert.deepEqual(t[key].complaints.splice(0), [])),
+    /** Chromium reports failed connections, which a test may have caused. */
+    ignoreComplaints: () => Object.keys(pages).forEach((key) => (t[key].complaints.length = 0)),
+  };
+  before(async () => {
+    t.browser = await startBrowser();
+    t.meeting = await openMeeting(meeting);
+    for (const [key, options] of Object.entries(people)) t[key] = await t.meeting.person(options);
+    for (const [key, options] of Object.entries(pages))
+      t[key] = await inTheMeeting(t.browser, t.meeting, options);
+    ready(t);
+  });
+  after(async () => {
+    for (const key of Object.keys(pages)) await t[key]?.close();
+    await t.browser?.close();
+    await t.meeting?.end();
+  });
+  return t;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A real Mosquitto with accounts for one meeting, as its own child process on free ports of this computer.
 
-import { spawn } from "node:child_process";
 import { pbkdf2Sync, randomBytes } from "node:crypto";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { connect, createServer } from "node:net";
 import { tmpdir, userInfo } from "node:os";
 import { join } from "node:path";
+import { launch } from "#e2e/process";
 
 const MOSQUITTO = process.env.TELEMIME_MOSQUITTO ?? "mosquitto";
 const PATIENCE = 20000; // ms until it listens
@@ -72,46 +72,31 @@ export async function startBroker(accounts) {
     "socket_domain ipv4", // without it Mosquitto 2.0.11 listens for WebSockets at all addresses
     "protocol websockets",
   ]);
-  let child = null;
-  let ended = null;
-  let heard = "";
+  let mosquitto = null;
 
   async function start() {
-    heard = "";
-    child = spawn(MOSQUITTO, ["-c", config], {
-      stdio: ["ignore", "pipe", "pipe"],
-      env: { ...process.env, PATH: `${process.env.PATH}:/usr/sbin` },
-    });
-    let over = null;
-    child.stdout.on("data", (d) => (heard += d));
-    child.stderr.on("data", (d) => (heard += d));
-    ended = new Promise((resolve) => {
-      child.on("exit", (code) => resolve((over = `ended with ${code}`)));
-      child.on("error", (e) => resolve((over = String(e))));
-    });
+    mosquitto = await launch(MOSQUITTO, ["-c", config]);
+    let over = false;
+    void mosquitto.ended.then(() => (over = true));
     const until = performance.now() + PATIENCE;
     while (!((await listens(tcp)) && (await listens(ws)))) {
-      if (over || performance.now() > until) throw new Error(`Mosquitto: ${over ?? "is silent"}: ${heard}`);
+      if (over || performance.now() > until) throw new Error(`Mosquitto: ${mosquitto.output.err}`);
       await new Promise((resolve) => setTimeout(resolve, 20));
     }
-  }
-  async function stop(signal = "SIGTERM") {
-    child.kill(signal);
-    await ended;
   }
   await start();
   return {
     tcp: `mqtt://127.0.0.1:${tcp}`,
     ws: `ws://127.0.0.1:${ws}`,
     get pid() {
-      return child.pid;
+      return mosquitto.pid;
     },
-    /** Dies without a word. */
-    kill: () => stop("SIGKILL"),
-    /** On the same ports, with nothing that it knew. */
+    /** Ends without closing its connections. */
+    kill: () => mosquitto.end("SIGKILL"),
+    /** Starts on the same ports, without retained messages. */
     again: start,
     async close() {
-      await stop();
+      await mosquitto.end();
       rmSync(folder, { recursive: true, force: true });
     },
   };

@@ -1,50 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three real nodes of nats-server with accounts for one meeting, as scripts/cluster.py configures them, and one address
-// for browsers that leads to them in turn, as a load balancer does.
+// Three real nodes of nats-server with accounts for one meeting, configured by scripts/cluster.py, and a load balancer for
+// browsers.
 
-import { execFileSync, spawn } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { connect, createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import mqtt from "mqtt";
+import { launch } from "#e2e/process";
 
 const SERVER = process.env.TELEMIME_NATS_SERVER ?? "nats-server";
 const SCRIPT =
   process.env.TELEMIME_MEETING_CLUSTER ?? fileURLToPath(new URL("../../scripts/cluster.py", import.meta.url));
-const PATIENCE = 60000; // ms until a node takes clients: the nodes have to find a leader
-const env = { ...process.env, PATH: `${process.env.PATH}:/usr/sbin` };
+const PATIENCE = 60000; // ms until a node accepts clients: the nodes elect a leader
 
-/** A TCP server that leads each connection to the next of `ports` that takes it; `led` says which, by its place. */
+/** A TCP server that forwards each connection to the next of `ports` that accepts it; `used` lists their indices. */
 async function startBalancer(ports) {
-  const led = [];
+  const used = [];
   const open = new Set();
   let next = 0;
   const server = createServer((client) => {
     open.add(client);
     client.on("close", () => open.delete(client));
     client.on("error", () => {});
-    const lead = (tries) => {
+    const forward = (tries) => {
       if (tries === 0) return client.destroy();
       const place = next++ % ports.length;
       const node = connect(ports[place], "127.0.0.1");
       let reached = false;
       node.on("connect", () => {
         reached = true;
-        led.push(place);
+        used.push(place);
         client.pipe(node).pipe(client);
       });
       node.on("error", () => {});
-      node.on("close", () => (reached ? client.destroy() : lead(tries - 1)));
+      node.on("close", () => (reached ? client.destroy() : forward(tries - 1)));
       client.on("close", () => node.destroy());
       return undefined;
     };
-    lead(ports.length);
+    forward(ports.length);
   });
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
-    led,
+    used,
     port: server.address().port,
     close() {
       for (const s of open) s.destroy();
@@ -54,7 +54,7 @@ async function startBalancer(ports) {
 }
 
 /** Waits until the node accepts an account. */
-async function takesClients(url, { user, password }) {
+async function acceptsClients(url, { user, password }) {
   const until = performance.now() + PATIENCE;
   for (;;) {
     const options = {
@@ -65,20 +65,20 @@ async function takesClients(url, { user, password }) {
       connectTimeout: 5000,
     };
     const client = mqtt.connect(url, options);
-    const taken = await new Promise((resolve) => {
+    const accepted = await new Promise((resolve) => {
       client.on("connect", () => resolve(true));
       client.on("error", () => resolve(false));
       client.on("close", () => resolve(false));
     });
     client.end(true);
-    if (taken) return;
-    if (performance.now() > until) throw new Error(`nats-server takes nobody at ${url}`);
+    if (accepted) return;
+    if (performance.now() > until) throw new Error(`nats-server accepts nobody at ${url}`);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
 }
 
 /**
- * The accounts of mock/meeting.mjs get the passwords of the cluster. `tcp` is the last node's; `ws` leads to the first two in
+ * The accounts of mock/meeting.mjs get the passwords of the cluster. `tcp` is the last node's; `ws` forwards to the first two in
  * turn. Nodes are counted from 0.
  */
 export async function startCluster(accounts, topic) {
@@ -93,29 +93,23 @@ export async function startCluster(accounts, topic) {
   const keyOf = (id) => JSON.parse(readFileSync(join(folder, "keys", `${id}.json`), "utf8"));
   for (const a of accounts) Object.assign(a, keyOf(a.participant));
   const { nodes } = JSON.parse(readFileSync(join(folder, "cluster.json"), "utf8"));
-  const children = [];
-  const launch = (n) => {
-    children[n] = spawn(SERVER, ["-c", join(folder, nodes[n].config)], { stdio: "ignore", env });
-    children[n].ended = new Promise((resolve) => children[n].on("exit", resolve));
-  };
-  const kill = async (n) => {
-    children[n].kill("SIGKILL");
-    await children[n].ended;
-  };
-  const ready = (n) => takesClients(nodes[n].mqtt, keyOf("watch"));
-  nodes.forEach((_, n) => launch(n));
+  const servers = [];
+  const start = async (n) => (servers[n] = await launch(SERVER, ["-c", join(folder, nodes[n].config)]));
+  const kill = (n) => servers[n].end("SIGKILL");
+  const ready = (n) => acceptsClients(nodes[n].mqtt, keyOf("watch"));
+  await Promise.all(nodes.map((_, n) => start(n)));
   await Promise.all(nodes.map((_, n) => ready(n)));
   const balancer = await startBalancer(nodes.slice(0, 2).map((n) => Number(new URL(n.ws).port)));
   return {
     tcp: nodes[2].mqtt,
     ws: `ws://127.0.0.1:${balancer.port}/mqtt`,
-    /** Which nodes the connections of browsers were led to, in their order. */
-    led: balancer.led,
-    /** A node dies without a word. */
+    /** The node of each connection of a browser. */
+    nodes: balancer.used,
+    /** Ends a node without closing its connections. */
     kill,
-    /** It starts again, with what it had stored. */
+    /** Starts it again with its stored messages. */
     async again(n) {
-      launch(n);
+      await start(n);
       await ready(n);
     },
     async close() {
