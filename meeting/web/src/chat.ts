@@ -3,6 +3,7 @@
 
 import { characters, LIMITS, MAX_TEXT, toBytes, type ChatMessage } from "./messages";
 import { plainText } from "./names";
+import { RateLimit } from "./rate_limit";
 
 export const MOST_LINES = 300;
 const MAX_IDS = 2000; // remembered to recognise repeated messages
@@ -55,27 +56,6 @@ export class ChatLog {
     const pace = this.limits.get(from) ?? new RateLimit(AT_ONCE, PER_SECOND);
     this.limits.set(from, pace);
     return pace.take(now);
-  }
-}
-
-/** Allows `most` at once and `perSecond` in the long run. Times in s. */
-class RateLimit {
-  private left: number;
-  private at = -Infinity;
-
-  constructor(
-    private readonly most: number,
-    private readonly perSecond: number,
-  ) {
-    this.left = most;
-  }
-
-  take(now: number): boolean {
-    this.left = Math.min(this.most, this.left + (now - this.at) * this.perSecond);
-    this.at = now;
-    if (this.left < 1) return false;
-    this.left--;
-    return true;
   }
 }
 

@@ -4,7 +4,7 @@
 import { sha256 } from "@noble/hashes/sha2";
 import { bytesToHex } from "@noble/hashes/utils";
 import * as v from "valibot";
-import { parseStored } from "#web/shared/stored";
+import { Stored, parseStored } from "#web/shared/stored";
 import { characters } from "./messages";
 import { isSegment, meetingTopic } from "./topics";
 
@@ -27,10 +27,7 @@ function isSocketUrl(text: string): boolean {
 }
 
 const text = (most: number) => v.pipe(v.string(), v.minLength(1), v.maxLength(most));
-const topic = v.pipe(
-  v.string(),
-  v.check((t) => meetingTopic(t) !== null),
-);
+const topic = v.custom<string>((t) => meetingTopic(t) !== null);
 const list = v.fallback(v.array(v.unknown()), []);
 
 /** The answer of the server: how to reach the broker, and as whom. */
@@ -39,15 +36,7 @@ const EnteredSchema = v.pipe(
     user: text(200),
     password: text(500),
     /** Null for those who only watch. */
-    participant: v.fallback(
-      v.nullable(
-        v.pipe(
-          v.string(),
-          v.check((s) => isSegment(s)),
-        ),
-      ),
-      null,
-    ),
+    participant: v.fallback(v.nullable(v.custom<string>(isSegment)), null),
     /** ws:// or wss:// */
     mqtt: v.pipe(
       v.string(),
@@ -180,18 +169,5 @@ export function withSeat(saved: Saved, invite: string | null, entered: Entered):
   return { ...saved, seats: [...others, { by, topic, token }].slice(-MAX_SEATS_SAVED) };
 }
 
-export function loadSaved(): Saved {
-  try {
-    return readSaved(localStorage.getItem(KEY));
-  } catch {
-    return readSaved(null);
-  }
-}
-
-export function save(saved: Saved): void {
-  try {
-    localStorage.setItem(KEY, JSON.stringify(saved));
-  } catch {
-    // Nothing can be stored here: the seat is lost when the page is closed.
-  }
-}
+/** Where nothing can be stored, the seat is lost when the page is closed. */
+export const storedEntry = () => new Stored<Saved>(KEY, SavedSchema);

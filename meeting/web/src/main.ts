@@ -8,7 +8,7 @@ import { Panel } from "#web/shared/panel";
 import { Shortcuts } from "#web/shared/shortcuts";
 import { Toasts } from "#web/shared/toasts";
 import { exposeMeeting } from "./debug";
-import { EntryError, enter, inviteOf, loadSaved, save, tokenFor, withSeat, type Entered } from "./entry";
+import { EntryError, enter, inviteOf, storedEntry, tokenFor, withSeat, type Entered } from "./entry";
 import type { Dial, LinkState } from "./link";
 import type { LocalParticipant, OwnState } from "./local_participant";
 import { plainLine } from "./names";
@@ -35,7 +35,8 @@ buildFrame({
   note: "To use your own movements, run telemime live on your computer and send them to this meeting.",
 });
 
-let saved = loadSaved();
+const entryStore = storedEntry();
+let saved = entryStore.load();
 const stored = storedSettings();
 const settings = stored.load();
 const toasts = new Toasts();
@@ -146,7 +147,7 @@ async function ask(watch: boolean): Promise<Entered> {
   brokerDial ??= (await import("./broker")).brokerDial;
   const entered = await enter({ invite, token: watch ? null : tokenFor(saved, invite), watch });
   saved = withSeat(saved, invite, entered);
-  save(saved);
+  entryStore.save(saved);
   return entered;
 }
 
@@ -233,7 +234,7 @@ function leave(words: string): void {
 
 const entryForm: EntryForm = new EntryForm(saved, come, (name, avatar) => {
   saved = { ...saved, name, avatar };
-  save(saved);
+  entryStore.save(saved);
 });
 
 function setView(view: View): void {

@@ -9,6 +9,7 @@ import type { Entered } from "./entry";
 import { Link, anySession, type Dial, type LinkState } from "./link";
 import { LocalParticipant, type OwnState } from "./local_participant";
 import { writeMeeting, type MeetingMessage, type Stroke } from "./messages";
+import { RateLimit } from "./rate_limit";
 import { Roster, type MeetingEvent } from "./roster";
 import { freeSeat } from "./seats";
 import { boardTopic, parseTopic, topicOf } from "./topics";
@@ -58,7 +59,7 @@ export class MeetingClient {
   private meetingReceived = false;
   private meetingKnown = false;
   private seatAsked = false;
-  private readonly noteLimits = new Map<string, { left: number; at: number }>();
+  private readonly noteLimits = new Map<string, RateLimit>();
   private readonly joining = new Map<string, number>(); // participants without a note yet: since when
   private everSettled = false;
   private gatherUntil = 0;
@@ -176,10 +177,6 @@ export class MeetingClient {
     if (!this.settled || this.link.state.kind !== "open")
       return Promise.resolve("There is no connection to the meeting. Try again later.");
     return this.requests.request(change);
-  }
-
-  change(state: OwnState): void {
-    this.me?.change(state);
   }
 
   private retain(topic: string, bytes: Uint8Array): Promise<boolean> {
@@ -331,14 +328,9 @@ export class MeetingClient {
 
   /** Adds a note, with a limit on the notes about one participant. */
   private note(id: string, text: string): void {
-    const now = seconds();
-    const r = this.noteLimits.get(id) ?? { left: NOTES, at: now };
-    r.left = Math.min(NOTES, r.left + (now - r.at) / NOTE_EVERY);
-    r.at = now;
-    this.noteLimits.set(id, r);
-    if (r.left < 1) return;
-    r.left--;
-    this.listener.line(this.log.note(text));
+    const limit = this.noteLimits.get(id) ?? new RateLimit(NOTES, 1 / NOTE_EVERY);
+    this.noteLimits.set(id, limit);
+    if (limit.take(seconds())) this.listener.line(this.log.note(text));
   }
 
   private showOwn(): void {

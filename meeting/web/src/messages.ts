@@ -45,10 +45,7 @@ const session = whole(1, 0xffff);
 const epoch = whole(0, 0xffffffff);
 
 const LookSchema = v.object({
-  look: v.pipe(
-    v.string(),
-    v.check((s) => isSegment(s)),
-  ),
+  look: v.custom<string>(isSegment),
   url: v.optional(v.undefined_()),
 });
 const FileSchema = v.object({
@@ -73,8 +70,8 @@ export type AvatarChoice = v.InferOutput<typeof AvatarSchema>;
 const BonesSchema = v.pipe(
   v.nullish(v.record(v.string(), v.unknown()), {}),
   v.transform((all) => Object.fromEntries(BONES.filter((b) => all[b] !== undefined).map((b) => [b, all[b]]))),
-  v.record(v.string(), v.pipe(v.array(within(-10, 10)), v.length(3))),
-  v.transform((all) => new Map(Object.entries(all) as unknown as [string, Vec3][])),
+  v.record(v.string(), v.strictTuple([within(-10, 10), within(-10, 10), within(-10, 10)])),
+  v.transform((all): Map<string, Vec3> => new Map(Object.entries(all))),
 );
 
 const StateSchema = v.object({

@@ -2,7 +2,7 @@
 // Turns the frames of a participant into a pose for any moment. It plays them slightly late, so that the next frame has
 // mostly arrived.
 
-import { IDENTITY, mix, multiply, slerp, type Quat, type Vec3 } from "#web/shared/quaternion";
+import { IDENTITY, conjugate, mix, multiply, slerp, type Quat, type Vec3 } from "#web/shared/quaternion";
 import { ClockMap, JUMP } from "./clock_map";
 import { BONES, type PoseFrame } from "./frame";
 
@@ -24,8 +24,6 @@ export interface Played {
   /** The publisher's time that is shown, s. */
   at: number;
 }
-
-const conjugate = (q: Quat): Quat => [-q[0], -q[1], -q[2], q[3]];
 
 function between(a: Timed, b: Timed, t: number): { bones: Map<string, Quat>; hips: Vec3 } {
   const bones = new Map<string, Quat>();

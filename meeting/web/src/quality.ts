@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics of the frames of a participant.
 
+import { RateLimit } from "./rate_limit";
+
 const WINDOW = 10; // s
 const RATE_WINDOW = 5; // s
-export const MAX_PER_SECOND = 60; // frames, in the long run; more are dropped
+const MAX_PER_SECOND = 60; // frames, in the long run; more are dropped
 /** Frames at once: a page that was blocked gets all that were queued. */
-export const MAX_AT_ONCE = 600;
+const MAX_AT_ONCE = 600;
 
 export interface Reading {
   /** Frames per second, over the last 5 s. */
@@ -32,16 +34,11 @@ export class Arrivals {
   flooded = 0;
   private recent: { at: number; sequence: number }[] = [];
   private newest: number | null = null;
-  private tokens = MAX_AT_ONCE;
-  private asked = 0;
+  private readonly limit = new RateLimit(MAX_AT_ONCE, MAX_PER_SECOND);
 
   /** False when there are too many. */
   take(now: number): boolean {
-    this.tokens = Math.min(MAX_AT_ONCE, this.tokens + (now - this.asked) * MAX_PER_SECOND);
-    this.asked = now;
-    if (this.tokens < 1) return false;
-    this.tokens--;
-    return true;
+    return this.limit.take(now);
   }
 
   add(now: number, sequence: number): void {

@@ -2,9 +2,7 @@
 // What the user chose on the meeting's page.
 
 import * as v from "valibot";
-import { Stored } from "#web/shared/stored";
-
-const flag = (otherwise: boolean) => v.fallback(v.boolean(), otherwise);
+import { Stored, flag } from "#web/shared/stored";
 
 const SettingsSchema = v.object({
   panelClosed: flag(false), // on a wide page

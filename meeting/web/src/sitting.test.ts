@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { about, angleBetween, multiply, rotate, type Quat, type Vec3 } from "#web/shared/quaternion";
-import { SEAT, legsFor, legsOf, restBlend, seatedRest, seatedSway, sit, type Legs } from "./sitting";
+import { blendPoses } from "#web/avatar/rest";
+import { SEAT, legsFor, legsOf, seatedRest, seatedSway, sit, type Legs } from "./sitting";
 
 const USUAL: Legs = { hips: 0.94, drop: 0.06, thigh: 0.4, shin: 0.4, ankle: 0.08 };
 
@@ -85,8 +86,8 @@ describe("rest on a chair", () => {
     const q = about("z", 1);
     const tracked = new Map([["head", q]]);
     const resting = new Map([["neck", about("x", 0.5)]]);
-    expect(angleBetween(restBlend(tracked, resting, 0).get("head")!, q)).toBeCloseTo(0, 6);
-    const end = restBlend(tracked, resting, 1);
+    expect(angleBetween(blendPoses(tracked, resting, 0).get("head")!, q)).toBeCloseTo(0, 6);
+    const end = blendPoses(tracked, resting, 1);
     expect(angleBetween(end.get("head")!, [0, 0, 0, 1])).toBeCloseTo(0, 6);
     expect(angleBetween(end.get("neck")!, about("x", 0.5))).toBeCloseTo(0, 6);
   });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Participants are tracked from the hips up and sit in the meeting. Their legs are set so that the feet touch the floor.
 
-import { about, multiply, slerp, IDENTITY, type Quat, type Vec3 } from "#web/shared/quaternion";
-import { mirrorBone, mirrorRotation } from "#web/avatar/mirror";
+import { about, conjugate, multiply, type Quat, type Vec3 } from "#web/shared/quaternion";
+import { bothSides } from "#web/avatar/mirror";
 import { restPose } from "#web/avatar/rest";
 
 export const SEAT = 0.46; // m: of all chairs
@@ -53,17 +53,13 @@ export function sit(legs: Legs, seat = SEAT): Seated {
   const reach = (knee - legs.ankle) / Math.max(0.05, legs.shin);
   const lean = Math.acos(Math.max(0.3, Math.min(1, reach)));
   const upper = multiply(about("y", APART), about("x", -(Math.PI / 2 + slope)));
-  const left: [string, Quat][] = [
+  const bones = bothSides([
     ["leftUpperLeg", upper],
     ["leftLowerLeg", about("x", Math.PI / 2 + slope - lean)],
     ["leftFoot", about("x", lean)],
-  ];
-  const bones = new Map<string, Quat>(left);
-  for (const [bone, q] of left) bones.set(mirrorBone(bone), mirrorRotation(q));
+  ]);
   return { hips: joint + legs.drop, bones };
 }
-
-const conjugate = (q: Quat): Quat => [-q[0], -q[1], -q[2], q[3]];
 
 /** The legs of `seated` for hips rotated by `hips`: the knees keep their place. */
 export function legsFor(seated: Seated, hips: Quat): Map<string, Quat> {
@@ -77,30 +73,12 @@ const DEGREE = Math.PI / 180;
 
 /** The rest pose on a chair: as the standing one, with the forearms in front of the body. */
 export function seatedRest(seconds: number, breath: number): Map<string, Quat> {
-  const pose = restPose(seconds, breath);
-  const left: [string, Quat][] = [
+  const arms = bothSides([
     ["leftUpperArm", multiply(about("z", -66 * DEGREE), about("y", -22 * DEGREE))],
     ["leftLowerArm", multiply(about("y", -58 * DEGREE), about("z", -4 * DEGREE))],
     ["leftHand", multiply(about("z", -6 * DEGREE), about("y", -12 * DEGREE))],
-  ];
-  for (const [bone, q] of left) {
-    pose.set(bone, q);
-    pose.set(mirrorBone(bone), mirrorRotation(q));
-  }
-  return pose;
-}
-
-/** Blends the tracked pose (rest 0) with the resting one (1). */
-export function restBlend(
-  tracked: ReadonlyMap<string, Quat>,
-  resting: ReadonlyMap<string, Quat>,
-  rest: number,
-): Map<string, Quat> {
-  const out = new Map<string, Quat>();
-  for (const bone of new Set([...tracked.keys(), ...resting.keys()])) {
-    out.set(bone, slerp(tracked.get(bone) ?? IDENTITY, resting.get(bone) ?? IDENTITY, rest));
-  }
-  return out;
+  ]);
+  return new Map([...restPose(seconds, breath), ...arms]);
 }
 
 const SWAY = 0.15; // m, sideways and forward

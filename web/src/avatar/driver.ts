@@ -2,18 +2,18 @@
 // From pose messages to the pose that the avatar shows now: eased between frames, at rest when the person is lost. It does
 // not use three.js: rotations are those from a T-pose that faces +z.
 
-import { IDENTITY, angleBetween, mix, slerp, type Quat, type Vec3 } from "../shared/quaternion";
+import { angleBetween, mix, slerp, type Quat, type Vec3 } from "../shared/quaternion";
 import type { BodyMessage, Pose, TrackedPose } from "../live/protocol";
 import { mirrorBones, mirrorPosition } from "./mirror";
-import { RestBlend, relaxedFingers, restPose } from "./rest";
+import { RestBlend, blendPoses, relaxedFingers, restPose } from "./rest";
 
 /**
  * Time constant of the easing to a new pose, s. It adds as much latency: at 60 Hz the first picture shows 88 % of a
  * movement and the second 98 %.
  */
-export const EASE = 0.008;
+const EASE = 0.008;
 /** After this time without a pose (no camera, no connection) the person counts as lost, s. */
-export const SILENT = 0.8;
+const SILENT = 0.8;
 
 const STILL = 2e-4; // rad or m: smaller changes are not visible
 
@@ -76,11 +76,8 @@ export class PoseDriver {
     const fresh = this.pending;
     this.pending = null;
 
-    let bones = relaxedFingers();
     const resting = rest > 0 ? restPose(now, this.still ? 0 : rest) : new Map<string, Quat>();
-    for (const bone of new Set([...this.eased.keys(), ...resting.keys()])) {
-      bones.set(bone, slerp(this.eased.get(bone) ?? IDENTITY, resting.get(bone) ?? IDENTITY, rest));
-    }
+    let bones = new Map([...relaxedFingers(), ...blendPoses(this.eased, resting, rest)]);
     let hips = mix(this.easedHips, [0, 0, 0], rest);
     if (this.mirrored) {
       bones = mirrorBones(bones);

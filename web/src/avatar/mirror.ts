@@ -19,8 +19,10 @@ export function mirrorPosition(p: Vec3): Vec3 {
   return [-p[0], p[1], p[2]];
 }
 
+/** Rotations of left bones, and their mirror images on the right. */
+export const bothSides = (left: readonly (readonly [string, Quat])[]): Map<string, Quat> =>
+  new Map([...left, ...mirrorBones(new Map(left))]);
+
 export function mirrorBones(bones: ReadonlyMap<string, Quat>): Map<string, Quat> {
-  const out = new Map<string, Quat>();
-  for (const [bone, q] of bones) out.set(mirrorBone(bone), mirrorRotation(q));
-  return out;
+  return new Map([...bones].map(([bone, q]) => [mirrorBone(bone), mirrorRotation(q)]));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pose of the avatar while nobody is tracked: the arms hang, and it breathes.
 
-import { about, multiply, type Quat } from "../shared/quaternion";
-import { mirrorBone, mirrorRotation } from "./mirror";
+import { IDENTITY, about, multiply, slerp, type Quat } from "../shared/quaternion";
+import { bothSides } from "./mirror";
 
 const DEGREE = Math.PI / 180;
 
@@ -11,14 +11,12 @@ const DEGREE = Math.PI / 180;
  */
 export function restPose(seconds: number, breath: number): Map<string, Quat> {
   const b = breath * Math.sin((2 * Math.PI * seconds) / 4.2);
-  const left: [string, Quat][] = [
+  const pose = bothSides([
     ["leftShoulder", about("z", (-3 + 0.8 * b) * DEGREE)],
     ["leftUpperArm", multiply(about("z", (-70 - 0.5 * b) * DEGREE), about("x", 6 * DEGREE))],
     ["leftLowerArm", about("y", -14 * DEGREE)],
     ["leftHand", about("z", -4 * DEGREE)],
-  ];
-  const pose = new Map<string, Quat>(left);
-  for (const [bone, q] of left) pose.set(mirrorBone(bone), mirrorRotation(q));
+  ]);
   pose.set("spine", about("x", -0.5 * b * DEGREE));
   pose.set("chest", about("x", -0.7 * b * DEGREE));
   pose.set("neck", about("x", (2 + 0.6 * b) * DEGREE));
@@ -27,28 +25,30 @@ export function restPose(seconds: number, breath: number): Map<string, Quat> {
 
 /** Slightly bent fingers, which are not tracked. */
 export function relaxedFingers(): Map<string, Quat> {
-  const pose = new Map<string, Quat>();
-  const bend: Record<string, number> = { Index: 12, Middle: 15, Ring: 18, Little: 20 };
-  for (const [finger, degrees] of Object.entries(bend)) {
-    for (const joint of ["Proximal", "Intermediate", "Distal"]) {
-      const q = about("z", -degrees * DEGREE);
-      pose.set(`left${finger}${joint}`, q);
-      pose.set(`right${finger}${joint}`, mirrorRotation(q));
-    }
-  }
-  return pose;
+  const bend = { Index: 12, Middle: 15, Ring: 18, Little: 20 };
+  return bothSides(
+    Object.entries(bend).flatMap(([finger, degrees]) =>
+      ["Proximal", "Intermediate", "Distal"].map(
+        (joint) => [`left${finger}${joint}`, about("z", -degrees * DEGREE)] as const,
+      ),
+    ),
+  );
 }
 
-export const LOST_DELAY = 0.3; // s before a loss becomes visible
-export const LEAVE = 1.0; // s to come to rest
-export const RETURN = 0.3; // s to return
-
-/** How an avatar comes to rest: delay, and durations of the way there and back; s. */
-export interface RestTimes {
-  delay: number;
-  leave: number;
-  back: number;
+/** The pose between one pose (`part` 0) and another (1). */
+export function blendPoses(
+  from: ReadonlyMap<string, Quat>,
+  to: ReadonlyMap<string, Quat>,
+  part: number,
+): Map<string, Quat> {
+  const out = new Map<string, Quat>();
+  for (const bone of new Set([...from.keys(), ...to.keys()]))
+    out.set(bone, slerp(from.get(bone) ?? IDENTITY, to.get(bone) ?? IDENTITY, part));
+  return out;
 }
+
+/** Times of coming to rest, s: before a loss becomes visible, to come to rest, and to return. */
+const TIMES = { delay: 0.3, leave: 1, back: 0.3 };
 
 /** The weight of the rest pose: 0 follows the person, 1 rests. */
 export class RestBlend {
@@ -56,7 +56,7 @@ export class RestBlend {
   private last: number | null = null;
   private lostFor: number;
 
-  constructor(private readonly times: RestTimes = { delay: LOST_DELAY, leave: LEAVE, back: RETURN }) {
+  constructor(private readonly times = TIMES) {
     this.lostFor = times.delay;
   }
 

@@ -3,7 +3,7 @@
 // lacks a required member is refused as a whole; unknown members are ignored.
 
 import * as v from "valibot";
-import { unit, type Quat, type Vec3 } from "../shared/quaternion";
+import { unit, type Quat } from "../shared/quaternion";
 
 export const PROTOCOL = 1;
 
@@ -11,7 +11,6 @@ const number = v.pipe(v.number(), v.finite());
 const numberOr0 = v.fallback(number, 0);
 const numberOrNull = v.fallback(v.nullable(number), null);
 const text = v.fallback(v.string(), "");
-const numbers = (n: number) => v.pipe(v.array(number), v.length(n));
 
 /** An object as a map; an absent one is an empty map. */
 const mapOf = <T>(value: v.GenericSchema<unknown, T>) =>
@@ -32,26 +31,16 @@ const listOf = <T>(item: v.GenericSchema<unknown, T>) =>
     ),
   );
 
-const vec3 = v.pipe(
-  numbers(3),
-  v.transform((a) => a as unknown as Vec3),
-);
+const vec3 = v.strictTuple([number, number, number]);
+const pixel = v.strictTuple([number, number]);
 const rotation = v.pipe(
-  numbers(4),
+  v.strictTuple([number, number, number, number]),
   v.check((a) => unit(a) !== null),
   v.transform((a): Quat => unit(a)!),
 );
-const pixel = v.pipe(
-  numbers(2),
-  v.transform((a) => a as unknown as readonly [number, number]),
-);
-const spread = v.pipe(
-  numbers(6),
-  v.transform((a) => a as unknown as Spread),
-);
-
 /** Covariance xx, xy, xz, yy, yz, zz; mm^2, camera axes. */
-export type Spread = readonly [number, number, number, number, number, number];
+const spread = v.strictTuple([number, number, number, number, number, number]);
+export type Spread = Readonly<v.InferOutput<typeof spread>>;
 
 const positive = v.pipe(number, v.gtValue(0));
 const CameraSchema = v.object({

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Helpers for the document.
 
-export type Child = Node | string | null;
-
-/** An element with attributes and children; text is set as text, never as HTML. */
+/** An element with attributes, listeners such as `onclick`, and children; text is set as text, never as HTML. */
 export function h<K extends keyof HTMLElementTagNameMap>(
   tag: K,
-  attributes: Record<string, string> = {},
-  ...children: Child[]
+  attributes: Record<string, string | (() => void)> = {},
+  ...children: (Node | string)[]
 ): HTMLElementTagNameMap[K] {
   const e = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
-  for (const c of children) if (c !== null) e.append(c);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (typeof value === "string") e.setAttribute(name, value);
+    else e.addEventListener(name.slice(2), value);
+  }
+  e.append(...children);
   return e;
 }
 
@@ -32,6 +33,11 @@ export function button(id: string, pressed: () => void): HTMLButtonElement {
 /** Sets the text only when it differs: screen readers do not read it again. */
 export function setText(e: Element, text: string): void {
   if (e.textContent !== text) e.textContent = text;
+}
+
+/** Shows a count at the label of a tab (frame.ts), nothing for 0. */
+export function setCount(tab: string, count: number): void {
+  setText(byId(`count-${tab}`, HTMLElement), count ? String(count) : "");
 }
 
 /** Replaces the children only when `key` has changed. The element with the focus keeps it, by its data-focus. */

@@ -2,21 +2,16 @@
 // The frame that both pages share: header, banner, side panel, messages and help dialog.
 
 import { byId, h } from "./dom";
-import { icon, type IconName } from "./icons";
+import { drawing, icon, type IconName } from "./icons";
 
 const MARK = '<circle cx="16" cy="7.5" r="4"/><path d="M16 14v9M16 16 7 13.5 4.5 6.5M16 16l9 4 2.5 7"/>';
 
-function iconButton(id: string, name: IconName, title: string, attributes: Record<string, string> = {}) {
-  return h("button", { id, class: "icon-button", "data-icon": name, title, ...attributes });
-}
+const button = (id: string, icon: IconName, title: string, attributes: Record<string, string> = {}) =>
+  h("button", { id, "data-icon": icon, title, ...attributes });
 
 /** The product mark, the title, and what the page marks with data-brand. */
 function brand(): HTMLElement {
-  const mark = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  mark.setAttribute("class", "mark");
-  mark.setAttribute("viewBox", "0 0 32 32");
-  mark.setAttribute("aria-hidden", "true");
-  mark.innerHTML = MARK;
+  const mark = drawing("mark", 32, MARK);
   const more = document.querySelectorAll("[data-brand]");
   return h("div", { class: "brand" }, mark, h("h1", { id: "title" }, "Telemime"), ...more);
 }
@@ -37,7 +32,7 @@ function panel(): HTMLElement {
       h("span", { id: `count-${name}`, class: "count" }),
     );
   });
-  const close = iconButton("panel-close", "close", "Close the side panel");
+  const close = button("panel-close", "close", "Close the side panel");
   return h(
     "aside",
     { id: "panel", class: "panel", "aria-label": "Side panel" },
@@ -54,7 +49,7 @@ function helpDialog(note: string): HTMLElement {
       "header",
       {},
       h("h2", { id: "help-title" }, "Keyboard shortcuts"),
-      iconButton("help-close", "close", "Close"),
+      button("help-close", "close", "Close"),
     ),
     h("dl", { id: "help-list" }),
     h(
@@ -67,10 +62,13 @@ function helpDialog(note: string): HTMLElement {
   );
 }
 
-/** Draws the icon that an element names by data-icon. Buttons without text take their title as their label. */
+/** Draws the icon that an element names by data-icon. Buttons without text are icon buttons, labelled by their title. */
 function drawIcons(): void {
   for (const e of document.querySelectorAll<HTMLElement>("[data-icon]")) {
-    if (!e.textContent?.trim() && e.title) e.setAttribute("aria-label", e.title.replace(/ \([^)]*\)$/, ""));
+    if (!e.textContent?.trim()) {
+      e.classList.add("icon-button");
+      if (e.title) e.setAttribute("aria-label", e.title.replace(/ \([^)]*\)$/, ""));
+    }
     e.prepend(icon(e.dataset.icon as IconName));
   }
 }
@@ -82,16 +80,16 @@ function drawIcons(): void {
 export function buildFrame({ state, note }: { state: string; note: string }): void {
   const actions = byId("actions", HTMLElement);
   actions.append(
-    iconButton("panel-toggle", "panel", "Side panel (p)", {
+    button("panel-toggle", "panel", "Side panel (p)", {
       "aria-expanded": "false",
       "aria-controls": "panel",
     }),
-    iconButton("help", "help", "Help and shortcuts (?)"),
+    button("help", "help", "Help and shortcuts (?)"),
   );
   const stateLine = h(
     "div",
     { class: "state", id: "state" },
-    h("span", { class: "dot" }),
+    h("span", { id: "state-dot", class: "dot" }),
     h("b", { id: "state-name" }, state),
     h("span", { id: "state-words" }),
   );

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Line icons of both pages on a 24 x 24 grid. They are SVG markup and drawn with the colour of the text.
 
+import { h } from "./dom";
+
 const ICONS = {
   again: '<path d="M19.5 12a7.5 7.5 0 1 1-2.4-5.5M19.5 3.5v4h-4"/>',
   board:
@@ -28,12 +30,24 @@ const ICONS = {
 
 export type IconName = keyof typeof ICONS;
 
-/** A new icon; screen readers skip it. */
-export function icon(name: IconName): SVGSVGElement {
+/** A square SVG element of `size` units that screen readers skip. */
+export function drawing(className: string, size: number, markup: string): SVGSVGElement {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
-  svg.setAttribute("class", "icon");
-  svg.setAttribute("viewBox", "0 0 24 24");
+  svg.setAttribute("class", className);
+  svg.setAttribute("viewBox", `0 0 ${size} ${size}`);
   svg.setAttribute("aria-hidden", "true");
-  svg.innerHTML = ICONS[name];
+  svg.innerHTML = markup;
   return svg;
+}
+
+export const icon = (name: IconName): SVGSVGElement => drawing("icon", 24, ICONS[name]);
+
+/** A button that removes something: `label` begins with the verb. `attributes` identify it. */
+export function trashButton(label: string, onclick: () => void, attributes: Record<string, string>) {
+  const title = label.split(" ")[0]!;
+  return h(
+    "button",
+    { class: "icon-button", "aria-label": label, title, onclick, ...attributes },
+    icon("trash"),
+  );
 }

@@ -32,6 +32,8 @@ export function multiply(a: Quat, b: Quat): Quat {
   ];
 }
 
+export const conjugate = (q: Quat): Quat => [-q[0], -q[1], -q[2], q[3]];
+
 export function rotate(q: Quat, v: Vec3): Vec3 {
   const [x, y, z, w] = q;
   const [vx, vy, vz] = v;

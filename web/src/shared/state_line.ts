@@ -2,14 +2,16 @@
 
 import { byId, setText } from "./dom";
 
+export type Level = "good" | "wait" | "bad" | "";
+
 /** The state in the header, and what screen readers are to announce. */
 export class StateLine {
-  private readonly box = byId("state", HTMLElement);
+  private readonly dot = byId("state-dot", HTMLElement);
   private readonly live = byId("live", HTMLElement);
 
-  /** `phase` selects the colour of the dot (style sheets). */
-  show(phase: string, name: string, words: string): void {
-    this.box.dataset.phase = phase;
+  /** `level`: the colour of the dot. */
+  show(level: Level, name: string, words: string): void {
+    this.dot.className = `dot ${level}`;
     setText(byId("state-name", HTMLElement), name);
     const text = byId("state-words", HTMLElement);
     setText(text, words);

@@ -3,6 +3,9 @@
 
 import * as v from "valibot";
 
+/** A boolean setting. */
+export const flag = (otherwise: boolean) => v.fallback(v.boolean(), otherwise);
+
 /** Reads stored text by a schema that has a fallback for each entry. */
 export function parseStored<T extends v.GenericSchema>(schema: T, stored: string | null): v.InferOutput<T> {
   let given: unknown = null;

@@ -11,7 +11,7 @@ export class FakeElement {
   readonly classList = {
     toggle: (name: string, on: boolean) => void (on ? this.classes.add(name) : this.classes.delete(name)),
   };
-  readonly style = { width: "", setProperty: () => {} };
+  readonly style = { width: "", background: "", setProperty: () => {} };
   hidden = true;
   disabled = false;
   checked = false;

@@ -20,16 +20,15 @@ export class Toasts {
   show(level: Level, words: string): void {
     if (!words) return;
     for (const t of [...this.box.children]) if (t.getAttribute("data-words") === words) t.remove();
-    const close = h("button", { class: "icon-button", "aria-label": "Close this message" }, icon("close"));
-    const toast = h(
+    const remove = (): void => toast.remove();
+    const label = "Close this message";
+    const toast: HTMLElement = h(
       "div",
       { class: `toast ${level}`, "data-words": words },
       icon(level === "info" ? "info" : "warning"),
       h("p", {}, words),
-      close,
+      h("button", { class: "icon-button", "aria-label": label, onclick: remove }, icon("close")),
     );
-    const remove = () => toast.remove();
-    close.addEventListener("click", remove);
     this.box.append(toast);
     while (this.box.children.length > MAX_SHOWN) {
       const shown = [...this.box.children];

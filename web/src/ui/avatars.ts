@@ -6,7 +6,7 @@ import type { Avatar } from "../avatar/load";
 import { getAvatar, listAvatars, putAvatar, removeAvatar, type StoredEntry } from "../avatar/store";
 import { button, byId, h, labelOf, sizeText } from "../shared/dom";
 import { drawsInSoftware } from "../shared/graphics";
-import { icon } from "../shared/icons";
+import { trashButton } from "../shared/icons";
 import type { Level } from "../shared/toasts";
 
 export interface AvatarInfo {
@@ -207,9 +207,9 @@ export class Avatars {
 
   private row(id: string, name: string, note: string, own: string | null): HTMLElement {
     const shown = this.info?.id === id;
-    const radio = h("input", { type: "radio", name: "avatar", "data-id": id });
+    const onchange = () => void this.choose(id);
+    const radio = h("input", { type: "radio", name: "avatar", "data-id": id, onchange });
     radio.checked = this.wanted ? this.wanted === id : shown;
-    radio.addEventListener("change", () => void this.choose(id));
     const author = shown && this.info?.author ? ` · by ${this.info.author}` : "";
     const kind = shown && this.info ? ` · VRM ${this.info.version === "1" ? "1.0" : "0.x"}` : "";
     const label = h(
@@ -219,13 +219,13 @@ export class Avatars {
       h("span", { class: "row-text" }, h("b", {}, name), h("span", { class: "soft" }, note + kind + author)),
     );
     if (!own) return h("div", { class: "row" }, label);
-    const remove = h(
-      "button",
-      { class: "icon-button", "aria-label": `Remove ${name}`, title: "Remove", "data-id": `remove ${id}` },
-      icon("trash"),
+    const remove = () => void this.remove(own);
+    return h(
+      "div",
+      { class: "row" },
+      label,
+      trashButton(`Remove ${name}`, remove, { "data-id": `remove ${id}` }),
     );
-    remove.addEventListener("click", () => void this.remove(own));
-    return h("div", { class: "row" }, label, remove);
   }
 
   private async remove(id: string): Promise<void> {

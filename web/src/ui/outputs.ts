@@ -3,8 +3,8 @@
 
 import type { Command, Output, Sender } from "../live/protocol";
 import { MAX_ADDRESS, withoutPassword } from "./address";
-import { byId, h, renderOnce } from "../shared/dom";
-import { icon } from "../shared/icons";
+import { byId, h, renderOnce, setCount } from "../shared/dom";
+import { trashButton } from "../shared/icons";
 
 const ANSWER_TIME = 3000; // ms in which the program reports an error of an address
 const NO_CONNECTION = "There is no connection to Telemime.";
@@ -41,19 +41,14 @@ export class OutputList {
 
   setSenders(senders: readonly Sender[]): void {
     byId("output-examples", HTMLElement).replaceChildren(
-      ...senders.map((s) => {
-        const b = h(
-          "button",
-          { type: "button", class: "example" },
-          h("code", {}, s.example),
-          h("span", {}, s.summary),
-        );
-        b.addEventListener("click", () => {
-          this.input.value = s.example;
+      ...senders.map(({ example, summary }) => {
+        const onclick = () => {
+          this.input.value = example;
           this.showError("");
           this.input.focus();
-        });
-        return h("li", {}, b);
+        };
+        const content = [h("code", {}, example), h("span", {}, summary)];
+        return h("li", {}, h("button", { type: "button", class: "example", onclick }, ...content));
       }),
     );
   }
@@ -81,33 +76,18 @@ export class OutputList {
       ? this.outputs
       : this.outputs.map((o) => ({ ...o, state: "", words: "not connected" }));
     byId("outputs-empty", HTMLElement).hidden = outputs.length > 0;
-    byId("count-send", HTMLElement).textContent = outputs.length ? String(outputs.length) : "";
+    setCount("send", outputs.length);
     renderOnce(this.list, outputs.map((o) => `${o.url} ${o.state} ${o.words}`).join("\n"), () =>
       outputs.map((o) => {
-        const remove = h(
-          "button",
-          {
-            class: "icon-button",
-            "aria-label": `Remove ${o.url}`,
-            title: "Remove",
-            "data-focus": o.url,
-          },
-          icon("trash"),
-        );
-        remove.addEventListener("click", () => this.ask({ type: "output", remove: o.url }));
+        const remove = () => this.ask({ type: "output", remove: o.url });
         const off = o.state === "off";
-        const toggle = h(
-          "button",
-          {
-            class: "small",
-            "aria-label": `${off ? "Resume" : "Pause"} ${o.url}`,
-            "data-focus": `toggle ${o.url}`,
-          },
-          off ? "Resume" : "Pause",
-        );
-        toggle.addEventListener("click", () =>
-          this.ask(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
-        );
+        const name = off ? "Resume" : "Pause";
+        const toggle = {
+          class: "small",
+          "aria-label": `${name} ${o.url}`,
+          "data-focus": `toggle ${o.url}`,
+          onclick: () => this.ask(off ? { type: "output", add: o.url } : { type: "output", off: o.url }),
+        };
         return h(
           "li",
           { class: "row" },
@@ -119,8 +99,8 @@ export class OutputList {
             h("span", { class: "state-words" }, [o.state, o.words].filter(Boolean).join(": ")),
             h("span", { class: "soft", "data-counters": "" }, ""),
           ),
-          toggle,
-          remove,
+          h("button", toggle, name),
+          trashButton(`Remove ${o.url}`, remove, { "data-focus": o.url }),
         );
       }),
     );

@@ -2,8 +2,8 @@
 // Recordings: start and stop, list, download, delete.
 
 import type { Command, Recording, Status } from "../live/protocol";
-import { button, byId, durationText, h, renderOnce, sizeText } from "../shared/dom";
-import { icon } from "../shared/icons";
+import { button, byId, durationText, h, renderOnce, setCount, sizeText } from "../shared/dom";
+import { icon, trashButton } from "../shared/icons";
 
 const CONFIRM_TIME = 4000; // ms in which a second press deletes
 const ANSWER_TIME = 3000; // ms in which a status confirms a request
@@ -55,9 +55,7 @@ export class Recordings {
     this.show();
 
     byId("recordings-empty", HTMLElement).hidden = s.recordings.length > 0;
-    byId("count-recordings", HTMLElement).textContent = s.recordings.length
-      ? String(s.recordings.length)
-      : "";
+    setCount("recordings", s.recordings.length);
     const newest = [...s.recordings].sort((a, b) => b.number - a.number);
     renderOnce(this.list, JSON.stringify(newest), () => newest.map((r) => this.row(r)));
   }
@@ -86,33 +84,26 @@ export class Recordings {
   }
 
   private row(r: Recording): HTMLElement {
-    const remove = h(
-      "button",
-      {
-        class: "icon-button",
-        "aria-label": `Delete recording ${r.number}`,
-        title: "Delete",
-        "data-focus": `d${r.number}`,
-      },
-      icon("trash"),
-    );
+    const label = `Delete recording ${r.number}`;
     let confirming = 0;
-    remove.addEventListener("click", () => {
+    const show = (content: Node | string, words: string) => {
+      remove.replaceChildren(content);
+      remove.setAttribute("aria-label", words);
+      remove.classList.toggle("sure", confirming > 0);
+    };
+    const pressed = () => {
       if (confirming) {
         window.clearTimeout(confirming);
         this.send({ type: "forget", recording: r.number });
         return;
       }
-      remove.replaceChildren("Delete?");
-      remove.setAttribute("aria-label", `Delete recording ${r.number}? Press again to delete`);
-      remove.classList.add("sure");
       confirming = window.setTimeout(() => {
         confirming = 0;
-        remove.replaceChildren(icon("trash"));
-        remove.setAttribute("aria-label", `Delete recording ${r.number}`);
-        remove.classList.remove("sure");
+        show(icon("trash"), label);
       }, CONFIRM_TIME);
-    });
+      show("Delete?", `${label}? Press again to delete`);
+    };
+    const remove: HTMLButtonElement = trashButton(label, pressed, { "data-focus": `d${r.number}` });
     const files = r.files.map((f) => {
       const extension = f.name.split(".").pop()?.toUpperCase() ?? f.name;
       return h(

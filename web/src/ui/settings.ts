@@ -2,9 +2,7 @@
 // What the user chose on the live page.
 
 import * as v from "valibot";
-import { Stored, parseStored } from "../shared/stored";
-
-const flag = (otherwise: boolean) => v.fallback(v.boolean(), otherwise);
+import { Stored, flag, parseStored } from "../shared/stored";
 
 export const SettingsSchema = v.object({
   mirrorPicture: flag(true),

@@ -3,17 +3,17 @@
 
 import type { Phase, Status } from "../live/protocol";
 import { byId } from "../shared/dom";
-import { StateLine } from "../shared/state_line";
+import { StateLine, type Level } from "../shared/state_line";
 
-const NAMES: Record<Phase, string> = {
-  opening: "Opening the camera",
-  empty_room: "Setup",
-  background: "Setup",
-  person: "Waiting for you",
-  tracking: "Tracking",
-  lost: "Person not found",
-  stopped: "No video",
-  ended: "Ended",
+const STATES: Record<Phase, readonly [string, Level]> = {
+  opening: ["Opening the camera", ""],
+  empty_room: ["Setup", "wait"],
+  background: ["Setup", "wait"],
+  person: ["Waiting for you", "wait"],
+  tracking: ["Tracking", "good"],
+  lost: ["Person not found", "wait"],
+  stopped: ["No video", "bad"],
+  ended: ["Ended", ""],
 };
 
 /** Phases whose text also stands over the video. In the others the guide shows it. */
@@ -23,11 +23,12 @@ export class LiveState extends StateLine {
   private announced = "";
 
   setStatus(s: Status): void {
-    this.show(s.phase, NAMES[s.phase], s.words);
+    const [name, level] = STATES[s.phase];
+    this.show(level, name, s.words);
     const caption = byId("camera-words", HTMLElement);
     caption.hidden = !CAPTIONED.includes(s.phase);
-    caption.textContent = s.words || NAMES[s.phase];
-    const words = `${NAMES[s.phase]}. ${s.words}`;
+    caption.textContent = s.words || name;
+    const words = `${name}. ${s.words}`;
     if (words !== this.announced && CAPTIONED.concat("tracking").includes(s.phase)) this.announce(words);
     this.announced = words;
   }
@@ -35,6 +36,6 @@ export class LiveState extends StateLine {
   disconnected(): void {
     this.announced = "";
     byId("camera-words", HTMLElement).hidden = true;
-    this.show("disconnected", "Not connected", "");
+    this.show("bad", "Not connected", "");
   }
 }

@@ -6,6 +6,7 @@ import { byId, h, setText } from "../shared/dom";
 import { Sparkline } from "./sparkline";
 
 const HISTORY = 120; // poses
+const STAGE_COLOURS = ["#0f9b88", "#5d8fe8", "#d39b2a", "#b36fc4"];
 const DRAW_INTERVAL = 250; // ms between drawings of the history
 
 /** Phases with measurements of the tracker. */
@@ -83,21 +84,18 @@ export class Gauges {
     );
     byId("stage-bar", HTMLElement).replaceChildren(
       ...parts.map(([name, v], i) => {
-        const part = h("span", { class: `stage-part s${i % 4}`, title: `${name} ${show(v, 1)} ms` });
+        const part = h("span", { title: `${name} ${show(v, 1)} ms` });
         part.style.width = `${(100 * v) / whole}%`;
+        part.style.background = STAGE_COLOURS[i % 4]!;
         return part;
       }),
     );
     byId("stage-legend", HTMLElement).replaceChildren(
-      ...parts.map(([name, v], i) =>
-        h(
-          "span",
-          { class: "stage-key" },
-          h("i", { class: `s${i % 4}` }),
-          `${name} `,
-          h("b", {}, show(v, v < 10 ? 1 : 0)),
-        ),
-      ),
+      ...parts.map(([name, v], i) => {
+        const mark = h("i");
+        mark.style.background = STAGE_COLOURS[i % 4]!;
+        return h("span", { class: "stage-key" }, mark, `${name} `, h("b", {}, show(v, v < 10 ? 1 : 0)));
+      }),
     );
   }
 

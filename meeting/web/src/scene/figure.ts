@@ -3,10 +3,10 @@
 
 import { Group, Vector3, type Object3D } from "three";
 import type { Avatar } from "#web/avatar/load";
-import { relaxedFingers } from "#web/avatar/rest";
+import { blendPoses, relaxedFingers } from "#web/avatar/rest";
 import { angleBetween, IDENTITY, type Quat, type Vec3 } from "#web/shared/quaternion";
 import type { Place } from "../seats";
-import { legsFor, legsOf, restBlend, seatedRest, seatedSway, sit, type Seated } from "../sitting";
+import { legsFor, legsOf, seatedRest, seatedSway, sit, type Seated } from "../sitting";
 import type { StreamPose } from "../stream";
 
 const STILL = 2e-4; // rad: smaller changes are not visible
@@ -57,7 +57,7 @@ export class Figure {
     const avatar = this.avatar_;
     if (!avatar || !this.seated) return false;
     const resting = pose.rest > 0 ? seatedRest(now, breath * pose.rest) : new Map<string, Quat>();
-    const upper = restBlend(withoutLegs(pose.bones), resting, pose.rest);
+    const upper = blendPoses(withoutLegs(pose.bones), resting, pose.rest);
     const bones = new Map([...FINGERS, ...upper, ...legsFor(this.seated, upper.get("hips") ?? IDENTITY)]);
     const sway = seatedSway(pose.hips, home, avatar.hipHeight).map((v) => v * (1 - pose.rest));
     const moved =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chat, as text.
 
-import { byId, h } from "#web/shared/dom";
+import { byId, h, setCount } from "#web/shared/dom";
 import { MOST_LINES, type Line } from "../chat";
 
 /** 0 to 5, the same for the same participant. */
@@ -15,7 +15,6 @@ export class ChatView {
   private readonly lines = byId("lines", HTMLElement);
   private readonly text = byId("chat-text", HTMLInputElement);
   private readonly error = byId("chat-error", HTMLElement);
-  private readonly count = byId("count-chat", HTMLElement);
   private unread = 0;
   private open = false;
 
@@ -81,6 +80,6 @@ export class ChatView {
 
   private setUnread(n: number): void {
     this.unread = n;
-    this.count.textContent = n ? String(Math.min(n, 99)) : "";
+    setCount("chat", Math.min(n, 99));
   }
 }

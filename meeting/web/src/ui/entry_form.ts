@@ -67,9 +67,8 @@ export class EntryForm {
   }
 
   private choice(value: string, name: string, picture: SVGElement, checked: boolean): HTMLElement {
-    const radio = h("input", { type: "radio", name: "look", value });
+    const radio = h("input", { type: "radio", name: "look", value, onchange: () => this.showUrl() });
     radio.checked = checked;
-    radio.addEventListener("change", () => this.showUrl());
     return h("label", { class: "look" }, radio, picture, h("span", {}, name));
   }
 

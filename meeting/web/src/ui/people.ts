@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The participants, and how their motion arrives.
 
-import { byId, h } from "#web/shared/dom";
+import { byId, h, setCount, setText } from "#web/shared/dom";
 import { qualityText, type Reading } from "../quality";
 
 export interface PersonRow {
@@ -13,7 +13,7 @@ export interface PersonRow {
   reading: Reading;
   /** JSON messages that were refused. */
   refused: number;
-  /** Why the avatar is not shown, in words; else empty. */
+  /** The reason why the avatar is not shown, or empty. */
   complaint: string;
 }
 
@@ -26,10 +26,6 @@ interface Row {
   details: HTMLElement;
   complaint: HTMLElement;
 }
-
-const set = (e: HTMLElement, text: string): void => {
-  if (e.textContent !== text) e.textContent = text;
-};
 
 const ms = (v: number): string => `${Math.round(v * 1000)} ms`;
 
@@ -51,7 +47,7 @@ export class People {
 
   show(people: readonly PersonRow[]): void {
     byId("people-empty", HTMLElement).hidden = people.length > 0;
-    set(byId("count-people", HTMLElement), people.length ? String(people.length) : "");
+    setCount("people", people.length);
     const here = new Set(people.map((p) => p.id));
     for (const [id, row] of this.rows) {
       if (here.has(id)) continue;
@@ -87,16 +83,15 @@ export class People {
   }
 
   private fill(row: Row, p: PersonRow): void {
-    set(row.name, p.name);
-    const badges = [p.me ? "you" : "", p.chair ? "chair" : ""].filter(Boolean).join(", ");
-    set(row.badges, badges);
+    setText(row.name, p.name);
+    setText(row.badges, [p.me ? "you" : "", p.chair ? "chair" : ""].filter(Boolean).join(", "));
     const q = qualityText(p.reading);
     const quiet = p.reading.silent === null;
-    set(row.words, quiet ? (p.tracker ? "No motion yet" : "No tracker") : q.words);
+    setText(row.words, quiet ? (p.tracker ? "No motion yet" : "No tracker") : q.words);
     row.dot.className = `dot ${quiet ? "" : q.level}`;
     row.details.hidden = !this.details || (quiet && p.refused === 0 && p.reading.malformed === 0);
-    if (!row.details.hidden) set(row.details, detailWords(p.reading, p.refused));
+    if (!row.details.hidden) setText(row.details, detailWords(p.reading, p.refused));
     row.complaint.hidden = !p.complaint;
-    set(row.complaint, p.complaint);
+    setText(row.complaint, p.complaint);
   }
 }

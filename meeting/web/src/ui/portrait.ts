@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small drawn portraits of the project's looks, in their colours (src/telemime/avatar/look.h).
 
+import { drawing } from "#web/shared/icons";
+
 interface Colours {
   skin: string;
   hair: string;
@@ -15,14 +17,6 @@ const LOOK: Record<string, Colours> = {
   robot: { skin: "#2c3138", hair: "#edf0f2", top: "#edf0f2" },
 };
 
-const NS = "http://www.w3.org/2000/svg";
-
-function part(tag: string, attributes: Record<string, string>): SVGElement {
-  const e = document.createElementNS(NS, tag);
-  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
-  return e;
-}
-
 const HAIR: Record<string, string> = {
   plain: "M12.5 18.5C11.5 11 15 7.5 20 7.5s8.5 3.5 7.5 11c-.8-3-1.5-5-3-6-3 1-6.5 1-9 0-1.5 1-2.2 3-3 6z",
   casual:
@@ -33,32 +27,23 @@ const HAIR: Record<string, string> = {
 };
 
 /** Head and shoulders; "url" and "none" are outlines. */
-export function portrait(look: string): SVGElement {
-  const svg = part("svg", { viewBox: "0 0 40 40", class: "portrait", "aria-hidden": "true" });
+export function portrait(look: string): SVGSVGElement {
   const c = LOOK[look];
   if (!c) {
-    svg.setAttribute("class", "portrait outline");
-    if (look === "none") {
-      svg.append(part("path", { d: "M14 9v13h10.5a2 2 0 0 1 2 2v3H14M14 22v10M26 27v5" }));
-    } else {
-      svg.append(part("path", { d: "M20 11v18M11 20h18" }));
-    }
-    return svg;
+    const none = "M14 9v13h10.5a2 2 0 0 1 2 2v3H14M14 22v10M26 27v5";
+    return drawing("portrait outline", 40, `<path d="${look === "none" ? none : "M20 11v18M11 20h18"}"/>`);
   }
-  svg.append(
-    part("path", { d: "M6 40c0-9 5.5-12.5 14-12.5S34 31 34 40z", fill: c.top }),
-    part("path", { d: "M17 24h6v5c-1.8 1.8-4.2 1.8-6 0z", fill: c.skin }),
-    part("ellipse", { cx: "20", cy: "18", rx: "7", ry: "8.5", fill: c.skin }),
+  const path = (d: string, fill: string): string => `<path d="${d}" fill="${fill}"/>`;
+  const robot =
+    path("M12 20c0-9 3-12 8-12s8 3 8 12l-2 6h-12z", c.hair) +
+    `<rect x="13.5" y="15" width="13" height="5" rx="2.5" fill="${c.skin}"/>` +
+    '<circle cx="17" cy="17.5" r="1.3" fill="#63e6e2"/><circle cx="23" cy="17.5" r="1.3" fill="#63e6e2"/>';
+  return drawing(
+    "portrait",
+    40,
+    path("M6 40c0-9 5.5-12.5 14-12.5S34 31 34 40z", c.top) +
+      path("M17 24h6v5c-1.8 1.8-4.2 1.8-6 0z", c.skin) +
+      `<ellipse cx="20" cy="18" rx="7" ry="8.5" fill="${c.skin}"/>` +
+      (look === "robot" ? robot : path(HAIR[look] ?? HAIR.plain!, c.hair)),
   );
-  if (look === "robot") {
-    svg.append(
-      part("path", { d: "M12 20c0-9 3-12 8-12s8 3 8 12l-2 6h-12z", fill: c.hair }),
-      part("rect", { x: "13.5", y: "15", width: "13", height: "5", rx: "2.5", fill: c.skin }),
-      part("circle", { cx: "17", cy: "17.5", r: "1.3", fill: "#63e6e2" }),
-      part("circle", { cx: "23", cy: "17.5", r: "1.3", fill: "#63e6e2" }),
-    );
-  } else {
-    svg.append(part("path", { d: HAIR[look] ?? HAIR.plain!, fill: c.hair }));
-  }
-  return svg;
 }

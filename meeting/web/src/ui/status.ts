@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The state of the meeting in the header.
 
-import { StateLine } from "#web/shared/state_line";
+import { StateLine, type Level } from "#web/shared/state_line";
 import type { LinkState } from "../link";
 import type { LocalParticipant } from "../local_participant";
 
-const NAMES: Record<LinkState["kind"], string> = {
-  closed: "Not joined",
-  connecting: "Connecting",
-  open: "In the meeting",
-  lost: "Not connected",
-  refused: "Refused",
+const STATES: Record<LinkState["kind"], readonly [string, Level]> = {
+  closed: ["Not joined", ""],
+  connecting: ["Connecting", "wait"],
+  open: ["In the meeting", "good"],
+  lost: ["Not connected", "bad"],
+  refused: ["Refused", "bad"],
 };
 
 export class MeetingState extends StateLine {
   private announced = "";
 
   entry(): void {
-    this.show("entry", "Not joined", "");
+    this.show("", "Not joined", "");
   }
 
   update(link: LinkState, count: number, me: LocalParticipant | null, locked: boolean): void {
@@ -29,8 +29,9 @@ export class MeetingState extends StateLine {
       else if (me.other) words += " You are also here in another window.";
       if (locked) words += " Locked: nobody new can join.";
     }
-    this.show(link.kind, NAMES[link.kind], words);
-    const news = link.kind === "open" ? "You have joined the meeting." : `${NAMES[link.kind]}. ${words}`;
+    const [name, level] = STATES[link.kind];
+    this.show(level, name, words);
+    const news = link.kind === "open" ? "You have joined the meeting." : `${name}. ${words}`;
     if (news !== this.announced && link.kind !== "connecting") this.announce(news);
     this.announced = news;
   }
