@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatar files for the tests, good ones and others, all made here.
+// Valid and invalid avatar files for the tests.
 
 import { closeSync, ftruncateSync, openSync, writeFileSync, writeSync } from "node:fs";
 import { join } from "node:path";
@@ -12,14 +12,14 @@ const MB = 1024 * 1024;
 export const ownAvatar = async (program, look) =>
   Buffer.from(await (await fetch(`${program.url}avatars/${look}.vrm`)).arrayBuffer());
 
-/** A VRM 0.x file as another program would have made it, of the program's own avatar; its path. */
+/** Writes a VRM 0.x file as other programs do, of the program's own avatar; gives its path. */
 export async function strangersVrm0(program, folder) {
   const file = join(folder, "stranger.vrm");
-  writeFileSync(file, toVrm0(await ownAvatar(program, "plain"), { others: true }));
+  writeFileSync(file, toVrm0(await ownAvatar(program, "plain")));
   return file;
 }
 
-/** A VRM 1.0 file whose bones have rest rotations of their own; its path. */
+/** Writes a VRM 1.0 file whose bones have rest rotations; gives its path. */
 export function boxes(folder) {
   const file = join(folder, "boxes.vrm");
   writeFileSync(file, boxAvatar());
@@ -35,14 +35,14 @@ function changed(change) {
   return glb(json, file.subarray(28 + length));
 }
 
-/** The box avatar as a file that nobody reads without that extension. */
+/** The box avatar as a file that requires this extension. */
 const compressed = (extension) =>
   changed((j) => {
     j.extensionsUsed.push(extension);
     j.extensionsRequired = [extension];
   });
 
-/** Files that cannot be avatars, each with what the page has to say of it. */
+/** Files that cannot be avatars, each with the message of the page. */
 export function badAvatars(folder) {
   const good = boxAvatar();
   const unclosed = Buffer.from(good);
@@ -68,7 +68,7 @@ export function badAvatars(folder) {
     ["200mb.vrm", 200 * MB, /broken/],
   ]) {
     const file = openSync(join(folder, name), "w");
-    writeSync(file, good.subarray(0, 12 + 8)); // then nothing but zeros, which take no room on the disk
+    writeSync(file, good.subarray(0, 12 + 8)); // then zeros, which take no space on the disk
     ftruncateSync(file, bytes);
     closeSync(file);
     files.push([join(folder, name), words]);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small avatar out of boxes as a VRM 1.0 file. Its bones have rest rotations of their own (VRM 1.0 allows any), so
-// that code that forgets them is found out.
+// A small avatar of boxes as a VRM 1.0 file. Its bones have rest rotations (VRM 1.0 allows any), so that tests find code
+// that ignores them.
 
+import { BoxGeometry } from "three";
 import { BODY, PARENT } from "./motion.mjs";
 import { about, conj, mul, rotate } from "./quat.mjs";
 
@@ -14,6 +15,8 @@ const TIP = {
 };
 const NEXT = { hips: "spine", spine: "chest", chest: "neck", neck: "head" };
 const THICK = { hips: 0.28, spine: 0.24, chest: 0.3, neck: 0.09, head: 0.17 };
+
+const VECTORS = { componentType: 5126, count: 24, type: "VEC3" }; // of a box
 
 export function glb(json, bin) {
   const pad = (b, fill) => Buffer.concat([b, Buffer.alloc((4 - (b.length % 4)) % 4, fill)]);
@@ -30,36 +33,6 @@ export function glb(json, bin) {
     return Buffer.concat([h, data]);
   };
   return Buffer.concat([head, chunk("JSON", j), chunk("BIN\0", d)]);
-}
-
-function cube() {
-  const position = [];
-  const normal = [];
-  const index = [];
-  for (let axis = 0; axis < 3; axis++) {
-    for (const s of [-1, 1]) {
-      const at = position.length / 3;
-      for (const [u, v] of [
-        [-1, -1],
-        [1, -1],
-        [1, 1],
-        [-1, 1],
-      ]) {
-        const p = [0, 0, 0];
-        p[axis] = s;
-        p[(axis + 1) % 3] = u * s;
-        p[(axis + 2) % 3] = v;
-        position.push(...p.map((x) => x / 2));
-        normal.push(...[0, 1, 2].map((i) => (i === axis ? s : 0)));
-      }
-      index.push(at, at + 1, at + 2, at, at + 2, at + 3);
-    }
-  }
-  return {
-    position: new Float32Array(position),
-    normal: new Float32Array(normal),
-    index: new Uint16Array(index),
-  };
 }
 
 /** `without`: a bone to leave out, for a broken avatar. */
@@ -82,6 +55,11 @@ export function boxAvatar({ name = "Boxes", without = null } = {}) {
     });
     if (p) nodes[indexOf[p]].children.push(indexOf[bone]);
   });
+  const addBox = (name, bone, mesh, middle, scale) => {
+    const rotation = conj(world[bone]);
+    nodes[indexOf[bone]].children.push(nodes.length);
+    nodes.push({ name, mesh, translation: rotate(rotation, middle), rotation, scale });
+  };
   for (const bone of bones) {
     const child = NEXT[bone] ?? bones.find((b) => PARENT[b] === bone && !NEXT[bone]);
     const to = TIP[bone] ?? BODY[child].map((v, k) => v - BODY[bone][k]);
@@ -91,34 +69,17 @@ export function boxAvatar({ name = "Boxes", without = null } = {}) {
     const size = [0, 1, 2].map((k) =>
       k === long ? along[k] * 0.94 : k === 2 ? Math.min(thick, 0.19) : thick,
     );
-    const back = conj(world[bone]);
-    const mesh = nodes.length;
-    nodes.push({
-      name: `${bone} box`,
-      mesh: /left/.test(bone) ? 1 : /right/.test(bone) ? 2 : 0,
-      translation: rotate(
-        back,
-        to.map((v) => v / 2),
-      ),
-      rotation: back,
-      scale: size,
-    });
-    nodes[indexOf[bone]].children.push(mesh);
+    const mesh = /left/.test(bone) ? 1 : /right/.test(bone) ? 2 : 0;
+    const middle = to.map((v) => v / 2);
+    addBox(`${bone} box`, bone, mesh, middle, size);
   }
-  // A nose: which way does it look?
-  const back = conj(world.head);
-  nodes.push({
-    name: "nose",
-    mesh: 3,
-    translation: rotate(back, [0, 0.09, 0.1]),
-    rotation: back,
-    scale: [0.03, 0.03, 0.05],
-  });
-  nodes[indexOf.head].children.push(nodes.length - 1);
+  // A nose shows the direction of the face.
+  addBox("nose", "head", 3, [0, 0.09, 0.1], [0.03, 0.03, 0.05]);
   for (const n of nodes) if (n.children?.length === 0) delete n.children;
 
-  const c = cube();
-  const bin = Buffer.concat([c.position, c.normal, c.index].map((a) => Buffer.from(a.buffer)));
+  const { attributes, index } = new BoxGeometry();
+  const parts = [attributes.position, attributes.normal, index];
+  const bin = Buffer.concat(parts.map(({ array }) => Buffer.from(array.buffer)));
   const colours = [
     [0.75, 0.78, 0.8],
     [0.2, 0.5, 0.9],
@@ -138,15 +99,8 @@ export function boxAvatar({ name = "Boxes", without = null } = {}) {
       primitives: [{ attributes: { POSITION: 0, NORMAL: 1 }, indices: 2, material: i }],
     })),
     accessors: [
-      {
-        bufferView: 0,
-        componentType: 5126,
-        count: 24,
-        type: "VEC3",
-        min: [-0.5, -0.5, -0.5],
-        max: [0.5, 0.5, 0.5],
-      },
-      { bufferView: 1, componentType: 5126, count: 24, type: "VEC3" },
+      { bufferView: 0, ...VECTORS, min: [-0.5, -0.5, -0.5], max: [0.5, 0.5, 0.5] },
+      { bufferView: 1, ...VECTORS },
       { bufferView: 2, componentType: 5123, count: 36, type: "SCALAR" },
     ],
     bufferViews: [

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A VRM 1.0 file to a small VRM 0.x file: turned by half a turn about y (VRM 0.x faces -z), with the old extension.
-//   node mock/to-vrm0.mjs avatar.vrm avatar0.vrm
+// A VRM 1.0 file as a VRM 0.x file: turned by half a turn about y (VRM 0.x faces -z), with the old extension.
 
-import { readFileSync, writeFileSync } from "node:fs";
-import { pathToFileURL } from "node:url";
 import { glb } from "./avatar.mjs";
 
 const UNITY = { left: "L_", right: "R_" };
@@ -16,10 +13,10 @@ const THUMB = {
 const oldName = (bone) => bone.replace(/Thumb\w+$/, (t) => THUMB[t] ?? t);
 
 /**
- * As VRoid Studio and UniVRM leave a file: a root above the hips, an upper chest that carries neck and arms, names of
- * their own, a strand of hair that swings.
+ * Changes the nodes as VRoid Studio and UniVRM write them: a root above the hips, an upper chest with neck and arms, other
+ * names, a strand of hair. Gives the springs of the hair.
  */
-function asOthersDo(json, humanBones) {
+function likeUniVrm(json, humanBones) {
   const add = (node) => json.nodes.push(node) - 1;
   const nodeOf = (bone) => json.nodes[humanBones.find((b) => b.bone === bone).node];
   const chest = nodeOf("chest");
@@ -80,8 +77,8 @@ function turnAccessor(json, bin, index) {
   }
 }
 
-/** `others`: laid out as other programs lay out theirs, with toon materials and hair that swings. */
-export function toVrm0(file, { others = false } = {}) {
+/** The file as other programs write theirs, with toon materials and hair that swings. */
+export function toVrm0(file) {
   const length = file.readUInt32LE(12);
   const json = JSON.parse(file.subarray(20, 20 + length).toString());
   const bin = Buffer.from(file.subarray(20 + length + 8, 20 + length + 8 + file.readUInt32LE(20 + length)));
@@ -123,19 +120,21 @@ export function toVrm0(file, { others = false } = {}) {
       commercialUssageName: "Allow",
       licenseName: "Other",
     },
-    humanoid: {
-      humanBones,
-    },
+    humanoid: { humanBones },
     firstPerson: {
       firstPersonBone: vrm1.humanoid.humanBones.head?.node ?? -1,
       meshAnnotations: [],
       lookAtTypeName: "Bone",
     },
     blendShapeMaster: { blendShapeGroups: [] },
-    secondaryAnimation: others ? asOthersDo(json, humanBones) : { boneGroups: [], colliderGroups: [] },
+    secondaryAnimation: likeUniVrm(json, humanBones),
     materialProperties: (json.materials ?? []).map((m, i) => {
       const { baseColorFactor = [1, 1, 1, 1], baseColorTexture } = m.pbrMetallicRoughness ?? {};
-      const toon = {
+      return {
+        name: m.name ?? `material ${i}`,
+        renderQueue: 2000,
+        keywordMap: {},
+        tagMap: {},
         shader: "VRM/MToon",
         floatProperties: { _Cutoff: 0.5, _ShadeToony: 0.9, _CullMode: 2 },
         vectorProperties: {
@@ -144,32 +143,10 @@ export function toVrm0(file, { others = false } = {}) {
         },
         textureProperties: baseColorTexture ? { _MainTex: baseColorTexture.index } : {},
       };
-      const plain = {
-        shader: "VRM_USE_GLTFSHADER",
-        floatProperties: {},
-        vectorProperties: {},
-        textureProperties: {},
-      };
-      return {
-        name: m.name ?? `material ${i}`,
-        renderQueue: 2000,
-        keywordMap: {},
-        tagMap: {},
-        ...(others ? toon : plain),
-      };
     }),
   };
   json.extensions = { VRM: old };
   json.extensionsUsed = [...(json.extensionsUsed ?? []).filter((e) => !e.startsWith("VRMC_")), "VRM"];
   delete json.extensionsRequired;
   return glb(json, bin);
-}
-
-if (import.meta.url === pathToFileURL(process.argv[1] ?? "").href) {
-  const [from, to] = process.argv.slice(2);
-  if (!from || !to) {
-    console.error("node mock/to-vrm0.mjs FROM.vrm TO.vrm");
-    process.exit(2);
-  }
-  writeFileSync(to, toVrm0(readFileSync(from)));
 }

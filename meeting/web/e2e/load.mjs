@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meetings under load: a real Mosquitto, the program's own trackers, browsers without their drawing (docs/room-load.md).
-//   TELEMIME_PROGRAM=../build/release/telemime node e2e/load.mjs [--rooms 1] [--people 8] [--watchers 8] [--rate 30]
+// Meetings under load: a real Mosquitto, trackers of the program, browsers without drawing (meeting/docs/cluster.md).
+//   TELEMIME_PROGRAM=build/release/telemime node meeting/web/e2e/load.mjs [--meetings 1] [--people 8] [--watchers 8] [--rate 30]
 //     [--seconds 600] [--processes 4] [--json FILE]
 // Exit code 1: a bound is broken.
 
-import { fork, spawn } from "node:child_process";
+import { fork } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
 import { parseArgs } from "node:util";
 import { transformWithEsbuild } from "vite";
+import { launch } from "#e2e/process";
 import { startBroker } from "../mock/broker.mjs";
 
 const MEDIAN = 10; // ms, of the delivery
@@ -46,6 +47,7 @@ function processor(pid) {
   const fields = readFileSync(`/proc/${pid}/stat`, "utf8").split(") ")[1].split(" ");
   return (Number(fields[11]) + Number(fields[12])) / CLOCK_TICKS;
 }
+const sum = (numbers) => numbers.reduce((a, b) => a + b, 0);
 const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
 
 // -- the meetings
@@ -53,9 +55,9 @@ const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(number
 const folder = mkdtempSync(join(tmpdir(), "telemime-load-"));
 const password = "load";
 const all = Array.from({ length: meetings }, (_, r) => {
-  const topic = `r/load/room${two(r)}`;
+  const name = `meeting${two(r)}`;
   const ids = Array.from({ length: people }, (_, i) => `p${two(i + 1)}`);
-  return { topic, ids, name: `meeting${two(r)}` };
+  return { topic: `r/load/${name}`, ids, name };
 });
 const broker = await startBroker(
   all.flatMap(({ topic, ids, name }) => [
@@ -78,25 +80,14 @@ const fail = (words) => {
   failures.push(words);
 };
 
-// Trackers of a meeting are one process: what each of them does is the program's own sender, with its own connection.
+// The trackers of a meeting are one process. Each is the program's own sender with its own connection.
 const port = new URL(broker.tcp).port;
-const trackers = all.map(({ ids, name }) => {
-  const child = spawn(
-    program,
-    [
-      "meeting",
-      "people",
-      ...ids.map((id) => `mqtt://${name}.${id}:${password}@127.0.0.1:${port}/load/${name}?name=${id}`),
-      "--rate",
-      String(rate),
-    ],
-    { stdio: ["ignore", "pipe", "inherit"] },
-  );
-  child.words = "";
-  child.stdout.on("data", (d) => (child.words += d));
-  child.ended = new Promise((resolve) => child.on("exit", resolve));
-  return child;
-});
+const trackers = await Promise.all(
+  all.map(({ ids, name }) => {
+    const address = (id) => `mqtt://${name}.${id}:${password}@127.0.0.1:${port}/load/${name}?name=${id}`;
+    return launch(program, ["meeting", "people", ...ids.map(address), "--rate", String(rate)]);
+  }),
+);
 
 const browsers = all.flatMap(({ topic, ids, name }) =>
   Array.from({ length: watchers }, () => ({
@@ -114,10 +105,10 @@ const pages = await Promise.all(
     await new Promise((resolve, reject) => {
       child.on("message", (m) => {
         if (m.ready) resolve();
-        if (m.closed) fail("a browser was thrown out");
+        if (m.closed) fail("a browser was disconnected");
         if (m.streams) child.report = m;
       });
-      child.on("exit", () => reject(new Error("a browser does not come in")));
+      child.on("exit", () => reject(new Error("a browser cannot join")));
       child.send({ open: mine, codec });
     });
     child.ended = new Promise((resolve) => child.on("exit", resolve));
@@ -127,45 +118,40 @@ const pages = await Promise.all(
 
 // -- the measurement
 
-const processes = () => ({
+const processes = {
   broker: [broker.pid],
   trackers: trackers.map((t) => t.pid),
   browsers: pages.map((p) => p.pid),
-});
+};
+/** What `measure` gives for the processes of each group. */
+const ofGroups = (measure) =>
+  Object.fromEntries(Object.entries(processes).map(([group, pids]) => [group, measure(pids)]));
+const cpuTimes = () => ofGroups((pids) => sum(pids.map(processor)));
 const warmUp = Math.min(120, seconds / 3);
 await wait(3000); // until all trackers are in
 pages.forEach((p) => p.send({ measure: true }));
 const begun = performance.now();
-const cpuBefore = Object.fromEntries(
-  Object.entries(processes()).map(([k, pids]) => [k, pids.map(processor).reduce((a, b) => a + b)]),
-);
+const cpuBefore = cpuTimes();
 const samples = [];
 while (performance.now() - begun < seconds * 1000) {
   await wait(Math.min(1000, seconds * 100));
-  const at = (performance.now() - begun) / 1000;
-  const sample = { at };
-  for (const [what, pids] of Object.entries(processes())) sample[what] = pids.map(memory);
-  samples.push(sample);
+  samples.push({ at: (performance.now() - begun) / 1000, ...ofGroups((pids) => pids.map(memory)) });
 }
 const lasted = (performance.now() - begun) / 1000;
-const cores = Object.fromEntries(
-  Object.entries(processes()).map(([k, pids]) => [
-    k,
-    (pids.map(processor).reduce((a, b) => a + b) - cpuBefore[k]) / lasted,
-  ]),
-);
+const cpuAfter = cpuTimes();
+const coresOf = (group) => [group, (cpuAfter[group] - cpuBefore[group]) / lasted];
+const cores = Object.fromEntries(Object.keys(processes).map(coresOf));
 pages.forEach((p) => p.send({ stop: true }));
 await Promise.all(pages.map((p) => p.ended));
-trackers.forEach((t) => t.kill("SIGINT"));
-await Promise.all(trackers.map((t) => t.ended));
+await Promise.all(trackers.map((t) => t.end("SIGINT")));
 await broker.close();
 rmSync(folder, { recursive: true, force: true });
 
-// -- what came of it
+// -- the result
 
 const reports = pages.map((p) => p.report);
-const delays = reports[0].delays.map((_, bin) => reports.reduce((sum, r) => sum + r.delays[bin], 0));
-const deliveries = reports.reduce((sum, r) => sum + r.deliveries, 0);
+const delays = reports[0].delays.map((_, bin) => sum(reports.map((r) => r.delays[bin])));
+const deliveries = sum(reports.map((r) => r.deliveries));
 /** The upper end of the histogram's bin, ms. */
 function quantile(share) {
   let rest = share * deliveries;
@@ -176,23 +162,20 @@ function quantile(share) {
   return Infinity;
 }
 const streams = reports.flatMap((r) => r.streams);
-const sum = (key) => streams.reduce((total, s) => total + s[key], 0);
+const total = (key) => sum(streams.map((s) => s[key]));
 const lost = streams.filter((s) => s.gap > GONE || s.sessions !== 1);
-const unreadable = reports.reduce((total, r) => total + r.unreadable, 0);
-const growth = {};
-for (const what of Object.keys(GROWTH)) {
-  const rest = samples.filter((s) => s.at >= warmUp);
-  const quarter = Math.max(1, Math.floor(rest.length / 4));
-  growth[what] = rest[0][what].map(
-    (_, i) =>
-      median(rest.slice(-quarter).map((s) => s[what][i])) -
-      median(rest.slice(0, quarter).map((s) => s[what][i])),
-  );
-}
+const unreadable = sum(reports.map((r) => r.unreadable));
+const rest = samples.filter((s) => s.at >= warmUp);
+const quarter = Math.max(1, Math.floor(rest.length / 4));
+/** Growth of each process of a group, MB: the last quarter of the samples compared with the first. */
+const growth = (group) => {
+  const middle = (some, i) => median(some.map((s) => s[group][i]));
+  return rest[0][group].map((_, i) => middle(rest.slice(-quarter), i) - middle(rest.slice(0, quarter), i));
+};
 const grown = {
-  broker: growth.broker[0],
-  trackers: growth.trackers.reduce((a, b) => a + b),
-  browsers: Math.max(...growth.browsers),
+  broker: growth("broker")[0],
+  trackers: sum(growth("trackers")),
+  browsers: Math.max(...growth("browsers")),
 };
 const end = samples.at(-1);
 const result = {
@@ -203,24 +186,20 @@ const result = {
   seconds: Math.round(lasted),
   deliveries,
   perSecond: Math.round(deliveries / lasted),
-  framesOfTracker: sum("count") / streams.length / lasted,
+  framesOfTracker: total("count") / streams.length / lasted,
   p50: quantile(0.5),
   p95: quantile(0.95),
   p99: quantile(0.99),
   max: Math.max(...reports.map((r) => r.worst)),
-  lostFrames: sum("lost"),
-  lateFrames: sum("late"),
+  lostFrames: total("lost"),
+  lateFrames: total("late"),
   longestGap: Math.max(...streams.map((s) => s.gap)),
   lostTrackers: lost.length,
   unreadable,
   brokerCores: cores.broker,
   trackerCores: cores.trackers,
   browserCores: cores.browsers,
-  memory: {
-    broker: end.broker[0],
-    trackers: end.trackers.reduce((a, b) => a + b),
-    browsers: end.browsers.reduce((a, b) => a + b),
-  },
+  memory: { broker: end.broker[0], trackers: sum(end.trackers), browsers: sum(end.browsers) },
   grown,
 };
 const n = (x, digits = 1) => x.toFixed(digits);
@@ -232,7 +211,7 @@ trackers        ${result.lostTrackers} of ${streams.length} streams lost (more t
 processor       broker ${n(100 * cores.broker)} %, trackers ${n(100 * cores.trackers)} %, browsers ${n(100 * cores.browsers)} % of a core
 memory, MB      broker ${n(result.memory.broker)} (${n(grown.broker)} more than after ${n(warmUp, 0)} s), trackers ${n(result.memory.trackers)} (${n(grown.trackers)}), browsers ${n(result.memory.browsers)} (${n(grown.browsers)} the one that grew most)`);
 for (const t of trackers) {
-  for (const line of t.words.split("\n").slice(1)) {
+  for (const line of t.output.out.split("\n").slice(1)) {
     if (line && !/ 0 dropped$/.test(line)) console.log(`tracker: ${line}`);
   }
 }

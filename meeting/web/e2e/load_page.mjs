@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Browsers of load.mjs that only watch: mqtt.js over WebSocket and the page's own decoder, without the drawing. A child
-// process with some of them, told by messages of its parent.
+// process with some of them, controlled by messages of its parent.
 
 import mqtt from "mqtt";
 
@@ -11,13 +11,13 @@ let worst = 0;
 let deliveries = 0;
 let unreadable = 0;
 let measuring = false;
-/** What each browser has heard of each tracker since the measurement began. */
+/** What each browser has received of each tracker since the measurement began. */
 const streams = [];
 const clients = [];
 
 const now = () => Number(process.hrtime.bigint() / 1000n); // us, CLOCK_MONOTONIC, as the trackers' capture times
 
-function heard(stream, frame, at) {
+function received(stream, frame, at) {
   const delay = (at - Number(frame.captured)) / 1000;
   delays[Math.min(delays.length - 1, Math.max(0, Math.floor(delay * FINE)))]++;
   worst = Math.max(worst, delay);
@@ -62,7 +62,7 @@ function browse({ url, user, password, topic, people }, decodeFrame) {
     const frame = decodeFrame(payload);
     const stream = mine.get(name);
     if (!frame || !stream) unreadable++;
-    else if (measuring) heard(stream, frame, at);
+    else if (measuring) received(stream, frame, at);
   });
   return new Promise((resolve, reject) => {
     client.on("error", reject);
