@@ -2,7 +2,7 @@
 // Limits on the avatars of participants: a small file may expand to more than a browser can hold. The contents are counted
 // before anything is built.
 
-import { AvatarError, readJson } from "#web/avatar/inspect";
+import { AvatarError, isObject, readJson, type Json } from "#web/avatar/inspect";
 
 export interface Bounds {
   triangles: number;
@@ -31,20 +31,10 @@ export const STRANGERS: Readonly<Bounds> = {
   colliders: 300,
 };
 
-type Json = Record<string, unknown>;
-const isObject = (v: unknown): v is Json => typeof v === "object" && v !== null && !Array.isArray(v);
 const list = (v: unknown): Json[] => (Array.isArray(v) ? v.map((x) => (isObject(x) ? x : {})) : []);
 const whole = (v: unknown): number => (Number.isSafeInteger(v) && (v as number) >= 0 ? (v as number) : NaN);
 const SIZE: Record<number, number> = { 5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4 };
-const PARTS: Record<string, number> = {
-  SCALAR: 1,
-  VEC2: 2,
-  VEC3: 3,
-  VEC4: 4,
-  MAT2: 4,
-  MAT3: 9,
-  MAT4: 16,
-};
+const PARTS: Record<string, number> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT2: 4, MAT3: 9, MAT4: 16 };
 
 class Broken extends AvatarError {
   constructor() {
@@ -115,8 +105,8 @@ function checkAccessors(json: Json, bin: Uint8Array): void {
   }
 }
 
-/** Checks that the nodes are trees. */
-function checkTree(json: Json): void {
+/** Checks that the nodes are trees; gives the parent of each node that has one. */
+function checkTree(json: Json): Map<number, number> {
   const nodes = list(json.nodes);
   const parent = new Map<number, number>();
   nodes.forEach((n, i) => {
@@ -130,6 +120,7 @@ function checkTree(json: Json): void {
     let depth = 0;
     for (let p = parent.get(i); p !== undefined; p = parent.get(p)) if (++depth > 300) throw new Broken();
   }
+  return parent;
 }
 
 function checkMeshes(json: Json, bounds: Bounds): number {
@@ -168,28 +159,15 @@ function checkPictures(json: Json, bin: Uint8Array, bounds: Bounds): void {
   check(pixels, bounds.pixels, `${Math.round(pixels / 1e6)} million pixels of textures`);
 }
 
-/** The number of nodes below each one, including itself. */
-function familySizes(json: Json): number[] {
-  const nodes = list(json.nodes);
-  const size = nodes.map(() => 1);
-  const parent = nodes.map(() => -1);
-  nodes.forEach((n, i) => {
-    for (const c of Array.isArray(n.children) ? n.children : []) parent[c as number] = i;
-  });
-  nodes.forEach((_, i) => {
-    for (let p = parent[i]!; p >= 0; p = parent[p]!) size[p]!++;
-  });
-  return size;
-}
-
-function checkSprings(json: Json, bounds: Bounds): void {
+function checkSprings(json: Json, parent: ReadonlyMap<number, number>, bounds: Bounds): void {
   const extensions = isObject(json.extensions) ? json.extensions : {};
   const one = isObject(extensions.VRMC_springBone) ? extensions.VRMC_springBone : {};
   const vrm = isObject(extensions.VRM) ? extensions.VRM : {};
   const old = isObject(vrm.secondaryAnimation) ? vrm.secondaryAnimation : {};
   let joints = list(one.springs).reduce((n, s) => n + list(s.joints).length, 0);
-  // In VRM 0.x all nodes below a spring bone are spring joints.
-  const size = familySizes(json);
+  // In VRM 0.x all nodes below a spring bone are spring joints. `size` counts them for each node, with itself.
+  const size = list(json.nodes).map(() => 1);
+  for (const i of size.keys()) for (let p = parent.get(i); p !== undefined; p = parent.get(p)) size[p]!++;
   for (const group of list(old.boneGroups)) {
     for (const bone of Array.isArray(group.bones) ? group.bones : []) joints += size[whole(bone)] ?? 0;
   }
@@ -206,8 +184,7 @@ export function checkBounds(data: ArrayBuffer, bounds: Bounds = STRANGERS): numb
     throw new AvatarError("The avatar has data outside its file.");
   check(list(json.nodes).length, bounds.nodes, "too many nodes");
   check(list(json.materials).length, bounds.materials, `${list(json.materials).length} materials`);
-  checkTree(json);
-  checkSprings(json, bounds);
+  checkSprings(json, checkTree(json), bounds);
   checkAccessors(json, bin);
   checkPictures(json, bin, bounds);
   return checkMeshes(json, bounds);

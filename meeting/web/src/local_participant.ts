@@ -2,14 +2,7 @@
 // This page as a participant: it publishes its presence and state, unless another client of the same participant does so,
 // for instance a tracker.
 
-import {
-  readPresence,
-  readState,
-  toBytes,
-  writeState,
-  type AvatarChoice,
-  type StateMessage,
-} from "./messages";
+import { readPresence, readState, toBytes, type AvatarChoice, type StateMessage } from "./messages";
 import { topicOf } from "./topics";
 
 /** This page publishes something at least this often, s. */
@@ -66,7 +59,7 @@ export class LocalParticipant {
   tracked(session: number): void {
     const known = this.other?.session === session && this.other.kind === "tracker";
     if (!known) this.other = { session, kind: "tracker" };
-    this.withdraw();
+    if (this.here) this.goodbye(); // the tracker then publishes its state again
   }
 
   /** The other client counts as gone, without having said so. */
@@ -89,7 +82,7 @@ export class LocalParticipant {
       if (this.other?.kind === "tracker" && m.session !== this.other.session) return;
       const known = this.stated?.session === m.session ? this.stated.kind : null;
       this.other = { session: m.session, kind: known };
-      if (m.session === this.missed) this.withdraw();
+      if (m.session === this.missed && this.here) this.goodbye();
       return;
     }
     // The other client has left, or seems to have left: this page is still here.
@@ -136,18 +129,9 @@ export class LocalParticipant {
     if (this.ready) this.announce();
   }
 
-  /** Yields to a client that was here all the time. It publishes its state again when this page leaves. */
-  private withdraw(): void {
-    if (this.here) this.goodbye();
-  }
-
   private goodbye(): void {
     this.here = false;
-    this.publish(
-      topicOf(this.base, this.id, "presence"),
-      toBytes({ here: false, session: this.session }),
-      true,
-    );
+    this.publish(this.will.topic, this.will.payload(this.session), true);
   }
 
   private announce(): void {
@@ -164,13 +148,7 @@ export class LocalParticipant {
   private publishState(): void {
     this.publish(
       topicOf(this.base, this.id, "state"),
-      writeState({
-        session: this.session,
-        kind: "browser",
-        ...this.state,
-        stature: null,
-        bones: new Map(),
-      }),
+      toBytes({ session: this.session, kind: "browser", ...this.state }),
       true,
     );
   }

@@ -9,7 +9,6 @@ import {
   readMeeting,
   readState,
   toBytes,
-  writeState,
   writeMeeting,
 } from "./messages";
 
@@ -32,7 +31,6 @@ describe("state", () => {
     const s = stateOf({})!;
     expect(s).toMatchObject({ session: 7, kind: "tracker", name: "Ana", seat: 3, avatar: { look: "plain" } });
     expect(s.bones.get("hips")).toEqual([0, 0.94, 0]);
-    expect(readState(writeState(s))).toEqual(s);
     const bare = stateOf({
       stature: undefined,
       bones: undefined,
@@ -41,7 +39,7 @@ describe("state", () => {
       kind: "browser",
     })!;
     expect(bare).toMatchObject({ avatar: null, stature: null, seat: null });
-    expect(readState(writeState(bare))).toEqual(bare);
+    expect(bare.bones.size).toBe(0);
   });
   it("has a name of 1 to 40 characters without controls; markup is text", () => {
     for (const name of ["", "x".repeat(41), "a\u0000", "a\nb", 7, null]) expect(stateOf({ name })).toBeNull();

@@ -178,11 +178,3 @@ export const toBytes = (message: object): Uint8Array =>
 export function writeMeeting({ more, ...known }: MeetingMessage): Uint8Array {
   return toBytes({ ...more, ...known });
 }
-
-export function writeState({ bones, stature, ...rest }: StateMessage): Uint8Array {
-  return toBytes({
-    ...rest,
-    ...(stature === null ? {} : { stature }),
-    ...(bones.size ? { bones: Object.fromEntries(bones) } : {}),
-  });
-}

@@ -59,7 +59,7 @@ export type MeetingEvent =
   | { kind: "said"; id: string; message: { id: string; text: string } }
   | { kind: "page"; id: string; page: number; content: BoardMessage | null }; // null: it is gone
 
-export const DEFAULT_MEETING: Readonly<MeetingMessage> = {
+const DEFAULT_MEETING: Readonly<MeetingMessage> = {
   title: "",
   seats: 8,
   epoch: 0,
@@ -117,12 +117,8 @@ export class Roster {
   receive(topic: string, payload: Uint8Array, now: number, retained = false): MeetingEvent[] {
     this.alive(now);
     const place = parseTopic(this.base, topic);
-    if (!place) {
-      this.ignored++;
-      return [];
-    }
-    if (place.kind === "meeting") return this.onMeeting(payload);
-    const p = this.participant(place.participant);
+    if (place?.kind === "meeting") return this.onMeeting(payload);
+    const p = place && this.participant(place.participant);
     if (!p) {
       this.ignored++;
       return [];
@@ -141,11 +137,8 @@ export class Roster {
         return message ? [...this.signOfLife(p, now), { kind: "said", id: p.id, message }] : [];
       }
       case "board": {
-        const content = payload.byteLength ? readBoard(payload) : null;
-        if (payload.byteLength && !content) {
-          p.refused++;
-          return [];
-        }
+        const content = this.read(p, payload, readBoard);
+        if (content === undefined) return [];
         const event: MeetingEvent = { kind: "page", id: p.id, page: place.page, content };
         return retained || !content ? [event] : [...this.signOfLife(p, now), event];
       }
@@ -219,12 +212,17 @@ export class Roster {
     return [{ kind: "meeting" }];
   }
 
+  /** The message; null when it is empty, undefined when it is refused. */
+  private read<T>(p: Participant, payload: Uint8Array, reader: (payload: Uint8Array) => T | null) {
+    if (!payload.byteLength) return null;
+    const message = reader(payload) ?? undefined;
+    if (!message) p.refused++;
+    return message;
+  }
+
   private onState(p: Participant, payload: Uint8Array, now: number, retained: boolean): MeetingEvent[] {
-    const state = payload.byteLength ? readState(payload) : null;
-    if (payload.byteLength && !state) {
-      p.refused++;
-      return [];
-    }
+    const state = this.read(p, payload, readState);
+    if (state === undefined) return [];
     // An empty state arrives when somebody leaves: the name is still needed for the note.
     if (!state && p.here) return [];
     p.state = state;
@@ -233,11 +231,8 @@ export class Roster {
   }
 
   private onPresence(p: Participant, payload: Uint8Array, now: number, retained: boolean): MeetingEvent[] {
-    const m = payload.byteLength ? readPresence(payload) : null;
-    if (payload.byteLength && !m) {
-      p.refused++;
-      return [];
-    }
+    const m = this.read(p, payload, readPresence);
+    if (m === undefined) return [];
     if (!m?.here) {
       // An older session leaves: the newer one stays. An empty message clears any session.
       if (!m || m.session === p.presence) p.presence = null;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks a file before the 3-D library gets it: whether it is an avatar that can be driven, and if not, why.
 
-export const MAX_BYTES = 200 * 1024 * 1024;
+const MAX_BYTES = 200 * 1024 * 1024;
 
 /** The bones that VRM 1.0 requires; VRM 0.x files have them too. */
 export const REQUIRED_BONES = [
@@ -31,8 +31,8 @@ export interface Facts {
 /** Why a file cannot be used as an avatar; the page shows `message`. */
 export class AvatarError extends Error {}
 
-type Json = Record<string, unknown>;
-const isObject = (v: unknown): v is Json => typeof v === "object" && v !== null && !Array.isArray(v);
+export type Json = Record<string, unknown>;
+export const isObject = (v: unknown): v is Json => typeof v === "object" && v !== null && !Array.isArray(v);
 const text = (v: unknown): string => (typeof v === "string" ? v.trim().slice(0, 80) : "");
 
 export function checkSize(bytes: number): void {
@@ -42,7 +42,7 @@ export function checkSize(bytes: number): void {
   }
 }
 
-/** A bone name in words: "left upper arm". */
+/** A bone name as text: "left upper arm". */
 export function boneWords(bone: string): string {
   return bone.replace(/[A-Z]/g, (c) => " " + c.toLowerCase());
 }
@@ -86,21 +86,13 @@ function refuseOutsideFiles(json: Json): void {
  * Extensions that the 3-D library needs a decoder for. The page has none: decoders are WebAssembly, which its content
  * security policy forbids. Other extensions only cause warnings. Draco fails even where it is not required.
  */
-const COMPRESSIONS: readonly { name: string; where: "extensionsUsed" | "extensionsRequired" }[] = [
-  { name: "KHR_draco_mesh_compression", where: "extensionsUsed" },
-  { name: "EXT_meshopt_compression", where: "extensionsRequired" },
-  { name: "KHR_meshopt_compression", where: "extensionsRequired" },
-  { name: "KHR_texture_basisu", where: "extensionsRequired" },
-];
+const DRACO = "KHR_draco_mesh_compression";
+const COMPRESSIONS = [DRACO, "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_texture_basisu"];
 
 function refuseCompression(json: Json): void {
-  const lists = (name: string, where: string): boolean => {
-    const names = json[where];
-    return Array.isArray(names) && names.includes(name);
-  };
-  const found = COMPRESSIONS.filter((c) => lists(c.name, c.where) || lists(c.name, "extensionsRequired")).map(
-    (c) => c.name,
-  );
+  const names = (list: string): unknown[] => (Array.isArray(json[list]) ? json[list] : []);
+  const needed = [...names("extensionsRequired"), ...names("extensionsUsed").filter((n) => n === DRACO)];
+  const found = COMPRESSIONS.filter((name) => needed.includes(name));
   if (found.length === 0) return;
   throw new AvatarError(
     `This file uses a compression that the page cannot read (${found.join(", ")}). Export it without compression.`,
@@ -115,14 +107,8 @@ function bonesOf(json: Json, version: "0" | "1"): Set<string> {
   const found = new Set<string>();
   const add = (bone: unknown, entry: unknown) => {
     const node = isObject(entry) ? entry.node : undefined;
-    if (
-      typeof bone === "string" &&
-      Number.isInteger(node) &&
-      (node as number) >= 0 &&
-      (node as number) < count
-    ) {
-      found.add(bone);
-    }
+    const exists = Number.isInteger(node) && (node as number) >= 0 && (node as number) < count;
+    if (typeof bone === "string" && exists) found.add(bone);
   };
   const bones = humanoid.humanBones;
   if (version === "1" && isObject(bones)) for (const [bone, entry] of Object.entries(bones)) add(bone, entry);
@@ -150,8 +136,8 @@ export function inspect(data: ArrayBuffer): Facts {
       `This avatar cannot be moved: it lacks ${missing.length > 1 ? "the bones" : "the bone"} ${some}.`,
     );
   }
-  const part = extensions[version === "1" ? "VRMC_vrm" : "VRM"] as Json;
-  const meta = isObject(part.meta) ? part.meta : {};
+  const { meta: given } = extensions[version === "1" ? "VRMC_vrm" : "VRM"] as Json;
+  const meta = isObject(given) ? given : {};
   const authors = Array.isArray(meta.authors) ? meta.authors.map(text).filter(Boolean).join(", ") : "";
   return {
     version,

@@ -34,10 +34,6 @@ export class Connection {
     this.open();
   }
 
-  get state(): ConnectionState {
-    return this.current;
-  }
-
   /** Messages that this page did not understand. */
   get misunderstood(): number {
     return this.refused;

@@ -5,7 +5,17 @@ import { flatContext } from "../shared/graphics";
 import type { Camera, Picture, Pose } from "../live/protocol";
 import { ellipseInPicture } from "./geometry";
 import { POSES_STOPPED, Pairing } from "./pairing";
-import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
+import {
+  LINES,
+  SPREAD_JOINTS,
+  drawJoint,
+  drawLine,
+  drawSpread,
+  readPalette,
+  sideOf,
+  type Palette,
+  type Point,
+} from "./skeleton";
 
 interface Decoded {
   frame: number;
@@ -113,7 +123,7 @@ export class CameraView {
     const sx = width / (this.camera?.width ?? width);
     const sy = height / (this.camera?.height ?? height);
     // In the program the centre of the first pixel is (0, 0).
-    const at = (joint: string): [number, number] | null => {
+    const at = (joint: string): Point | null => {
       const p = pose.pixels.get(joint);
       return p ? [(p[0] + 0.5) * sx, (p[1] + 0.5) * sy] : null;
     };
@@ -126,42 +136,28 @@ export class CameraView {
         const c = at(joint);
         const e = s && p && ellipseInPicture(p, s, this.camera);
         if (!e || !c) continue;
-        g.beginPath();
-        g.ellipse(c[0], c[1], Math.max(1, e.major * sx), Math.max(1, e.minor * sy), e.angle, 0, 2 * Math.PI);
-        g.fillStyle = this.palette[sideOf(joint)];
-        g.globalAlpha = 0.2;
-        g.fill();
-        g.globalAlpha = 0.6;
-        g.lineWidth = 0.75 * unit;
-        g.strokeStyle = this.palette[sideOf(joint)];
-        g.stroke();
+        const scaled = { major: e.major * sx, minor: e.minor * sy, angle: e.angle };
+        const style = {
+          colour: this.palette[sideOf(joint)],
+          border: 0.75 * unit,
+          alpha: [0.2, 0.6] as const,
+        };
+        drawSpread(g, c, scaled, style);
       }
     }
-    g.globalAlpha = 1;
     g.lineCap = "round";
     for (const pass of ["under", "over"] as const) {
       for (const [from, to, side] of LINES) {
         const a = at(from);
         const b = at(to);
         if (!a || !b) continue;
-        g.beginPath();
-        g.moveTo(...a);
-        g.lineTo(...b);
-        g.lineWidth = pass === "under" ? 4 * unit : 2.2 * unit;
-        g.strokeStyle = pass === "under" ? "rgba(8,12,18,0.5)" : this.palette[side];
-        g.stroke();
+        if (pass === "under") drawLine(g, a, b, 4 * unit, "rgba(8,12,18,0.5)");
+        else drawLine(g, a, b, 2.2 * unit, this.palette[side]);
       }
     }
     for (const [joint] of pose.pixels) {
       const c = at(joint);
-      if (!c) continue;
-      g.beginPath();
-      g.arc(c[0], c[1], 2.4 * unit, 0, 2 * Math.PI);
-      g.fillStyle = "#fff";
-      g.fill();
-      g.lineWidth = 1.2 * unit;
-      g.strokeStyle = this.palette[sideOf(joint)];
-      g.stroke();
+      if (c) drawJoint(g, c, 2.4 * unit, 1.2 * unit, this.palette[sideOf(joint)]);
     }
   }
 }

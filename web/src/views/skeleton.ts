@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// The drawn skeleton: its lines, colours and marks.
 
+import type { Ellipse } from "./geometry";
+
+export type Point = [number, number];
 export type Side = "left" | "right" | "middle";
 
 /** The lines of the drawn skeleton, by the joint names of the pose files. */
@@ -34,4 +38,54 @@ export function readPalette(element: Element): Palette {
     right: of("--right", "#ff9a3d"),
     middle: of("--middle", "#f2f5f8"),
   };
+}
+
+export function drawLine(
+  g: CanvasRenderingContext2D,
+  a: Point,
+  b: Point,
+  width: number,
+  colour: string,
+): void {
+  g.lineWidth = width;
+  g.strokeStyle = colour;
+  g.beginPath();
+  g.moveTo(...a);
+  g.lineTo(...b);
+  g.stroke();
+}
+
+/** A white dot with a border. */
+export function drawJoint(
+  g: CanvasRenderingContext2D,
+  at: Point,
+  radius: number,
+  border: number,
+  colour: string,
+): void {
+  g.beginPath();
+  g.arc(...at, radius, 0, 2 * Math.PI);
+  g.fillStyle = "#fff";
+  g.fill();
+  g.lineWidth = border;
+  g.strokeStyle = colour;
+  g.stroke();
+}
+
+/** The ellipse of a covariance; `alpha`: of its area and of its border. */
+export function drawSpread(
+  g: CanvasRenderingContext2D,
+  at: Point,
+  { major, minor, angle }: Ellipse,
+  style: { colour: string; border: number; alpha: readonly [number, number] },
+): void {
+  g.beginPath();
+  g.ellipse(...at, Math.max(1, major), Math.max(1, minor), angle, 0, 2 * Math.PI);
+  g.fillStyle = g.strokeStyle = style.colour;
+  g.globalAlpha = style.alpha[0];
+  g.fill();
+  g.globalAlpha = style.alpha[1];
+  g.lineWidth = style.border;
+  g.stroke();
+  g.globalAlpha = 1;
 }

@@ -7,7 +7,17 @@ import type { Camera, Pose, TrackedPose } from "../live/protocol";
 import type { Vec3 } from "../shared/quaternion";
 import { fitCanvas } from "./fit";
 import { ellipseFromAbove } from "./geometry";
-import { LINES, SPREAD_JOINTS, readPalette, sideOf, type Palette } from "./skeleton";
+import {
+  LINES,
+  SPREAD_JOINTS,
+  drawJoint,
+  drawLine,
+  drawSpread,
+  readPalette,
+  sideOf,
+  type Palette,
+  type Point,
+} from "./skeleton";
 
 interface Colours extends Palette {
   grid: string;
@@ -39,10 +49,6 @@ export class TopView {
     this.g = flatContext(canvas, true);
     this.colours = this.readColours();
     new ResizeObserver(() => (this.dirty = true)).observe(canvas);
-  }
-
-  get close(): boolean {
-    return this.closeUp;
   }
 
   set close(on: boolean) {
@@ -93,7 +99,7 @@ export class TopView {
     const w = this.window;
     const scale = height / (w.far - w.near);
     const sx = this.mirrored ? -1 : 1;
-    const at = (x: number, z: number): [number, number] => [
+    const at = (x: number, z: number): Point => [
       width / 2 + sx * (x - w.x) * scale,
       height - (z - w.near) * scale,
     ];
@@ -118,16 +124,14 @@ export class TopView {
     }
     const need = Math.max(...zs) + 350;
     const far = Math.max(1500, Math.ceil(need / 500) * 500);
-    const keep =
-      !this.closeUp && this.window.far >= need && this.window.far - far <= 500 && this.window.near === -200;
+    const keep = this.window.far >= need && this.window.far - far <= 500 && this.window.near === -200;
     this.window = { near: -200, far: keep ? this.window.far : far, x: 0 };
   }
 
-  private drawFloor(at: (x: number, z: number) => [number, number], width: number, height: number): void {
+  private drawFloor(at: (x: number, z: number) => Point, width: number, height: number): void {
     const g = this.g;
     const { near, far, x: mid } = this.window;
     const half = ((width / height) * (far - near)) / 2;
-    g.lineWidth = 1;
     g.font = "11px system-ui, sans-serif";
     g.textBaseline = "bottom";
     const step = 500;
@@ -146,11 +150,7 @@ export class TopView {
     for (let z = Math.ceil(near / step) * step; z <= far; z += step) {
       const y = Math.round(at(0, z)[1]) + 0.5;
       g.globalAlpha = z % 1000 === 0 ? 1 : 0.5;
-      g.strokeStyle = this.colours.grid;
-      g.beginPath();
-      g.moveTo(0, y);
-      g.lineTo(width, y);
-      g.stroke();
+      drawLine(g, [0, y], [width, y], 1, this.colours.grid);
       g.globalAlpha = 1;
       if (z > 0 && (z % 1000 === 0 || this.closeUp) && y > 46) {
         g.fillStyle = this.colours.text;
@@ -161,11 +161,7 @@ export class TopView {
     for (let x = Math.ceil((mid - half) / step) * step; x <= mid + half; x += step) {
       const px = Math.round(at(x, 0)[0]) + 0.5;
       g.globalAlpha = x % 1000 === 0 ? 1 : 0.5;
-      g.strokeStyle = this.colours.grid;
-      g.beginPath();
-      g.moveTo(px, 0);
-      g.lineTo(px, height);
-      g.stroke();
+      drawLine(g, [px, 0], [px, height], 1, this.colours.grid);
     }
     g.globalAlpha = 1;
     // The camera itself.
@@ -181,12 +177,12 @@ export class TopView {
 
   private drawPerson(
     pose: TrackedPose,
-    at: (x: number, z: number) => [number, number],
+    at: (x: number, z: number) => Point,
     scale: number,
     sx: number,
   ): void {
     const g = this.g;
-    const point = (joint: string): [number, number] | null => {
+    const point = (joint: string): Point | null => {
       const p: Vec3 | undefined = pose.joints.get(joint);
       return p ? at(p[0], p[2]) : null;
     };
@@ -197,33 +193,20 @@ export class TopView {
       const e = ellipseFromAbove(s);
       // On the canvas x may be mirrored, and z points up while y points down.
       const angle = Math.atan2(-Math.sin(e.angle), sx * Math.cos(e.angle));
-      g.beginPath();
-      g.ellipse(
-        c[0],
-        c[1],
-        Math.max(1, e.major * scale),
-        Math.max(1, e.minor * scale),
-        angle,
-        0,
-        2 * Math.PI,
-      );
-      g.fillStyle = g.strokeStyle = this.colours[sideOf(joint)];
-      g.globalAlpha = 0.18;
-      g.fill();
-      g.globalAlpha = 0.75;
-      g.lineWidth = 1;
-      g.stroke();
+      const scaled = { major: e.major * scale, minor: e.minor * scale, angle };
+      drawSpread(g, c, scaled, { colour: this.colours[sideOf(joint)], border: 1, alpha: [0.18, 0.75] });
     }
-    g.globalAlpha = 1;
     g.lineCap = "round";
     const l = point("l_shoulder");
     const r = point("r_shoulder");
-    if (l && r) this.line(l, r, Math.max(5, 130 * scale), this.colours.body, 0.45);
+    g.globalAlpha = 0.45;
+    if (l && r) drawLine(g, l, r, Math.max(5, 130 * scale), this.colours.body);
+    g.globalAlpha = 1;
     for (const [from, to, side] of LINES) {
       if (side === "middle" || from === "neck") continue;
       const a = point(from);
       const b = point(to);
-      if (a && b) this.line(a, b, Math.max(2.5, 45 * scale), this.colours[side], 1);
+      if (a && b) drawLine(g, a, b, Math.max(2.5, 45 * scale), this.colours[side]);
     }
     const head = point("head");
     if (head) {
@@ -234,26 +217,7 @@ export class TopView {
     }
     for (const joint of ["l_shoulder", "l_elbow", "l_wrist", "r_shoulder", "r_elbow", "r_wrist"]) {
       const c = point(joint);
-      if (!c) continue;
-      g.beginPath();
-      g.arc(c[0], c[1], 3, 0, 2 * Math.PI);
-      g.fillStyle = "#fff";
-      g.fill();
-      g.lineWidth = 1.5;
-      g.strokeStyle = this.colours[sideOf(joint)];
-      g.stroke();
+      if (c) drawJoint(g, c, 3, 1.5, this.colours[sideOf(joint)]);
     }
-  }
-
-  private line(a: [number, number], b: [number, number], width: number, colour: string, alpha: number): void {
-    const g = this.g;
-    g.globalAlpha = alpha;
-    g.lineWidth = width;
-    g.strokeStyle = colour;
-    g.beginPath();
-    g.moveTo(...a);
-    g.lineTo(...b);
-    g.stroke();
-    g.globalAlpha = 1;
   }
 }

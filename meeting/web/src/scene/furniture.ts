@@ -28,13 +28,17 @@ import type { Palette } from "./palette";
 /** With one colour for all its corners, so that parts of several colours can be one geometry. */
 export function painted(geometry: BufferGeometry, colour: number): BufferGeometry {
   const flat = geometry.index ? geometry.toNonIndexed() : geometry;
-  const n = flat.getAttribute("position").count;
-  const c = new Color(colour);
-  const colours = new Float32Array(3 * n);
-  for (let i = 0; i < n; i++) c.toArray(colours, 3 * i);
-  flat.setAttribute("color", new BufferAttribute(colours, 3));
   flat.deleteAttribute("uv");
-  return flat;
+  const c = new Color(colour);
+  return shaded(flat, () => c);
+}
+
+/** With the colour that `colourAt` gives for the index of each corner. */
+export function shaded(geometry: BufferGeometry, colourAt: (corner: number) => Color): BufferGeometry {
+  const n = geometry.getAttribute("position").count;
+  const colours = new Float32Array(3 * n);
+  for (let i = 0; i < n; i++) colourAt(i).toArray(colours, 3 * i);
+  return geometry.setAttribute("color", new BufferAttribute(colours, 3));
 }
 
 export const merged = (parts: BufferGeometry[]): BufferGeometry => mergeGeometries(parts)!;
@@ -66,13 +70,12 @@ function chair(colours: Palette): BufferGeometry {
     .translate(0, SEAT + 0.3, -0.29);
   const post = new CylinderGeometry(0.016, 0.016, 0.3, 8).rotateX(-0.12).translate(0, SEAT + 0.06, -0.255);
   const legs = [-1, 1].flatMap((x) =>
-    [-1, 1].map((z) => {
-      const leg = new CylinderGeometry(0.017, 0.012, SEAT - 0.07, 8);
-      return leg
+    [-1, 1].map((z) =>
+      new CylinderGeometry(0.017, 0.012, SEAT - 0.07, 8)
         .rotateX(-0.13 * z)
         .rotateZ(0.13 * x)
-        .translate(0.215 * x, (SEAT - 0.07) / 2, 0.205 * z);
-    }),
+        .translate(0.215 * x, (SEAT - 0.07) / 2, 0.205 * z),
+    ),
   );
   return merged([
     painted(seat, colours.cushion),
@@ -83,13 +86,17 @@ function chair(colours: Palette): BufferGeometry {
   ]);
 }
 
-export const TABLE_TOP = 0.72; // m
+const TABLE_TOP = 0.72; // m
 
-/** Radius of the table between `seats` chairs, m. */
-export const tableRadius = (seats: number): number => circleRadius(seats) - 0.5;
+/** A solid of revolution; `profile`: distance from the axis and height of its corners. */
+const lathe = (profile: [number, number][], segments: number): BufferGeometry =>
+  new LatheGeometry(
+    profile.map(([x, y]) => new Vector2(x, y)),
+    segments,
+  );
 
 function table(radius: number, colours: Palette): BufferGeometry {
-  const edge = [
+  const edge: [number, number][] = [
     [0, TABLE_TOP - 0.035],
     [radius - 0.05, TABLE_TOP - 0.035],
     [radius - 0.012, TABLE_TOP - 0.026],
@@ -97,24 +104,21 @@ function table(radius: number, colours: Palette): BufferGeometry {
     [radius - 0.004, TABLE_TOP - 0.004],
     [radius - 0.018, TABLE_TOP],
     [0, TABLE_TOP],
-  ].map(([x, y]) => new Vector2(x, y));
+  ];
   const foot = Math.min(0.55, radius * 0.5);
-  const post = [
+  const post: [number, number][] = [
     [foot, 0],
     [foot, 0.02],
     [foot * 0.9, 0.035],
     [0.09, 0.07],
     [0.075, 0.4],
     [0.11, TABLE_TOP - 0.04],
-  ].map(([x, y]) => new Vector2(x, y));
-  const inlay = [
-    [radius * 0.68, TABLE_TOP + 0.001],
-    [radius * 0.66, TABLE_TOP + 0.001],
-  ].map(([x, y]) => new Vector2(x, y));
+  ];
+  const inlay: [number, number][] = [0.68, 0.66].map((k) => [radius * k, TABLE_TOP + 0.001]);
   return merged([
-    painted(new LatheGeometry(inlay, 64), colours.woodDark),
-    painted(new LatheGeometry(edge, 64), colours.wood),
-    painted(new LatheGeometry(post, 32), colours.woodDark),
+    painted(lathe(inlay, 64), colours.woodDark),
+    painted(lathe(edge, 64), colours.wood),
+    painted(lathe(post, 32), colours.woodDark),
   ]);
 }
 
@@ -150,7 +154,7 @@ export function furniture(count: number, more: number, colours: Palette): (Mesh 
     chairs.setMatrixAt(i, new Matrix4().compose(new Vector3(p.x, 0, p.z), turn, new Vector3(1, 1, 1)));
   });
   chairs.frustumCulled = false;
-  const radius = tableRadius(count);
+  const radius = circleRadius(count) - 0.5; // of the table, between the chairs
   const dark = [
     { x: 0, z: 0, size: 2.9 * radius },
     { x: 0, z: 0, size: 1.9 * radius },

@@ -4,7 +4,6 @@
 import {
   BackSide,
   BoxGeometry,
-  BufferAttribute,
   type CanvasTexture,
   CircleGeometry,
   Color,
@@ -12,6 +11,7 @@ import {
   Fog,
   HemisphereLight,
   IcosahedronGeometry,
+  MathUtils,
   Mesh,
   MeshBasicMaterial,
   MeshLambertMaterial,
@@ -19,61 +19,52 @@ import {
   RingGeometry,
   SphereGeometry,
   type BufferGeometry,
+  type MeshBasicMaterialParameters,
   type Object3D,
 } from "three";
 import { lamp } from "#web/avatar/surroundings";
 import { RoundedBoxGeometry } from "three/addons/geometries/RoundedBoxGeometry.js";
 import { circleRadius } from "../seats";
-import { merged, painted, shadows } from "./furniture";
+import { merged, painted, shaded, shadows } from "./furniture";
 import type { Palette } from "./palette";
 
-export const BOARD = { width: 3.2, height: 1.6, bottom: 0.88 } as const; // m
-
-/** How far behind the middle of the table the board hangs, m. */
-export const boardDistance = (seats: number): number => circleRadius(seats) + 1.25;
+const BOARD = { width: 3.2, height: 1.6, bottom: 0.88 } as const; // m
 
 // Opaque things are drawn from the front to the back, so that what is hidden costs nothing: the sky comes last.
 const LATE = { floor: 2, hills: 3, sky: 4 } as const;
 
-/** A floor that goes over into the horizon. */
+/** Without light and fog. */
+function distant(geometry: BufferGeometry, order: number, more: MeshBasicMaterialParameters = {}): Mesh {
+  const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, fog: false, ...more }));
+  mesh.renderOrder = order;
+  return mesh;
+}
+
+/** A floor that blends into the horizon. */
 function floor(colours: Palette): Mesh {
   const rings = [0, 5.2, 7, 9, 11.5, 14.5, 18, 24];
   const geometry = new RingGeometry(0, 24, 64, rings.length - 1).rotateX(-Math.PI / 2);
   const p = geometry.getAttribute("position");
-  const near = new Color(colours.floor);
-  const far = new Color(colours.horizon);
-  const c = new Float32Array(3 * p.count);
-  for (let i = 0; i < p.count; i++) {
+  const [near, far] = [new Color(colours.floor), new Color(colours.horizon)];
+  shaded(geometry, (i) => {
     const ring = rings[Math.floor(i / 65)]!;
     const a = Math.atan2(p.getX(i), p.getZ(i));
-    // At one point all directions are the same: the innermost ring has none of its own.
+    // The innermost ring is a point without directions.
     if (ring > 0) p.setXYZ(i, ring * Math.sin(a), 0, ring * Math.cos(a));
-    const k = Math.min(1, Math.max(0, (ring - 5.2) / 12));
-    new Color().lerpColors(near, far, k * k * (3 - 2 * k)).toArray(c, 3 * i);
-  }
-  geometry.setAttribute("color", new BufferAttribute(c, 3));
-  const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, fog: false }));
-  mesh.renderOrder = LATE.floor;
-  return mesh;
+    return new Color().lerpColors(near, far, MathUtils.smoothstep(ring, 5.2, 17.2));
+  });
+  return distant(geometry, LATE.floor);
 }
 
 function sky(colours: Palette): Mesh {
   const geometry = new SphereGeometry(40, 24, 16);
   const p = geometry.getAttribute("position");
-  const high = new Color(colours.zenith);
-  const low = new Color(colours.horizon);
-  const c = new Float32Array(3 * p.count);
-  for (let i = 0; i < p.count; i++) {
+  const [low, high] = [new Color(colours.horizon), new Color(colours.zenith)];
+  shaded(geometry, (i) => {
     const k = Math.min(1, Math.max(0, p.getY(i) / 40 - 0.02) * 1.6);
-    new Color().lerpColors(low, high, k).toArray(c, 3 * i);
-  }
-  geometry.setAttribute("color", new BufferAttribute(c, 3));
-  const mesh = new Mesh(
-    geometry,
-    new MeshBasicMaterial({ vertexColors: true, side: BackSide, fog: false, depthWrite: false }),
-  );
-  mesh.renderOrder = LATE.sky;
-  return mesh;
+    return new Color().lerpColors(low, high, k);
+  });
+  return distant(geometry, LATE.sky, { side: BackSide, depthWrite: false });
 }
 
 /** Soft hills before the sky. */
@@ -90,12 +81,7 @@ function hills(colours: Palette): Mesh {
     const colour = new Color(colours.horizon).lerp(new Color(colours.zenith), 0.62 - 0.3 * k);
     return painted(geometry, colour.getHex());
   });
-  const mesh = new Mesh(
-    merged(parts),
-    new MeshBasicMaterial({ vertexColors: true, side: BackSide, fog: false }),
-  );
-  mesh.renderOrder = LATE.hills;
-  return mesh;
+  return distant(merged(parts), LATE.hills, { side: BackSide });
 }
 
 function rug(radius: number, colours: Palette): Mesh[] {
@@ -174,7 +160,7 @@ function plant(colours: Palette, tall: number): BufferGeometry {
 /** Of the whole meeting but table and chairs. `slate`: the picture on the board. */
 export function hall(seats: number, colours: Palette, slate: CanvasTexture): Object3D[] {
   const solid = new MeshLambertMaterial({ vertexColors: true });
-  const z = -boardDistance(seats);
+  const z = -(circleRadius(seats) + 1.25); // of the board, behind the table
   const back = new Mesh(wall(colours), solid);
   const frame = new Mesh(boardFrame(colours), solid);
   const board = new Mesh(

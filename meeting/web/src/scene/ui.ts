@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of the meeting for the page. The 3-D library is the largest part of it and comes by itself, beside the door.
+// The picture of the meeting. The 3-D library is the largest part of it and is loaded separately, during the entry form.
 
 import { byId } from "#web/shared/dom";
 import type { DebugPose } from "../debug";
-import { MeetingLoop, type Shown } from "../loop";
 import type { Stroke } from "../messages";
 import type { Rig } from "../rig";
 import type { Roster } from "../roster";
@@ -15,12 +14,20 @@ import { DAY, EVENING, type Palette } from "./palette";
 import type { MeetingStage } from "./meeting_stage";
 import { Tags } from "./tags";
 
+/** What the scene shows. */
+interface Shown {
+  roster: Roster;
+  me: string | null;
+  /** The scene is covered. */
+  covered: boolean;
+}
+
 export class SceneUi {
   readonly slate: BoardCanvas;
-  /** Null before the 3-D library is there, or when the browser cannot draw in 3-D. */
+  /** Null before the 3-D library is loaded, or when the browser cannot draw in 3-D. */
   cast: Cast | null = null;
   private stage: MeetingStage | null = null;
-  private loop: MeetingLoop | null = null;
+  private ticks = 0;
   private readonly tags = new Tags(byId("tags", HTMLElement));
   private readonly dark = window.matchMedia("(prefers-color-scheme: dark)");
   private built = "";
@@ -49,7 +56,7 @@ export class SceneUi {
     return this.dark.matches ? EVENING : DAY;
   }
 
-  /** `complain`: why there is no picture, in words. */
+  /** `complain` shows why there is no picture. */
   async open(complain: (words: string) => void): Promise<void> {
     const canvas = byId("meeting-canvas", HTMLCanvasElement);
     const parts = await Promise.all([
@@ -80,15 +87,34 @@ export class SceneUi {
       this.strangers(this.fetchStrangers);
       this.still(this.calm);
       control(canvas, this.rig);
-      this.loop = new MeetingLoop(stage, cast, this.rig, this.tags, this.what, () => this.calm);
       const { roster, me } = this.what();
-      this.build();
-      cast.follow(roster, me);
-      this.loop.start();
+      this.follow(roster, me);
+      const tick = (): void => {
+        requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
+        this.ticks++;
+        const now = performance.now() / 1000;
+        if (stage.ready(now) || stage.blank) this.draw(stage, cast, now);
+      };
+      requestAnimationFrame(tick);
     } catch (e) {
       console.warn("3-D:", e);
       missing("This browser cannot draw in 3-D (WebGL is off).");
     }
+  }
+
+  /** In an animation frame: the poses, then the picture. */
+  private draw(stage: MeetingStage, cast: Cast, now: number): void {
+    const { roster, me, covered } = this.what();
+    this.tags.step(now);
+    if (covered) {
+      stage.paused();
+      return;
+    }
+    const moved = cast.show(roster, now);
+    const anchor = cast.anchor(me, roster);
+    const eyes = this.rig.view === "eyes" && anchor ? me : null;
+    cast.hide(eyes);
+    stage.draw(now, moved, anchor, this.calm || stage.software, eyes);
   }
 
   private build(): void {
@@ -99,7 +125,7 @@ export class SceneUi {
     this.stage.build(roster.meeting.seats, this.furtherSeats(roster), this.colours);
   }
 
-  /** Somebody came, went or changed, or the meeting did. */
+  /** Call it after a change of participants or of the meeting. */
   follow(roster: Roster, me: string | null): void {
     this.build();
     this.cast?.follow(roster, me);
@@ -124,7 +150,7 @@ export class SceneUi {
     if (this.cast) this.cast.still = on;
   }
 
-  /** What stands now, of those who have both motion and an avatar. */
+  /** The shown poses of those who have both motion and an avatar. */
   poses(roster: Roster): Record<string, DebugPose> {
     const out: Record<string, DebugPose> = {};
     for (const p of roster.here) {
@@ -138,7 +164,7 @@ export class SceneUi {
   get counters(): Record<string, number> {
     return {
       ...this.stage?.counters,
-      ticks: this.loop?.ticks ?? 0,
+      ticks: this.ticks,
       software: Number(this.stage?.software ?? false),
     };
   }
