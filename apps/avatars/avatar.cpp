@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "avatars/outfit.h"
 #include "avatars/skinning.h"
+#include "avatars/tailor.h"
 #include "telemime/core/errors.h"
 #include "telemime/outputs/gltf/humanoid.h"
 

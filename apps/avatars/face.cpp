@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "avatars/outfit.h"
 #include "avatars/tailor.h"
 
 namespace telemime {

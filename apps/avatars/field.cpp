@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "avatars/field.h"
+#include "avatars/surface.h"
 
 #include <algorithm>
 #include <cmath>

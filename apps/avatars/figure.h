@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "avatars/field.h"
+#include "avatars/surface.h"
 #include "telemime/body/body.h"
 #include "telemime/outputs/humanoid.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include "avatars/outfit.h"
 #include "avatars/tailor.h"
 
 namespace telemime {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "avatars/outfit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

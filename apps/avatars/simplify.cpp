@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "avatars/simplify.h"
+#include "avatars/surface.h"
 
 #include <meshoptimizer.h>
 
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include "avatars/skinning.h"
@@ -15,7 +15,6 @@ namespace telemime {
 namespace {
 
 constexpr double kBend = 0.9;  // rad, of every joint
-constexpr auto kGone = std::numeric_limits<std::uint32_t>::max();
 
 struct BentSkeleton {
   std::array<Eigen::Vector3d, kHumanBoneCount> joint;
@@ -49,16 +48,6 @@ Eigen::Vector3d moved(const HumanoidSkeleton& skeleton, const BentSkeleton& to, 
   return sum;
 }
 
-void keep(std::vector<Eigen::Vector3d>& values, const std::vector<std::uint32_t>& place) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (place[i] != kGone) {
-      values[count++] = values[i];
-    }
-  }
-  values.resize(count);
-}
-
 }  // namespace
 
 void simplify(const Figure& figure, double error, Triangles& mesh) {
@@ -66,38 +55,27 @@ void simplify(const Figure& figure, double error, Triangles& mesh) {
     return;
   }
   const BentSkeleton to = bend(figure.skeleton);
-  std::vector<float> points;
-  points.reserve(3 * mesh.vertices.size());
+  std::vector<Eigen::Vector3f> points;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    const Eigen::Vector3f p = moved(figure.skeleton, to, vertex, skin_weights(figure, vertex)).cast<float>();
-    points.insert(points.end(), p.begin(), p.end());
+    points.push_back(moved(figure.skeleton, to, vertex, skin_weights(figure, vertex)).cast<float>());
   }
-  std::vector<std::uint32_t> indices;
-  indices.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    indices.insert(indices.end(), t.begin(), t.end());
-  }
-  constexpr std::size_t kStride = 3 * sizeof(float);
-  const std::size_t count = mesh.vertices.size();
-  const float scale = meshopt_simplifyScale(points.data(), count, kStride);
-  std::vector<std::uint32_t> fewer(indices.size());
-  fewer.resize(meshopt_simplify(fewer.data(), indices.data(), indices.size(), points.data(), count, kStride,
-                                0, static_cast<float>(error) / scale, 0, nullptr));
+  const std::size_t count = points.size();
+  const float* const numbers = points.data()->data();
+  const float scale = meshopt_simplifyScale(numbers, count, sizeof(Eigen::Vector3f));
+  std::vector<std::array<std::uint32_t, 3>> fewer(mesh.triangles.size());
+  std::uint32_t* const indices = fewer.data()->data();
+  fewer.resize(meshopt_simplify(indices, mesh.triangles.data()->data(), 3 * fewer.size(), numbers, count,
+                                sizeof(Eigen::Vector3f), 0, static_cast<float>(error) / scale, 0, nullptr) /
+               3);
 
-  std::vector<std::uint32_t> place(count, kGone);
-  for (const std::uint32_t v : fewer) {
-    place[v] = 0;
+  std::vector<std::uint32_t> place(count);
+  const std::size_t kept = meshopt_optimizeVertexFetchRemap(place.data(), indices, 3 * fewer.size(), count);
+  for (std::vector<Eigen::Vector3d>* const values : {&mesh.vertices, &mesh.normals}) {
+    meshopt_remapVertexBuffer(values->data(), values->data(), count, sizeof(Eigen::Vector3d), place.data());
+    values->resize(kept);
   }
-  std::uint32_t next = 0;
-  for (std::uint32_t& p : place) {
-    p = p == kGone ? kGone : next++;
-  }
-  keep(mesh.vertices, place);
-  keep(mesh.normals, place);
-  mesh.triangles.clear();
-  for (std::size_t i = 0; i < fewer.size(); i += 3) {
-    mesh.triangles.push_back({place[fewer[i]], place[fewer[i + 1]], place[fewer[i + 2]]});
-  }
+  meshopt_remapIndexBuffer(indices, indices, 3 * fewer.size(), place.data());
+  mesh.triangles = std::move(fewer);
 }
 
 }  // namespace telemime

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "avatars/simplify.h"
-
 namespace telemime {
 
 using Eigen::Vector3d;

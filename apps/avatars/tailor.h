@@ -2,12 +2,23 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "avatars/outfit.h"
+#include "avatars/avatar.h"
+#include "avatars/figure.h"
+#include "avatars/surface.h"
 
 namespace telemime {
+
+/// A surface of one colour, in the T-pose.
+struct AvatarPart {
+  std::string name;  ///< of its material; parts of the same name are of the same material
+  Colour colour = 0;
+  double roughness = 0.8;  ///< 0 mirror, 1 chalk
+  Triangles surface;
+  bool glows = false;
+  std::vector<Eigen::Vector3d> blink = {};  ///< where each vertex goes when the eyes close; else empty
+};
 
 /// What garments are cut with: planes of the T-pose world and boxes about the person.
 struct Tailor {
@@ -45,6 +56,15 @@ struct Tailor {
   void add_pair(const std::string& name, Colour colour, double roughness, const Field& field,
                 const Eigen::AlignedBox3d& box, double cell);
 };
+
+/// Skin and clothes, without hair and face.
+std::vector<AvatarPart> make_outfit(const Figure& figure, const AvatarLook& look);
+
+/// What is fixed to the head: hair, or a robot's helmet; may be empty.
+std::vector<AvatarPart> make_hair(const Figure& figure, const AvatarLook& look);
+
+/// Eyes, brows and mouth, drawn on the head. All parts know how to blink.
+std::vector<AvatarPart> make_face(const Figure& figure, const AvatarLook& look);
 
 /// White shells over a dark frame.
 void dress_robot(Tailor& tailor);
