@@ -10,12 +10,12 @@ const A = stroke(1, 2, 3, 4);
 const B = stroke(5, 6, 7, 8);
 const C = stroke(9, 9);
 
-/** A way with `n` corners. */
+/** A path with `n` corners. */
 const zigzag = (n: number): number[] =>
   Array.from({ length: 2 * n }, (_, i) => (i % 2 ? (i % 4) / 4 : i / 2 / n));
 
 describe("strokes", () => {
-  it("keep their way with few points", () => {
+  it("keep their shape with few points", () => {
     const line = Array.from({ length: 200 }, (_, i) => [i * 10, i * 10]).flat();
     expect(simplify(line, 1)).toEqual([0, 0, 1990, 1990]);
     const circle = Array.from({ length: 361 }, (_, i) => [
@@ -28,7 +28,7 @@ describe("strokes", () => {
       expect(Math.hypot(few[i]! - 5000, few[i + 1]! - 5000)).toBeCloseTo(1000, 3);
     }
   });
-  it("go on as others when they are long, without a gap", () => {
+  it("are split without a gap when long", () => {
     const all = strokesOf("#ffffff", 20, zigzag(1000));
     expect(all.length).toBe(4);
     all.forEach((s, i) => {
@@ -37,11 +37,11 @@ describe("strokes", () => {
       expect(s.p.every((v) => Number.isInteger(v) && v >= 0 && v <= 10000)).toBe(true);
     });
   });
-  it("of one point are dots, and what is beside the board is on its edge", () => {
+  it("of one point are dots within the board", () => {
     expect(strokesOf("#ffffff", 20, [0.5, 0.25])).toEqual([{ c: "#ffffff", w: 20, p: [5000, 2500] }]);
     expect(strokesOf("#ffffff", 20, [-1, 2])[0]!.p).toEqual([0, 10000]);
   });
-  it("that are dark are lightened on the slate", () => {
+  it("of dark colours are lightened", () => {
     expect(onSlate("#f4f1e8")).toBe("#f4f1e8");
     expect(onSlate("#000000")).toBe("#737373");
     expect(onSlate("#202020")).toMatch(/^#7/);
@@ -49,7 +49,7 @@ describe("strokes", () => {
 });
 
 describe("the board", () => {
-  it("tells what was added, and when all is to be drawn anew", () => {
+  it("reports added strokes and redraws", () => {
     const b = new Board();
     expect(b.setPage("p01", 0, page(0, A))).toEqual([A]);
     expect(b.setPage("p01", 0, page(0, A, B))).toEqual([B]);
@@ -63,7 +63,7 @@ describe("the board", () => {
     expect(b.strokes).toEqual([C]);
     expect(b.setPage("p09", 5, null)).toEqual([]);
   });
-  it("is wiped by a higher epoch; pages of a lower one are not taken", () => {
+  it("is wiped by a higher epoch", () => {
     const b = new Board();
     b.setPage("p01", 0, page(0, A));
     b.setEpoch(2);
@@ -73,57 +73,58 @@ describe("the board", () => {
     expect(b.setPage("p01", 0, page(2, B))).toEqual([B]);
     expect(b.strokes).toEqual([B]);
   });
-  it("shows pages of a higher epoch when the meeting has it, not before", () => {
+  it("shows later epochs with the meeting's", () => {
     const b = new Board();
     expect(b.setPage("p01", 0, page(3, A))).toEqual([]);
     expect(b.strokes).toEqual([]);
     b.setEpoch(3);
     expect(b.strokes).toEqual([A]);
   });
-  it("has an end for one and for all", () => {
+  it("limits the points of one and of all", () => {
     const b = new Board();
     const large = page(0, stroke(...Array.from({ length: 3000 }, () => 1)));
     for (let i = 0; i < 64; i++) b.setPage("p01", i, large);
     const count = () => b.strokes.reduce((n, s) => n + s.p.length / 2, 0);
     expect(count()).toBeLessThanOrEqual(MAX_OF_ONE);
     expect(b.crowded).toBeGreaterThan(0);
-    expect(b.setPage("p02", 0, page(0, A))).toEqual([A]); // others are not harmed
+    expect(b.setPage("p02", 0, page(0, A))).toEqual([A]); // other participants are not affected
     for (let id = 3; id < 60; id++) for (let i = 0; i < 64; i++) b.setPage(`p${id}`, i, large);
     expect(count()).toBeLessThanOrEqual(MAX_OF_ALL);
   });
 });
 
-/** The broker: what it has of one's pages. */
-function broker(own: OwnStrokes, kept = new Map<number, Uint8Array>()) {
+/** Own strokes, and a broker with the pages that it has retained. */
+function connected(kept = new Map<number, Uint8Array>()) {
+  const own = new OwnStrokes();
   return {
+    own,
     kept,
-    /** Sends what waits; `echo` gives it back. */
-    send(echo = true) {
+    /** Publishes what waits; it comes back. */
+    send() {
       for (const { page: n, bytes } of own.take()) {
         if (bytes.length) kept.set(n, bytes);
         else kept.delete(n);
-        if (echo) own.receive(n, bytes.length ? readBoard(bytes) : null);
+        own.receive(n, bytes.length ? readBoard(bytes) : null);
       }
     },
-    /** All strokes that it has. */
+    /** All retained strokes. */
     get strokes() {
       return [...kept].sort((a, b) => a[0] - b[0]).flatMap(([, bytes]) => readBoard(bytes)!.strokes);
     },
   };
 }
 
-describe("one's own strokes", () => {
-  it("are told page by page, each of which fits", () => {
-    const own = new OwnStrokes();
-    const b = broker(own);
+describe("own strokes", () => {
+  it("are published in pages that fit", () => {
+    const b = connected();
     for (let i = 0; i < 40; i++) {
-      expect(own.draw("#ffffff", 40, zigzag(200))).toBe(true);
+      expect(b.own.draw("#ffffff", 40, zigzag(200))).toBe(true);
       b.send();
     }
     expect(b.kept.size).toBeGreaterThan(2);
     for (const bytes of b.kept.values()) expect(bytes.length).toBeLessThanOrEqual(PAGE_BYTES);
     expect(b.strokes.length).toBe(40);
-    expect(own.waiting).toBe(false);
+    expect(b.own.waiting).toBe(false);
   });
   it("end when all pages are full", () => {
     const own = new OwnStrokes();
@@ -135,8 +136,8 @@ describe("one's own strokes", () => {
     for (const { bytes } of pages) expect(bytes.length).toBeLessThanOrEqual(LIMITS.board);
   });
   it("are undone line by line, to the first", () => {
-    const own = new OwnStrokes();
-    const b = broker(own);
+    const b = connected();
+    const { own } = b;
     own.draw("#ffffff", 40, [0, 0, 1, 1]);
     own.draw("#ffffff", 10, zigzag(1000)); // in four parts
     b.send();
@@ -149,22 +150,20 @@ describe("one's own strokes", () => {
     b.send();
     expect(b.kept.size).toBe(0);
   });
-  it("of an earlier visit are found again, and can be undone", () => {
-    const before = new OwnStrokes();
-    const kept = broker(before);
-    before.draw("#ffffff", 40, [0, 0, 1, 1]);
-    before.draw("#ffffff", 40, [0, 1, 1, 0]);
-    kept.send();
-    const own = new OwnStrokes();
-    for (const [n, bytes] of kept.kept) expect(own.receive(n, readBoard(bytes))).toBe(true);
-    own.settled();
-    expect(own.waiting).toBe(false);
-    own.undo();
-    const b = broker(own, kept.kept);
+  it("of an earlier visit can be undone", () => {
+    const before = connected();
+    before.own.draw("#ffffff", 40, [0, 0, 1, 1]);
+    before.own.draw("#ffffff", 40, [0, 1, 1, 0]);
+    before.send();
+    const b = connected(before.kept);
+    for (const [n, bytes] of b.kept) expect(b.own.receive(n, readBoard(bytes))).toBe(true);
+    b.own.settled();
+    expect(b.own.waiting).toBe(false);
+    b.own.undo();
     b.send();
     expect(b.strokes.length).toBe(1);
   });
-  it("are not overtaken by what comes back late", () => {
+  it("are not replaced by late echoes", () => {
     const own = new OwnStrokes();
     own.draw("#ffffff", 40, [0, 0, 1, 1]);
     const first = own.take()[0]!.bytes;
@@ -177,9 +176,9 @@ describe("one's own strokes", () => {
     expect(own.receive(0, readBoard(first))).toBe(false); // drawn on since
     expect(own.content.get(0)!.strokes.length).toBe(3);
   });
-  it("are told again to a broker that lost them, and only then", () => {
-    const own = new OwnStrokes();
-    const b = broker(own);
+  it("are repeated to a broker that lost them", () => {
+    const b = connected();
+    const { own } = b;
     own.draw("#ffffff", 40, [0, 0, 1, 1]);
     b.send();
     own.connected();
@@ -193,9 +192,9 @@ describe("one's own strokes", () => {
     b.send();
     expect(b.strokes.length).toBe(2);
   });
-  it("are wiped with the board, and their pages cleared", () => {
-    const own = new OwnStrokes();
-    const b = broker(own);
+  it("are wiped with the board", () => {
+    const b = connected();
+    const { own } = b;
     own.draw("#ffffff", 40, [0, 0, 1, 1]);
     b.send();
     own.setEpoch(1);
@@ -205,7 +204,7 @@ describe("one's own strokes", () => {
     b.send();
     expect(readBoard(b.kept.get(0)!)!.epoch).toBe(1);
   });
-  it("left from before the board was wiped are cleared", () => {
+  it("from before a wipe are cleared", () => {
     const own = new OwnStrokes();
     own.setEpoch(5);
     expect(own.receive(3, page(4, A))).toBe(false);

@@ -6,7 +6,8 @@ import { readPresence, readState, toBytes } from "./messages";
 const BASE = "r/lab/main";
 const STATE = { name: "Ana", avatar: { look: "plain" }, seat: 2 };
 
-function make() {
+/** This page as a participant; with `session` it has announced itself. `take` gives what it has published since. */
+function make(session?: number) {
   const said: string[] = [];
   const me = new LocalParticipant(BASE, "p01", STATE, (topic, payload, retain) => {
     const kind = topic.split("/").at(-1)! + (retain ? "" : " once");
@@ -16,6 +17,11 @@ function make() {
     else said.push(`${kind} ${readState(payload)!.name} ${readState(payload)!.session}`);
   });
   const take = () => said.splice(0);
+  if (session !== undefined) {
+    me.connected(session);
+    me.settled();
+    take();
+  }
   return { me, take };
 }
 
@@ -24,14 +30,14 @@ const tracker = (session: number) =>
   toBytes({ session, kind: "tracker", name: "Ana", seat: 2, avatar: null });
 
 describe("this page as a participant", () => {
-  it("says that it is here once the meeting has told what it knows", () => {
+  it("announces itself after the retained messages", () => {
     const { me, take } = make();
     me.connected(7);
     expect(take()).toEqual([]);
     me.settled();
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
     expect(me.announced).toBe(true);
-    me.receive("presence", presence(true, 7)); // its own words
+    me.receive("presence", presence(true, 7)); // its own message
     expect(take()).toEqual([]);
     me.change({ ...STATE, name: "Anna" });
     expect(take()).toEqual(["state Anna 7"]);
@@ -40,11 +46,8 @@ describe("this page as a participant", () => {
     me.leave();
     expect(take()).toEqual([]);
   });
-  it("does not take its own earlier connection, whose last will was lost, for somebody else", () => {
-    const { me, take } = make();
-    me.connected(7);
-    me.settled();
-    take();
+  it("recognises its own earlier connection", () => {
+    const { me, take } = make(7);
     me.connected(8);
     me.receive("presence", presence(true, 7)); // as the broker has kept it
     me.settled();
@@ -53,7 +56,7 @@ describe("this page as a participant", () => {
     me.receive("presence", presence(true, 7));
     expect(me.other).toBeNull();
   });
-  it("says nothing when a tracker speaks for the same seat, until that has gone", () => {
+  it("is silent while a tracker is here", () => {
     const { me, take } = make();
     me.connected(7);
     me.receive("presence", presence(true, 50));
@@ -65,7 +68,7 @@ describe("this page as a participant", () => {
     me.leave();
     expect(take()).toEqual([]);
     me.connected(8);
-    me.receive("state", tracker(50)); // in the other order
+    me.receive("state", tracker(50)); // in the opposite order
     me.receive("presence", presence(true, 50));
     me.settled();
     expect(me.other).toEqual({ session: 50, kind: "tracker" });
@@ -73,30 +76,24 @@ describe("this page as a participant", () => {
     expect(take()).toEqual(["presence true 8", "state Anna 8"]);
     expect(me.other).toBeNull();
   });
-  it("steps back for a tracker that comes later", () => {
-    const { me, take } = make();
-    me.connected(7);
-    me.settled();
-    take();
+  it("yields to a tracker that joins later", () => {
+    const { me, take } = make(7);
     me.receive("presence", presence(true, 50));
     me.receive("state", tracker(50));
-    me.receive("presence", presence(false, 49)); // of somebody before
+    me.receive("presence", presence(false, 49)); // of an earlier session
     expect(take()).toEqual([]);
     expect(me.other?.kind).toBe("tracker");
     me.receive("presence", presence(false, 50));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
   });
-  it("says it again when the will of its last connection comes late, or somebody wipes it", () => {
-    const { me, take } = make();
-    me.connected(7);
-    me.settled();
-    take();
+  it("repeats its presence after a late last will", () => {
+    const { me, take } = make(7);
     me.receive("presence", presence(false, 6));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
     me.receive("presence", new Uint8Array(0));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
   });
-  it("breathes while it is here and nobody else speaks for it", () => {
+  it("signals its presence while it is active", () => {
     const { me, take } = make();
     me.signalPresence();
     me.connected(7);
@@ -117,17 +114,14 @@ describe("this page as a participant", () => {
     me.signalPresence();
     expect(take()).toEqual([]);
   });
-  it("speaks for two windows that came in the same moment in just one of them", () => {
+  it("publishes in one of two equal windows", () => {
     const window = (session: number) =>
       toBytes({ session, kind: "browser", name: "Ana", seat: 2, avatar: null });
-    for (const told of [true, false]) {
+    for (const stated of [true, false]) {
       const said = [7, 8].map((session) => {
-        const { me, take } = make();
-        me.connected(session);
-        me.settled();
-        take();
+        const { me, take } = make(session);
         me.receive("presence", presence(true, 15 - session));
-        if (told) me.receive("state", window(15 - session));
+        if (stated) me.receive("state", window(15 - session));
         me.signalPresence();
         me.change({ ...STATE, name: "Anna" });
         me.leave();
@@ -136,22 +130,22 @@ describe("this page as a participant", () => {
       expect(said).toEqual([[], ["presence once true 8", "state Anna 8", "presence false 8", "state -"]]);
     }
   });
-  it("takes the place of somebody who has vanished, and gives it back when their frames come again", () => {
+  it("replaces a vanished tracker until it returns", () => {
     const { me, take } = make();
     me.connected(7);
     me.receive("presence", presence(true, 50));
     me.receive("state", tracker(50));
-    me.vanished(); // while the meeting still tells what it knows
+    me.vanished(); // while retained messages arrive
     expect(take()).toEqual([]);
     me.receive("presence", presence(true, 50));
     me.settled();
     expect(take()).toEqual([]);
     me.vanished();
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
-    me.vanished(); // nobody else is there
+    me.vanished(); // there is no other client
     expect(take()).toEqual([]);
     me.tracked(50);
-    expect(take()).toEqual(["presence false 7"]); // the tracker then tells what it is
+    expect(take()).toEqual(["presence false 7"]); // the tracker then publishes its state
     expect(me.other).toEqual({ session: 50, kind: "tracker" });
     me.receive("presence", presence(false, 7));
     me.tracked(50);
@@ -159,7 +153,7 @@ describe("this page as a participant", () => {
     me.leave();
     expect(take()).toEqual([]);
   });
-  it("gives the place back to a tracker that says so before its frames come, or whose will came late", () => {
+  it("yields to a returning tracker's presence", () => {
     for (const why of ["silent", "late will"]) {
       const { me, take } = make();
       me.connected(7);
@@ -172,7 +166,7 @@ describe("this page as a participant", () => {
       me.receive("presence", presence(true, 50));
       expect(take()).toEqual(["presence false 7"]);
       me.receive("presence", presence(false, 7));
-      me.receive("presence", presence(true, 50)); // and its state: it has heard that it is gone
+      me.receive("presence", presence(true, 50)); // it repeats its presence and state
       me.tracked(50);
       me.signalPresence();
       expect(take()).toEqual([]);
@@ -180,27 +174,22 @@ describe("this page as a participant", () => {
       expect(take()).toEqual(["presence true 7", "state Ana 7"]);
     }
   });
-  it("is silent while a tracker speaks, whatever other windows say", () => {
-    const { me, take } = make();
-    me.connected(9);
-    me.settled();
-    take();
+  it("is silent with a tracker and other windows", () => {
+    const { me, take } = make(9);
     me.tracked(50);
     expect(take()).toEqual(["presence false 9"]);
     for (const here of [true, false]) me.receive("presence", presence(here, 7));
     me.tracked(50);
     me.signalPresence();
     expect(take()).toEqual([]);
-    me.tracked(51); // started anew
-    me.receive("presence", presence(false, 50)); // the will of the old one
+    me.tracked(51); // restarted
+    me.receive("presence", presence(false, 50)); // the last will of the old one
     expect(take()).toEqual([]);
     me.receive("presence", presence(false, 51));
     expect(take()).toEqual(["presence true 9", "state Ana 9"]);
   });
-  it("says nothing after goodbye", () => {
-    const { me, take } = make();
-    me.connected(7);
-    me.settled();
+  it("publishes nothing after it has left", () => {
+    const { me, take } = make(7);
     me.leave();
     take();
     me.receive("presence", presence(false, 7));

@@ -11,9 +11,15 @@ beforeEach(() => {
 afterEach(() => vi.useRealTimers());
 
 const wait = (ms: number) => vi.advanceTimersByTimeAsync(ms);
+/** Two pages that are in the meeting. */
+async function anaAndBo(): Promise<[Page, Page]> {
+  const pages: [Page, Page] = [new Page(broker, "p01", "Ana"), new Page(broker, "p02", "Bo")];
+  await wait(3000);
+  return pages;
+}
 
 describe("a page in a meeting", () => {
-  it("sees others come, speak and go, on seats of their own", async () => {
+  it("sees others join, write and leave", async () => {
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     const bo = new Page(broker, "p02", "Bo");
@@ -28,10 +34,10 @@ describe("a page in a meeting", () => {
     bo.client.leave();
     await wait(1000);
     expect(ana.said).toEqual(["* Bo joined.", "Bo: hello", "* Bo left."]);
-    expect(bo.said).toEqual(["Bo: hello"]); // who was here before is not announced
+    expect(bo.said).toEqual(["Bo: hello"]); // earlier participants are not announced
     expect([...broker.kept.keys()]).not.toContain(`${TOPIC}/p/p02/state`);
   });
-  it("does not tell again and again of one who comes and goes all the time", async () => {
+  it("limits the notes about one participant", async () => {
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     for (let i = 0; i < 60; i++) {
@@ -48,7 +54,7 @@ describe("a page in a meeting", () => {
     expect(Object.values(pages[0]!.seats).sort()).toEqual([0, 1]);
     expect(pages[0]!.seats).toEqual(pages[1]!.seats);
   });
-  it("asks for the seat that it was given when somebody with a smaller id wants its own", async () => {
+  it("requests its assigned seat", async () => {
     const bo = new Page(broker, "p02", "Bo");
     await wait(1000);
     expect(bo.seats).toEqual({ p02: 0 });
@@ -58,9 +64,9 @@ describe("a page in a meeting", () => {
     expect(bo.seats).toEqual({ p01: 0, p02: 1 });
     broker.presence("p01", false);
     await wait(1000);
-    expect(bo.seats).toEqual({ p02: 1 }); // nobody is moved because somebody leaves
+    expect(bo.seats).toEqual({ p02: 1 }); // leaving moves nobody
   });
-  it("keeps its seat among those who want any", async () => {
+  it("keeps its seat among others without requests", async () => {
     for (const [i, id] of ["p13", "p14"].entries()) {
       broker.presence(id, true);
       broker.state(id, `T${i}`, null);
@@ -80,17 +86,15 @@ describe("a page in a meeting", () => {
   });
 });
 
-describe("when the broker dies and comes back with nothing", () => {
-  it("everybody is there again without a word, and what was said meanwhile is said", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    const bo = new Page(broker, "p02", "Bo");
-    await wait(3000);
+describe("after the broker was restarted", () => {
+  it("all return and waiting messages are sent", async () => {
+    const [ana, bo] = await anaAndBo();
     bo.client.draw("#ffffff", 40, [0, 0, 1, 1]);
     await wait(500);
     broker.die();
     await wait(4000);
     expect(ana.client.state.kind).toBe("lost");
-    expect(ana.names).toEqual(["Ana", "Bo"]); // still to be seen
+    expect(ana.names).toEqual(["Ana", "Bo"]); // still visible
     expect(ana.client.say("are you there?")).toBe("");
     bo.client.draw("#ffffff", 40, [0, 1, 1, 0]);
     broker.up = true;
@@ -105,10 +109,8 @@ describe("when the broker dies and comes back with nothing", () => {
     expect(late.client.board.strokes.length).toBe(2);
     expect(late.names).toEqual(["Ana", "Bo", "Chidi"]);
   });
-  it("all that was written meanwhile is heard by all, as fast as they listen", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    const bo = new Page(broker, "p02", "Bo");
-    await wait(3000);
+  it("all waiting messages arrive", async () => {
+    const [ana, bo] = await anaAndBo();
     broker.die();
     await wait(2000);
     const lines = Array.from({ length: 20 }, (_, i) => `line ${i}`);
@@ -119,10 +121,8 @@ describe("when the broker dies and comes back with nothing", () => {
       expect(p.said.filter((l) => l.startsWith("Ana"))).toEqual(lines.map((l) => `Ana: ${l}`));
     expect(ana.client.outbox.waiting).toEqual([]);
   });
-  it("what waited is said by the page that comes in anew, when the others are back", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    const bo = new Page(broker, "p02", "Bo");
-    await wait(3000);
+  it("a reopened page sends waiting messages", async () => {
+    const [ana, bo] = await anaAndBo();
     broker.die();
     await wait(2000);
     ana.client.say("are you there?");
@@ -130,7 +130,7 @@ describe("when the broker dies and comes back with nothing", () => {
     broker.up = true;
     const again = new Page(broker, "p01", "Ana", ["speak", "board"], ana.client.outbox);
     await wait(2000);
-    expect(again.client.outbox.waiting.length).toBe(1); // nobody may be there yet to hear it
+    expect(again.client.outbox.waiting.length).toBe(1); // the others may not be back yet
     await wait(40000);
     expect(bo.said.at(-1)).toBe("Ana: are you there?");
     expect(again.client.outbox.waiting).toEqual([]);
@@ -138,10 +138,8 @@ describe("when the broker dies and comes back with nothing", () => {
     await wait(100);
     expect(bo.said.at(-1)).toBe("Ana: at once");
   });
-  it("who does not come back has left", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    const bo = new Page(broker, "p02", "Bo");
-    await wait(3000);
+  it("a page that does not return has left", async () => {
+    const [ana, bo] = await anaAndBo();
     broker.die();
     bo.client.stop();
     broker.up = true;
@@ -151,7 +149,7 @@ describe("when the broker dies and comes back with nothing", () => {
     expect(ana.names).toEqual(["Ana"]);
     expect(ana.said).toEqual(["* Bo joined.", "* Bo left."]);
   });
-  it("chairs tell what the meeting is", async () => {
+  it("chairs publish the meeting again", async () => {
     const meeting = { title: "Blue", seats: 5, epoch: 3, chairs: ["p01"], locked: false };
     broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
     const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
@@ -167,10 +165,9 @@ describe("when the broker dies and comes back with nothing", () => {
 });
 
 describe("a page that vanishes", () => {
-  it("is gone within its keep-alive of 10 s, whenever the broker notices", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    new Page(broker, "p02", "Bo");
-    await wait(40000);
+  it("leaves within its keep-alive of 10 s", async () => {
+    const [ana] = await anaAndBo();
+    await wait(37000);
     expect(ana.names).toEqual(["Ana", "Bo"]);
     broker.lose();
     await wait(5000);
@@ -181,11 +178,10 @@ describe("a page that vanishes", () => {
   });
 });
 
-describe("a broker that is not heard for a while", () => {
+describe("a silent broker", () => {
   it("makes nobody leave", async () => {
-    const ana = new Page(broker, "p01", "Ana");
-    new Page(broker, "p02", "Bo");
-    await wait(10000);
+    const [ana] = await anaAndBo();
+    await wait(7000);
     broker.deaf = true;
     await wait(15000);
     broker.deaf = false;
@@ -195,8 +191,8 @@ describe("a broker that is not heard for a while", () => {
   });
 });
 
-describe("somebody whom only the broker still knows", () => {
-  it("is not seen for long, and leaves without a word", async () => {
+describe("a participant of retained messages alone", () => {
+  it("leaves soon, without a note", async () => {
     broker.presence("p09", true, { every: 1.25 });
     await wait(100);
     const ana = new Page(broker, "p01", "Ana");
@@ -209,7 +205,7 @@ describe("somebody whom only the broker still knows", () => {
 });
 
 describe("one connection that breaks", () => {
-  it("is told to others, and mended without a trace of the late will", async () => {
+  it("is reported, and repaired after a late will", async () => {
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     const bo = new Page(broker, "p02", "Bo");
@@ -218,7 +214,7 @@ describe("one connection that breaks", () => {
     await wait(20000);
     expect(bo.client.state.kind).toBe("open");
     expect(ana.said).toEqual(["* Bo joined.", "* Bo left.", "* Bo joined."]);
-    // The will of the old connection comes only now: Bo is here none the less, for those who come later, too.
+    // The last will of the old connection arrives late: Bo is still here, also for late pages.
     broker.presence("p02", false, { session: 1 });
     await wait(2000);
     const late = new Page(broker, "p03", "Chidi");
@@ -230,7 +226,7 @@ describe("one connection that breaks", () => {
 });
 
 describe("the blackboard", () => {
-  it("is the same for all, late ones and those who come back", async () => {
+  it("is the same for late and returning pages", async () => {
     const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
     const bo = new Page(broker, "p02", "Bo");
     await wait(2000);
@@ -247,7 +243,7 @@ describe("the blackboard", () => {
     again.client.undo();
     await wait(1000);
     expect(ana.client.board.strokes.length).toBe(2);
-    bo.client.wipe(); // may not
+    bo.client.wipe(); // refused
     await wait(500);
     expect(ana.client.board.strokes.length).toBe(2);
     ana.client.wipe();
@@ -260,15 +256,15 @@ describe("the blackboard", () => {
   });
 });
 
-describe("those who chair the meeting", () => {
+describe("chairs of the meeting", () => {
   const stored = () => broker.stored("room");
   const meeting = { title: "Blue", seats: 8, epoch: 4, chairs: ["p01"], locked: false, lamp: "on" };
-  it("change its title, seats and lock, and leave all else as it is", async () => {
+  it("change its title, seats and lock alone", async () => {
     broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
     const ana = new Page(broker, "p01", "Ana", ["speak", "board", "chair"]);
     const bo = new Page(broker, "p02", "Bo");
     await wait(2000);
-    // The second before the first has come back.
+    // The second change before the first has come back.
     const both = [ana.client.alter({ title: "Red", seats: 12 }), ana.client.alter({ locked: true })];
     await wait(500);
     expect(await Promise.all(both)).toEqual(["", ""]);
@@ -280,12 +276,12 @@ describe("those who chair the meeting", () => {
     expect(await bo.client.alter({ title: "Mine" })).toContain("Only chairs");
     expect(stored().title).toBe("Red");
   });
-  it("hear in words when the meeting does not take it", async () => {
+  it("get the reason when a change is refused", async () => {
     broker.publish(`${TOPIC}/room`, toBytes(meeting), true);
     const ana = new Page(broker, "p01", "Ana", ["speak", "chair"]);
     await wait(2000);
     const publish = broker.publish.bind(broker);
-    broker.publish = (topic, ...rest) => void (topic === `${TOPIC}/room` || publish(topic, ...rest)); // as one that drops it
+    broker.publish = (topic, ...rest) => void (topic === `${TOPIC}/room` || publish(topic, ...rest)); // as a broker that drops it
     const words = ana.client.alter({ locked: true });
     await wait(10000);
     expect(await words).toContain("not accepted");

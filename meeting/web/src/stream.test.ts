@@ -14,6 +14,13 @@ function bytes(sequence: number, session = 10, tracked = true, t = sequence / 30
   return encodeFrame(frameOf({ tracked, session, sequence, captured, bones }));
 }
 
+/** A stream that has received `count` frames, 30 a second. */
+function running(count: number): PoseStream {
+  const s = new PoseStream();
+  run(s, 0, count);
+  return s;
+}
+
 /** Receives frames `from` to `to` - 1, 30 a second. */
 function run(s: PoseStream, from: number, to: number, session = 10): number {
   let now = START;
@@ -27,16 +34,14 @@ function run(s: PoseStream, from: number, to: number, session = 10): number {
 
 describe("a stream of frames", () => {
   it("drops old frames of its session", () => {
-    const s = new PoseStream();
-    run(s, 0, 10);
+    const s = running(10);
     expect(s.receive(bytes(9), START + 1)).toBe("outOfOrder");
     expect(s.receive(bytes(3), START + 1)).toBe("outOfOrder");
     expect(s.receive(bytes(20), START + 1)).toBe("taken");
     expect(s.reading(START + 1)).toMatchObject({ outOfOrder: 2, malformed: 0, replayed: 0 });
   });
   it("restarts with each session and refuses old ones", () => {
-    const s = new PoseStream();
-    run(s, 0, 10);
+    const s = running(10);
     expect(s.receive(bytes(0, 11, true, 1), START + 1)).toBe("taken");
     expect(s.receive(bytes(11, 10), START + 1)).toBe("replayed");
     expect(s.receive(bytes(1, 11, true, 1.1), START + 1.1)).toBe("taken");
@@ -44,16 +49,9 @@ describe("a stream of frames", () => {
     expect(s.reading(START + 1).replayed).toBe(1);
   });
   it("counts malformed frames and continues", () => {
-    const s = new PoseStream();
-    run(s, 0, 5);
-    for (const bad of [
-      new Uint8Array(0),
-      new Uint8Array(111),
-      bytes(6).subarray(1),
-      new Uint8Array(1 << 16),
-    ]) {
+    const s = running(5);
+    for (const bad of [new Uint8Array(0), new Uint8Array(111), bytes(6).subarray(1), new Uint8Array(1 << 16)])
       expect(s.receive(bad, START + 1)).toBe("malformed");
-    }
     expect(s.reading(START + 1).malformed).toBe(4);
     expect(s.receive(bytes(6), START + 1)).toBe("taken");
   });
@@ -74,15 +72,13 @@ describe("a stream of frames", () => {
     expect(qualityText(r).words).toMatch(/^27 fps · \d+ ms · 10\.\d % lost$/);
   });
   it("survives a jump of the sequence", () => {
-    const s = new PoseStream();
-    run(s, 0, 3);
+    const s = running(3);
     s.receive(bytes(0xffffffff, 10, true, 0.2), START + 0.2);
     expect(s.reading(START + 0.2).loss).toBeCloseTo(1, 6);
     expect(s.receive(bytes(4, 10, true, 0.3), START + 0.3)).toBe("outOfOrder");
   });
   it("takes frames that waited, but no flood", () => {
-    const s = new PoseStream();
-    run(s, 0, 30);
+    const s = running(30);
     for (let i = 30; i < 180; i++) expect(s.receive(bytes(i), START + 6)).toBe("taken");
     for (let i = 180; i < 2000; i++) s.receive(bytes(i), START + 6);
     expect(s.reading(START + 6).flooded).toBeGreaterThan(1000);
@@ -106,8 +102,7 @@ describe("a stream of frames", () => {
     expect(s.pose(now).rest).toBe(0);
   });
   it("fades to rest when the person is lost", () => {
-    const s = new PoseStream();
-    run(s, 0, 30);
+    const s = running(30);
     let rest = 0;
     for (let i = 30; i < 70; i++) {
       s.receive(bytes(i, 10, false), START + i / 30);
@@ -121,7 +116,7 @@ describe("a stream of frames", () => {
     const now = run(s, 0, 30);
     s.leave(10, now);
     expect(s.alive(now, 5)).toBe(false);
-    expect(s.receive(bytes(30), now + 0.1)).toBe("leftover"); // was on its way
+    expect(s.receive(bytes(30), now + 0.1)).toBe("leftover"); // was sent before
     expect(s.alive(now + 0.1, 5)).toBe(false);
     expect(s.receive(bytes(80), now + 1.6)).toBe("taken"); // is alive after all
     expect(s.alive(now + 1.6, 5)).toBe(true);

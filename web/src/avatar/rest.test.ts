@@ -11,6 +11,14 @@ function run(b: RestBlend, from: number, seconds: number, tracked: boolean): num
   return out;
 }
 
+/** A blend that follows the person, at 1 s. */
+function following(): RestBlend {
+  const b = new RestBlend();
+  b.update(0, true);
+  run(b, 0, 1, true);
+  return b;
+}
+
 describe("coming to rest", () => {
   it("starts at rest and is with the person after 0.3 s", () => {
     const b = new RestBlend();
@@ -19,10 +27,8 @@ describe("coming to rest", () => {
     expect(w[10]).toBeGreaterThan(0);
     expect(w.at(-1)).toBe(0);
   });
-  it("waits 0.3 s, then takes about a second, without a jump", () => {
-    const b = new RestBlend();
-    b.update(0, true);
-    run(b, 0, 1, true);
+  it("begins after 0.3 s and takes about a second", () => {
+    const b = following();
     const w = run(b, 1, 1.4, false);
     expect(w[28]).toBe(0);
     expect(w[80]).toBeGreaterThan(0.3);
@@ -35,21 +41,17 @@ describe("coming to rest", () => {
     }, 0);
   });
   it("does not move for a short loss", () => {
-    const b = new RestBlend();
-    b.update(0, true);
-    run(b, 0, 1, true);
+    const b = following();
     expect(Math.max(...run(b, 1, 0.25, false), ...run(b, 1.25, 0.2, true))).toBe(0);
   });
   it("turns around on the way without a jump", () => {
-    const b = new RestBlend();
-    b.update(0, true);
-    run(b, 0, 1, true);
+    const b = following();
     const half = run(b, 1, 0.8, false).at(-1)!;
     const back = run(b, 1.8, 0.3, true);
     expect(Math.abs(back[0]! - half)).toBeLessThan(0.06);
     expect(back.at(-1)).toBe(0);
   });
-  it("does not depend on the rate of the screen, and bears a clock that stands or goes back", () => {
+  it("depends on the clock alone, which may stop", () => {
     const slow = new RestBlend();
     slow.update(0, true);
     slow.update(1, true);
