@@ -34,7 +34,7 @@ test("a page is closed and opened again", LONG, async () => {
   await second.close();
 });
 
-test("a suspended tab blocks nobody and continues", LONG, async () => {
+test("a suspended tab blocks nobody", LONG, async () => {
   const others = await renderers(browser);
   const { page, complaints, close } = await openPage(browser, program);
   await follows(page);
@@ -85,7 +85,7 @@ test("clients that never read block nobody", LONG, async () => {
   await close();
 });
 
-test("a page beyond the limit waits for a place", LONG, async () => {
+test("a page beyond the limit waits", LONG, async () => {
   const others = [];
   const oneMore = async () => {
     const socket = new WebSocket(`ws://localhost:${program.port}/ws`, { perMessageDeflate: false });
@@ -114,7 +114,7 @@ test("a page beyond the limit waits for a place", LONG, async () => {
   await close();
 });
 
-test("the page reconnects to a restarted program", LONG, async () => {
+test("the page finds a restarted program", LONG, async () => {
   const { page, close } = await openPage(browser, program);
   await follows(page);
   await hasAvatar(page, "Plain");

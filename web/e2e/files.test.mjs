@@ -37,7 +37,7 @@ for (const [name, version, make] of [
   ["boxes", "1", (folder) => boxes(folder)],
   ["stranger", "0", (folder) => strangersVrm0(program, folder)],
 ]) {
-  test(`VRM ${version} with rest rotations: ${name}`, LONG, async () => {
+  test(`VRM ${version}, rest rotations: ${name}`, LONG, async () => {
     await drop(page, await make(program.folder));
     await hasAvatar(page, name);
     assert.equal(await page.evaluate(() => window.telemime.avatar.version), version);
@@ -52,7 +52,7 @@ for (const [name, version, make] of [
   });
 }
 
-test("a dropped file replaces one that still loads", LONG, async () => {
+test("a dropped file replaces a loading one", LONG, async () => {
   const other = await openPage(browser, program);
   await hasAvatar(other.page, "Plain");
   await other.page.evaluate(() =>

@@ -107,7 +107,7 @@ test("single-key shortcuts can be turned off", LONG, async () => {
   assert.notEqual(await pressed("#overlay"), overlay);
 });
 
-test("records, downloads and deletes by keyboard", LONG, async () => {
+test("records, saves and deletes by keyboard", LONG, async () => {
   await page.keyboard.press("r");
   await listener.next((m) => m.type === "status" && m.recording?.frames >= 40);
   await page.keyboard.press("r");

@@ -26,7 +26,7 @@ function chanceFrom(seed) {
   };
 }
 
-test("random messages of one disturb nobody else", LONG, async () => {
+test("random messages disturb nobody else", LONG, async () => {
   const visit = await inTheMeeting(browser, meeting, { name: "Dara" });
   const { page } = visit;
   const bad = await meeting.person({ name: "Mallory", gesture: "idle", avatar: null, rate: 5 });

@@ -97,7 +97,7 @@ test("a chair renames, locks and unlocks it", LONG, async () => {
   quiet();
 });
 
-test("the tracker of the command moves the avatar", LONG, async () => {
+test("the tracker moves the user's avatar", LONG, async () => {
   const { page } = guest;
   const me = await page.evaluate(() => window.telemimeMeeting.me);
   await page.locator("#meeting-canvas").focus();

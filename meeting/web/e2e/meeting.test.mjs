@@ -65,7 +65,7 @@ test("no request contains a secret", LONG, async () => {
   for (const address of meeting.asked) assert.ok(!secrets.some((s) => address.includes(s)), address);
 });
 
-test("chat reaches all and shows markup as text", LONG, async () => {
+test("chat reaches all, markup is text", LONG, async () => {
   const bad = '<img src=x onerror="window.hacked=1"><script>window.hacked=1</script>';
   await write(guest.page, "hello from Dara");
   await ana.say(1, bad);
@@ -96,7 +96,7 @@ test("chat reaches all and shows markup as text", LONG, async () => {
   quiet();
 });
 
-test("the blackboard is drawn, undone and wiped", LONG, async () => {
+test("the blackboard is drawn on and wiped", LONG, async () => {
   await guest.page.locator("#meeting-canvas").focus();
   await guest.page.keyboard.press("b");
   await drawLine(guest.page, [
@@ -174,7 +174,7 @@ test("malformed messages affect nobody else", LONG, async () => {
   quiet();
 });
 
-test("a full meeting in software keeps responding", LONG, async () => {
+test("a full meeting keeps responding", LONG, async () => {
   const more = [];
   for (let i = 0; i < 6; i++) {
     const avatar = { look: i % 2 ? "plain" : "casual" };
@@ -256,7 +256,7 @@ test("a suspended tab leaves, and returns", LONG, async () => {
   quiet();
 });
 
-test("all return after the broker was restarted", LONG, async () => {
+test("all return to a restarted broker", LONG, async () => {
   await meeting.broker.kill();
   for (const page of pages()) {
     await lostBanner(page);

@@ -161,7 +161,7 @@ test("a suspended tracker leaves, and returns", LONG, async () => {
   for (const page of pages) await shows(page, others);
 });
 
-test("a suspended tracker is replaced by the page", LONG, async () => {
+test("the page replaces a suspended tracker", LONG, async () => {
   const { page } = guest;
   await page.locator("#meeting-canvas").focus();
   await page.keyboard.press("r");
@@ -185,7 +185,7 @@ test("a suspended tracker is replaced by the page", LONG, async () => {
   await all("Dara");
 });
 
-test("nobody leaves while the broker is suspended", LONG, async () => {
+test("nobody leaves a suspended broker", LONG, async () => {
   const pages = [chair.page, guest.page, watcher.page];
   const all = ["Ana", "Bo", "Chidi", "Dara"];
   for (const page of pages) {

@@ -150,8 +150,8 @@ export async function startMeeting({
   });
   service.on("error", () => {});
   service.on("message", (_, payload) => {
-    const told = JSON.parse(payload.toString());
-    if (told.epoch >= meeting.epoch) meeting = told;
+    const stored = JSON.parse(payload.toString());
+    if (stored.epoch >= meeting.epoch) meeting = stored;
   });
   await new Promise((resolve) => {
     service.on("connect", () => {

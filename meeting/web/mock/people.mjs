@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trackers for a meeting: synthetic people whose motion goes to the broker as meeting/docs/protocol.md says.
+// Trackers for a meeting: synthetic people whose motion goes to the broker in the format of meeting/docs/protocol.md.
 
 import mqtt from "mqtt";
 import { createServer } from "vite";
@@ -45,11 +45,11 @@ export async function startPerson(
     will: { topic: `${base}/presence`, payload: json({ here: false, session }), qos: 1, retain: true },
   });
   client.on("error", () => {}); // followed by a further try
-  const tell = (what, payload, retain = true) =>
+  const publish = (what, payload, retain = true) =>
     client.publishAsync(`${base}/${what}`, payload, { qos: 1, retain });
   const announce = async () => {
-    await tell("presence", json({ here: true, session }));
-    await tell("state", json({ session, kind: "tracker", name, seat, avatar, stature: 1.7, bones: BODY }));
+    await publish("presence", json({ here: true, session }));
+    await publish("state", json({ session, kind: "tracker", name, seat, avatar, stature: 1.7, bones: BODY }));
   };
   await new Promise((resolve) => {
     client.on("connect", () => announce().then(resolve, () => {}));
@@ -76,15 +76,14 @@ export async function startPerson(
     base,
     poseOf,
     frame,
-    tell,
-    say: (id, text) => tell("chat", json({ id: `${session}-${id}`, text }), false),
+    say: (id, text) => publish("chat", json({ id: `${session}-${id}`, text }), false),
     async leave() {
       clearInterval(timer);
-      await tell("presence", json({ here: false, session }));
-      await tell("state", "");
+      await publish("presence", json({ here: false, session }));
+      await publish("state", "");
       await client.endAsync();
     },
-    /** As when the cable is pulled. */
+    /** Loses the connection. */
     drop() {
       clearInterval(timer);
       client.stream.destroy();

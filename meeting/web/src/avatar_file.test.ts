@@ -17,11 +17,11 @@ const giving =
     Promise.resolve(new Response(data, init));
 
 describe("a participant's file", () => {
-  it("is taken when it is the one that was told", async () => {
+  it("is accepted with its hash and size", async () => {
     const got = await strangersFile(FILE, STRANGERS, giving(DATA));
     expect(new Uint8Array(got)).toEqual(DATA);
   });
-  it("is refused when one bit differs, or its length, before it is looked at", async () => {
+  it("is refused when it differs", async () => {
     const changed = DATA.slice();
     changed[40]! ^= 1;
     const refused = "changed since its owner chose it";
@@ -30,7 +30,7 @@ describe("a participant's file", () => {
     const noise = Uint8Array.from([1, 2, 3]);
     await expect(strangersFile(FILE, STRANGERS, giving(noise))).rejects.toThrow(refused);
   });
-  it("that never ends is not read on", async () => {
+  it("that never ends is not read further", async () => {
     let given = 0;
     const endless = new ReadableStream<Uint8Array>({
       pull(c) {
@@ -44,13 +44,13 @@ describe("a participant's file", () => {
     const headers = { "content-length": String(MAX_AVATAR + 1) };
     await expect(describeFile(URL_, giving(DATA, { headers }))).rejects.toThrow("64 MB");
   });
-  it("is looked at, too, when the hash is right", async () => {
+  it("is inspected although its hash is right", async () => {
     const noise = new Uint8Array(100);
     const file = { url: URL_, sha256: bytesToHex(sha256(noise)), bytes: 100 };
     await expect(strangersFile(file, STRANGERS, giving(noise))).rejects.toThrow("not a VRM avatar");
     await expect(strangersFile(FILE, { ...STRANGERS, nodes: 3 }, giving(DATA))).rejects.toThrow("too large");
   });
-  it("is fetched without telling who asks", async () => {
+  it("is fetched without credentials", async () => {
     let init: RequestInit | undefined;
     const fetcher: typeof fetch = (_, i) => {
       init = i;
@@ -59,7 +59,7 @@ describe("a participant's file", () => {
     await strangersFile(FILE, STRANGERS, fetcher);
     expect(init).toMatchObject({ credentials: "omit", referrerPolicy: "no-referrer" });
   });
-  it("that cannot be had is told in words", async () => {
+  it("that cannot be loaded gives the reason", async () => {
     await expect(strangersFile(FILE, STRANGERS, giving(DATA, { status: 404 }))).rejects.toThrow(
       "example.org does not have",
     );
@@ -74,7 +74,7 @@ describe("a participant's file", () => {
   });
 });
 
-describe("one's own choice", () => {
+describe("the user's own choice", () => {
   it("is described for the others", async () => {
     expect(await describeFile(` ${URL_} `, giving(DATA))).toEqual(FILE);
     for (const address of ["http://example.org/a.vrm", "a.vrm", "", "https://u:p@example.org/a.vrm"]) {

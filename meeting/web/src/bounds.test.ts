@@ -52,11 +52,11 @@ const set =
 const many = (n: number, what: unknown = {}): unknown[] => Array.from({ length: n }, () => what);
 
 describe("avatars of strangers", () => {
-  it("that are small are let in", () => {
+  it("that are small are accepted", () => {
     expect(checkBounds(file())).toBe(1);
     expect(checkBounds(file(undefined, JPEG(4096, 2048)))).toBe(1);
   });
-  it("are told apart by what they would become", () => {
+  it("are refused for what they expand to", () => {
     const points = (count: number) => [{ bufferView: 0, componentType: 5126, type: "VEC3", count }];
     for (const [change, words] of [
       [set("nodes", many(STRANGERS.nodes + 1)), "nodes"],
@@ -88,18 +88,18 @@ describe("avatars of strangers", () => {
       else expect(look).not.toThrow();
     }
   });
-  it("with a long chain of nodes are refused without running out of stack", () => {
+  it("with a long chain of nodes are refused", () => {
     const chain = Array.from({ length: 2999 }, (_, i) => (i < 2998 ? { children: [i + 1] } : {}));
     expect(() => checkBounds(file(set("nodes", chain)))).toThrow("broken");
   });
-  it("with a picture that unfolds are refused", () => {
+  it("with too large pictures are refused", () => {
     expect(() => checkBounds(file(undefined, PNG(30000, 30000)))).toThrow("30000 by 30000");
     expect(() => checkBounds(file(undefined, JPEG(9000, 10)))).toThrow("9000 by 10");
     expect(() => checkBounds(file(undefined, new Uint8Array(40)))).toThrow("neither PNG nor JPEG");
     const lots = (json: Json): void => void (json.images = many(10, { bufferView: 2 }));
     expect(() => checkBounds(file(lots, PNG(4096, 4096)))).toThrow("million pixels");
   });
-  it("count each use of a mesh, and shapes to blend with", () => {
+  it("count uses of meshes and blend shapes", () => {
     const heavy = (json: Json): void => {
       json.nodes = many(1000, { mesh: 0 });
     };

@@ -26,7 +26,7 @@ describe("the clock", () => {
     feed(map, 30, 32 * 30, 1 / 30, () => 0.05);
     expect(map.offset).toBeCloseTo(1000.05, 6);
   });
-  it("buffers 50 to 100 ms depending on the jitter", () => {
+  it("buffers 50 to 100 ms by the jitter", () => {
     const even = fed(() => 0.02);
     expect(even.jitter).toBeCloseTo(0, 6);
     expect(even.buffer).toBeCloseTo(0.05, 6);
@@ -49,7 +49,7 @@ describe("the clock", () => {
     }
     expect(1008 - last - map.offset!).toBeGreaterThan(0.08);
   });
-  it("is reset when the publisher's clock jumps", () => {
+  it("is reset when the other clock jumps", () => {
     const map = new ClockMap();
     feed(map, 0, 10, 1 / 30, () => 0.02);
     expect(map.add(1001, 500)).toBe(false);

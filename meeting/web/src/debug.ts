@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// window.telemimeMeeting: what the meeting's page shows at this moment, to be read by tests. It changes nothing.
+// window.telemimeMeeting: what the meeting's page shows at this moment, for tests. Reading it changes nothing.
 
 import type { BoneReading } from "#web/avatar/load";
 import type { Quat } from "#web/shared/quaternion";
@@ -11,14 +11,14 @@ export interface DebugPerson {
   name: string;
   seat: number;
   kind: "tracker" | "browser" | null;
-  /** The avatar is there. */
+  /** The avatar is loaded. */
   dressed: boolean;
   complaint: string;
   refused: number;
   reading: Reading;
 }
 
-/** Of what was drawn last. */
+/** The pose that was drawn last. */
 export interface DebugPose {
   session: number;
   /** The moment of the publisher's clock that is shown, microseconds. */
@@ -30,16 +30,16 @@ export interface DebugPose {
 }
 
 export interface MeetingDebug {
-  /** "entry", or that of the connection: connecting, open, lost, refused, closed. */
+  /** "entry", or the state of the connection. */
   readonly phase: "entry" | LinkState["kind"];
-  /** The broker has told what it keeps. */
+  /** The retained messages have arrived. */
   readonly settled: boolean;
   readonly me: string | null;
-  /** Who is here, by id. */
+  /** The participants who are here, sorted by id. */
   readonly participants: DebugPerson[];
-  /** Of everybody with an avatar and motion. */
+  /** The poses of all with an avatar and motion. */
   readonly poses: Record<string, DebugPose>;
-  /** All strokes to be seen. */
+  /** All visible strokes. */
   readonly strokes: { c: string; w: number; p: readonly number[] }[];
   readonly counters: Record<string, number>;
   boneRotations(id: string): Record<string, BoneReading>;

@@ -23,7 +23,7 @@ describe("a link", () => {
 });
 
 describe("the answer", () => {
-  it("is taken as it is", () => {
+  it("is read completely", () => {
     expect(readEntered(ANSWER)).toEqual({
       user: "main.p01",
       password: "secret",
@@ -40,7 +40,7 @@ describe("the answer", () => {
     const url = "wss://room.example.org/mqtt";
     expect(readEntered({ ...ANSWER, mqtt: url })!.mqtt).toBe(url);
   });
-  it("may say where programs reach the broker, and nothing else there", () => {
+  it("may name the broker for programs", () => {
     const tcp = (v: unknown) => readEntered({ ...ANSWER, tcp: v })!.tcp;
     for (const good of ["mqtt://localhost:1883", "mqtts://room.example.org:8883", "mqtt://[::1]:1883"])
       expect(tcp(good)).toBe(good);
@@ -56,11 +56,11 @@ describe("the answer", () => {
     ])
       expect(tcp(bad)).toBeNull();
   });
-  it("for those who watch has no participant", () => {
+  it("for watchers has no participant", () => {
     expect(readEntered({ ...ANSWER, roles: ["watch"] })!.participant).toBeNull();
     expect(readEntered({ ...ANSWER, participant: null })!.participant).toBeNull();
   });
-  it("that lacks something is none", () => {
+  it("that lacks something is refused", () => {
     for (const change of [
       { mqtt: "http://localhost:9001" },
       { mqtt: "javascript:1" },
@@ -85,7 +85,7 @@ describe("entering", () => {
     };
   const question = { invite: "SECRET", token: null, watch: false };
 
-  it("asks with the secret in the body, never in the address", async () => {
+  it("sends the secret in the body alone", async () => {
     const seen: Request[] = [];
     const entered = await enter({ ...question, token: "t" }, answering(200, ANSWER, seen));
     expect(entered.user).toBe("main.p01");
@@ -93,7 +93,7 @@ describe("entering", () => {
     expect(seen[0]!.method).toBe("POST");
     expect(await seen[0]!.json()).toEqual({ v: 1, invite: "SECRET", return: "t", watch: false });
   });
-  it("says in words why not, without the secret", async () => {
+  it("gives the reason without the secret", async () => {
     for (const [status, words] of [
       [403, "not valid"],
       [409, "seats"],
@@ -111,9 +111,9 @@ describe("entering", () => {
   });
 });
 
-describe("what the browser keeps", () => {
+describe("what the browser stores", () => {
   const entered = readEntered(ANSWER)!;
-  it("brings back to the seat of this link, or else to the last one", () => {
+  it("leads to the seat of a link, or the last", () => {
     let saved = readSaved(null);
     expect(tokenFor(saved, "A")).toBeNull();
     saved = withSeat(saved, "A", entered);
@@ -128,10 +128,10 @@ describe("what the browser keeps", () => {
     expect(tokenFor(saved, "A")).toBe("token-3");
     expect(readSaved(JSON.stringify(saved))).toEqual(saved);
   });
-  it("does not hold the link's secret", () => {
+  it("does not contain the secret", () => {
     expect(JSON.stringify(withSeat(readSaved(null), "VERYSECRET", entered))).not.toContain("VERYSECRET");
   });
-  it("is bounded, and nothing when it is broken", () => {
+  it("is bounded, and empty when malformed", () => {
     let saved = readSaved(null);
     for (let i = 0; i < 50; i++) saved = withSeat(saved, `link${i}`, { ...entered, token: `t${i}` });
     expect(saved.seats.length).toBe(10);

@@ -93,7 +93,7 @@ describe("malformed frames", () => {
       expect(decodeFrame(b)).toBeNull();
     }
   });
-  it("of another version, session or bone count", () => {
+  it("of another version, session, bone count", () => {
     expect(decodeFrame(good)).not.toBeNull();
     expect(decodeFrame(changed(0, 2))).toBeNull();
     const none = changed(2, 0);

@@ -26,19 +26,19 @@ class Broker {
   }
 }
 
-let broker: Broker, states: LinkState[], heard: string[], link: Link;
+let broker: Broker, states: LinkState[], received: string[], link: Link;
 beforeEach(() => {
   vi.useFakeTimers();
   broker = new Broker();
   states = [];
-  heard = [];
+  received = [];
   link = new Link(
     broker.dial,
     {
       state: (s) => states.push(s),
-      message: (topic, _, kept) => heard.push(topic + (kept ? " kept" : "")),
-      alive: () => heard.push("alive"),
-      pulse: () => heard.push("pulse"),
+      message: (topic, _, kept) => received.push(topic + (kept ? " kept" : "")),
+      alive: () => received.push("alive"),
+      pulse: () => received.push("pulse"),
     },
     () => 0.5,
   );
@@ -48,7 +48,7 @@ afterEach(() => vi.useRealTimers());
 const kinds = () => states.map((s) => s.kind);
 
 describe("the connection", () => {
-  it("opens, hears and says", async () => {
+  it("opens, receives and publishes", async () => {
     link.open();
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
     broker.last.events.open();
@@ -58,12 +58,12 @@ describe("the connection", () => {
     broker.last.events.pulse();
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(true);
     expect(kinds()).toEqual(["connecting", "open"]);
-    expect(heard).toEqual(["alive", "r/a/b/room kept", "r/a/b/p/p01/chat", "pulse"]);
+    expect(received).toEqual(["alive", "r/a/b/room kept", "r/a/b/p/p01/chat", "pulse"]);
     expect(broker.last.session).toBe(link.session);
     broker.fails = true;
     expect(await link.publish("a", new Uint8Array(1), false)).toBe(false);
   });
-  it("tries again with growing pauses, each time as another session", () => {
+  it("retries with growing delays and sessions", () => {
     link.open();
     for (const wait of [500, 1000, 2000, 4000, 8000, 10000, 10000]) {
       broker.last.events.closed(GONE);
@@ -76,7 +76,7 @@ describe("the connection", () => {
       expect(broker.last.session).not.toBe(broker.dials.at(-2)!.session);
     }
   });
-  it("starts with short pauses again after it held, not after it broke at once", () => {
+  it("resets the delays only after it held", () => {
     link.open();
     const lose = (after: number) => {
       broker.last.events.open();
@@ -89,7 +89,7 @@ describe("the connection", () => {
     expect([lose(10), lose(10), lose(10)]).toEqual([500, 1000, 2000]);
     expect([lose(6000), lose(6000)]).toEqual([500, 500]);
   });
-  it("tries at once when it is asked to", () => {
+  it("retries at once on request", () => {
     link.open();
     broker.last.events.closed(GONE);
     link.tryNow();
@@ -106,7 +106,7 @@ describe("the connection", () => {
     expect(broker.dials.length).toBe(1);
     expect(link.state).toEqual({ kind: "refused", words: "no" });
   });
-  it("hears nothing of connections that are over", () => {
+  it("ignores events of old connections", () => {
     link.open();
     const old = broker.last.events;
     old.closed(GONE);
@@ -116,7 +116,7 @@ describe("the connection", () => {
     old.pulse();
     old.open();
     old.closed(GONE);
-    expect(heard).toEqual([]);
+    expect(received).toEqual([]);
     expect(link.state.kind).toBe("connecting");
     link.close();
     expect(broker.last.closed).toBe(true);
@@ -125,7 +125,7 @@ describe("the connection", () => {
     vi.advanceTimersByTime(1e6);
     expect(broker.dials.length).toBe(2);
   });
-  it("is refused by an address that the browser does not take", () => {
+  it("is refused for a malformed address", () => {
     const refusing = new Link(
       () => {
         throw new Error("bad address");

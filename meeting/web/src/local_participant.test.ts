@@ -30,7 +30,7 @@ const tracker = (session: number) =>
   toBytes({ session, kind: "tracker", name: "Ana", seat: 2, avatar: null });
 
 describe("this page as a participant", () => {
-  it("announces itself after the retained messages", () => {
+  it("announces itself once settled", () => {
     const { me, take } = make();
     me.connected(7);
     expect(take()).toEqual([]);
@@ -86,7 +86,7 @@ describe("this page as a participant", () => {
     me.receive("presence", presence(false, 50));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
   });
-  it("repeats its presence after a late last will", () => {
+  it("repeats its presence after a late will", () => {
     const { me, take } = make(7);
     me.receive("presence", presence(false, 6));
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
@@ -130,7 +130,7 @@ describe("this page as a participant", () => {
       expect(said).toEqual([[], ["presence once true 8", "state Anna 8", "presence false 8", "state -"]]);
     }
   });
-  it("replaces a vanished tracker until it returns", () => {
+  it("replaces a vanished tracker for a while", () => {
     const { me, take } = make();
     me.connected(7);
     me.receive("presence", presence(true, 50));
@@ -174,7 +174,7 @@ describe("this page as a participant", () => {
       expect(take()).toEqual(["presence true 7", "state Ana 7"]);
     }
   });
-  it("is silent with a tracker and other windows", () => {
+  it("is silent with a tracker and windows", () => {
     const { me, take } = make(9);
     me.tracked(50);
     expect(take()).toEqual(["presence false 9"]);

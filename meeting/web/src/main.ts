@@ -59,7 +59,7 @@ const chatIsOpen = (): boolean =>
   document.body.dataset.stage === "meeting";
 
 const people = new People();
-const chat = new ChatView((text) => client?.say(text) ?? "You have not joined the meeting.");
+const chat = new ChatView((text) => client?.write(text) ?? "You have not joined the meeting.");
 const meetingTab = new MeetingTab({
   alter: async (change) => (await client?.alter(change)) ?? "You have not joined the meeting.",
   command: () => (client ? trackerCommand(client.entered, client.me?.state ?? null) : null),
@@ -186,7 +186,7 @@ function start(entered: Entered, seat: number | null): void {
     },
     line: (l) => {
       chat.add(l);
-      if (l.kind === "said") scene.say(l.from, l.text);
+      if (l.kind === "said") scene.showMessage(l.from, l.text);
       else status.announce(l.text);
     },
     strokes: (s) => scene.slate.add(s),

@@ -29,7 +29,7 @@ describe("a page in a meeting", () => {
     expect(ana.seats).toEqual({ p01: 0, p02: 1 });
     expect(bo.seats).toEqual(ana.seats);
     expect(broker.retained).toBe(4); // a presence and a state of each
-    bo.client.say("hello");
+    bo.client.write("hello");
     await wait(100);
     bo.client.leave();
     await wait(1000);
@@ -66,7 +66,7 @@ describe("a page in a meeting", () => {
     await wait(1000);
     expect(bo.seats).toEqual({ p02: 1 }); // leaving moves nobody
   });
-  it("keeps its seat among others without requests", async () => {
+  it("keeps its seat among undemanding others", async () => {
     for (const [i, id] of ["p13", "p14"].entries()) {
       broker.presence(id, true);
       broker.state(id, `T${i}`, null);
@@ -81,7 +81,7 @@ describe("a page in a meeting", () => {
     const watcher = new Page(broker, null, "");
     await wait(2000);
     expect(watcher.names).toEqual(["Ana"]);
-    expect(watcher.client.say("hi")).toContain("only watch");
+    expect(watcher.client.write("hi")).toContain("only watch");
     expect([...broker.kept.keys()].every((t) => t.startsWith(`${TOPIC}/p/p01/`))).toBe(true);
   });
 });
@@ -95,7 +95,7 @@ describe("after the broker was restarted", () => {
     await wait(4000);
     expect(ana.client.state.kind).toBe("lost");
     expect(ana.names).toEqual(["Ana", "Bo"]); // still visible
-    expect(ana.client.say("are you there?")).toBe("");
+    expect(ana.client.write("are you there?")).toBe("");
     bo.client.draw("#ffffff", 40, [0, 1, 1, 0]);
     broker.up = true;
     await wait(40000);
@@ -114,7 +114,7 @@ describe("after the broker was restarted", () => {
     broker.die();
     await wait(2000);
     const lines = Array.from({ length: 20 }, (_, i) => `line ${i}`);
-    for (const l of lines) expect(ana.client.say(l)).toBe("");
+    for (const l of lines) expect(ana.client.write(l)).toBe("");
     broker.up = true;
     await wait(60000);
     for (const p of [ana, bo])
@@ -125,7 +125,7 @@ describe("after the broker was restarted", () => {
     const [ana, bo] = await anaAndBo();
     broker.die();
     await wait(2000);
-    ana.client.say("are you there?");
+    ana.client.write("are you there?");
     ana.client.stop();
     broker.up = true;
     const again = new Page(broker, "p01", "Ana", ["speak", "board"], ana.client.outbox);
@@ -134,7 +134,7 @@ describe("after the broker was restarted", () => {
     await wait(40000);
     expect(bo.said.at(-1)).toBe("Ana: are you there?");
     expect(again.client.outbox.waiting).toEqual([]);
-    again.client.say("at once");
+    again.client.write("at once");
     await wait(100);
     expect(bo.said.at(-1)).toBe("Ana: at once");
   });
@@ -205,7 +205,7 @@ describe("a participant of retained messages alone", () => {
 });
 
 describe("one connection that breaks", () => {
-  it("is reported, and repaired after a late will", async () => {
+  it("is reported and repaired", async () => {
     const ana = new Page(broker, "p01", "Ana");
     await wait(1000);
     const bo = new Page(broker, "p02", "Bo");

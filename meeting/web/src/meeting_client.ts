@@ -143,7 +143,7 @@ export class MeetingClient {
   }
 
   /** Sends a chat message. Gives an empty string, or the reason why it cannot be sent. */
-  say(text: string): string {
+  write(text: string): string {
     if (!this.me) return "You only watch. Join with a name to write.";
     const message = this.outbox.add(text);
     if (typeof message === "string") return message;

@@ -8,15 +8,15 @@ describe("names", () => {
   it("stay as they are when they differ", () => {
     expect(shown(["p01", "Ana"], ["p02", "Bo"])).toEqual(["Ana", "Bo"]);
   });
-  it("that are the same, or look so, get their number", () => {
+  it("that look alike get their numbers", () => {
     expect(shown(["p01", "Ana"], ["p12", "ana"], ["p03", "Bo"])).toEqual(["Ana (1)", "ana (12)", "Bo"]);
     expect(shown(["p01", "Ana"], ["guest", "Ａｎａ"])).toEqual(["Ana (1)", "Ａｎａ (guest)"]);
     expect(shown(["p01", "Ana"], ["p02", "An\u200ba"])).toEqual(["Ana (1)", "Ana (2)"]);
   });
-  it("that hold nothing to see are the id", () => {
+  it("that are invisible become the id", () => {
     expect(shown(["p01", "\u202e \u200b"])).toEqual(["p01"]);
   });
-  it("are one line, do not turn the text round, and end", () => {
+  it("are one line without control characters", () => {
     expect(plainLine("a\u202eb\n\tc\u0007", 40)).toBe("abc");
     expect(plainLine(" a   b ", 40)).toBe("a b");
     expect(plainLine("x".repeat(100), 40)).toBe("x".repeat(39) + "…");

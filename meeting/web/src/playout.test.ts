@@ -49,22 +49,22 @@ function follow(rate: number, delay: (i: number) => number, seconds = 6) {
 }
 
 describe("play-out", () => {
-  it("is exact between frames that come evenly, 50 to 100 ms late", () => {
+  it("is exact for even frames, 50-100 ms late", () => {
     const { worst, lag } = follow(30, () => 0.02);
     expect(worst).toBeLessThan(0.002);
     expect(lag).toBeLessThan(0.02 + 0.1);
     expect(lag).toBeGreaterThan(0.02 + 0.049);
   });
-  it("holds with jitter, loss and 10 frames a second", () => {
+  it("bears jitter, loss and a low rate", () => {
     expect(follow(30, (i) => 0.02 + (i % 3) * 0.02).worst).toBeLessThan(0.01);
     expect(follow(30, (i) => (i % 7 === 3 ? 99 : 0.02)).worst).toBeLessThan(0.02);
     expect(follow(10, () => 0.02).worst).toBeLessThan(0.02);
   });
-  it("glides where it had to wait", () => {
+  it("is smooth after a late frame", () => {
     // Five frames a second: the next one is not there in time. The speed of the movement itself is 0.027 a picture.
     expect(follow(5, () => 0.02).largestStep).toBeLessThan(0.12);
   });
-  it("shows the newest when nothing comes, and the hips go along", () => {
+  it("holds the newest pose with its hips", () => {
     const p = new Playout();
     for (let i = 0; i < 10; i++) p.add(frame(i / 30), SHIFT + i / 30);
     const shown = p.sample(SHIFT + 9)!;
@@ -72,7 +72,7 @@ describe("play-out", () => {
     expect(shown.hips[0]).toBeCloseTo(0.3, 6);
     expect(turn(shown.bones.get("head"))).toBeCloseTo(angleAt(0.3), 6);
   });
-  it("goes the short way round", () => {
+  it("interpolates along the short arc", () => {
     const p = new Playout();
     const of = (t: number, q: Quat) => frame(t, { bones: [{ bone: 4, rotation: q, confidence: 0 }] });
     const q = about("y", 0.5);
@@ -82,21 +82,21 @@ describe("play-out", () => {
       expect(angleBetween(p.sample(now)!.bones.get("head")!, q)).toBeLessThan(1e-6);
     }
   });
-  it("has no pose between being seen and being lost", () => {
+  it("does not blend tracked and lost frames", () => {
     const p = new Playout();
     for (let i = 0; i < 30; i++) p.add(frame(i / 30), SHIFT + i / 30);
     p.add(frame(1, { tracked: false, bones: [] }), SHIFT + 1);
     expect(p.sample(SHIFT + 1.02)!.tracked).toBe(true);
     expect(p.sample(SHIFT + 1.3)!.tracked).toBe(false);
   });
-  it("leaves out what goes back in time, and takes a leap of the clock for one", () => {
+  it("drops older frames, except after a jump", () => {
     const p = new Playout();
     for (let i = 0; i < 10; i++) p.add(frame(100 + i / 30), SHIFT + i / 30);
     expect(p.add(frame(100), SHIFT + 0.4)).toBe(false);
     expect(p.add(frame(3), SHIFT + 0.4)).toBe(true);
     expect(p.sample(SHIFT + 0.5)!.at).toBe(3);
   });
-  it("keeps no more than it needs, whatever comes", () => {
+  it("keeps a limited number of frames", () => {
     const p = new Playout();
     for (let i = 0; i < 20000; i++) p.add(frame(i / 1000), SHIFT);
     expect((p as unknown as { frames: unknown[] }).frames.length).toBeLessThanOrEqual(128);

@@ -7,7 +7,7 @@ const way = (p: { position: readonly number[]; target: readonly number[] }) =>
   p.target.map((v, i) => v - p.position[i]!);
 
 describe("views", () => {
-  it("of the whole looks down at the table from outside of the circle", () => {
+  it("of the whole look down at the table", () => {
     const rig = new Rig();
     const p = rig.wanted(ME);
     expect(Math.hypot(p.position[0], p.position[2])).toBeGreaterThan(rig.radius + 1);
@@ -15,7 +15,7 @@ describe("views", () => {
     rig.aspect = 0.5; // a narrow picture: from farther away
     expect(Math.hypot(...rig.wanted(ME).position)).toBeGreaterThan(Math.hypot(...p.position));
   });
-  it("from one's seat and eyes look the way that the chair faces", () => {
+  it("from seat and eyes follow the chair", () => {
     const rig = new Rig();
     rig.setView("seat");
     expect(rig.wanted(ME).position[2]).toBeGreaterThan(ME.z); // over the shoulder
@@ -25,7 +25,7 @@ describe("views", () => {
     expect(way(rig.wanted(ME))[2]).toBeLessThan(-0.9);
     expect(rig.wanted({ ...ME, eyes: null }).position[1]).toBeCloseTo(1.16, 6);
   });
-  it("without a seat are the whole", () => {
+  it("without a seat show the whole", () => {
     const rig = new Rig();
     const whole = rig.wanted(null);
     rig.setView("eyes");
@@ -34,7 +34,7 @@ describe("views", () => {
 });
 
 describe("mouse and keys", () => {
-  it("turn the meeting with the pointer, and the eyes against it", () => {
+  it("turn the meeting with the pointer", () => {
     const rig = new Rig();
     const x = rig.wanted(ME).position[0];
     rig.drag(0.1, 0);
@@ -56,7 +56,7 @@ describe("mouse and keys", () => {
       expect(Math.sign(way(a.wanted(ME))[0]! - before)).toBe(Math.sign(way(b.wanted(ME))[0]! - before));
     }
   });
-  it("stay within bounds, and Home leads back", () => {
+  it("stay within bounds, Home resets", () => {
     const rig = new Rig();
     const home = rig.wanted(ME);
     for (let i = 0; i < 1000; i++) {
@@ -73,7 +73,7 @@ describe("mouse and keys", () => {
 });
 
 describe("the camera", () => {
-  it("glides to another view, then stands still", () => {
+  it("glides to another view, then stops", () => {
     const rig = new Rig();
     expect(rig.step(ME, 0, false).moving).toBe(true);
     expect(rig.step(ME, 0.02, false).moving).toBe(false);

@@ -38,8 +38,8 @@ export interface Participant {
   presence: number | null;
   /** The promised interval of its messages, s. */
   every: number | null;
-  /** Time of its last message, s of the roster's clock. */
-  heard: number;
+  /** Time of its last sign of life, s of the roster's clock. */
+  lastSign: number;
   /** It has published something since this page joined: not all that is known of it was retained. */
   met: boolean;
   /** The last session that was replaced by another one. */
@@ -147,7 +147,7 @@ export class Roster {
 
   /** Counts a message as a sign of life. Retained and clearing messages are none: others may send the latter. */
   private signOfLife(p: Participant, now: number): MeetingEvent[] {
-    p.heard = this.awake.seconds;
+    p.lastSign = this.awake.seconds;
     return this.update(p, now);
   }
 
@@ -191,7 +191,7 @@ export class Roster {
       state: null,
       presence: null,
       every: null,
-      heard: this.awake.seconds,
+      lastSign: this.awake.seconds,
       met: false,
       replaced: null,
       here: false,
@@ -243,7 +243,7 @@ export class Roster {
     if (m.session !== p.presence && !(late && p.here && p.presence !== null)) {
       if (p.presence !== null) p.replaced = { session: p.presence, at: now };
       p.presence = m.session;
-      p.heard = this.awake.seconds; // also when it is retained: its age is unknown
+      p.lastSign = this.awake.seconds; // also when it is retained: its age is unknown
     }
     if (m.session === p.presence) p.every = m.every;
     p.confirmed = true;
@@ -258,7 +258,7 @@ export class Roster {
   }
 
   private silent(p: Participant, now: number): boolean {
-    if (p.every === null || this.awake.seconds - p.heard <= MISSED * p.every) return false;
+    if (p.every === null || this.awake.seconds - p.lastSign <= MISSED * p.every) return false;
     return !p.here || now > this.patientUntil;
   }
 

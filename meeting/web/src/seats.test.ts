@@ -6,14 +6,14 @@ const wish = (id: string, seat: number | null = null): SeatRequest => ({ id, sea
 const seats = (list: SeatRequest[], count = 8) => Object.fromEntries(assignSeats(list, count));
 
 describe("seats", () => {
-  it("are those that were asked for", () => {
+  it("are the requested ones", () => {
     expect(seats([wish("p01", 3), wish("p02", 0)])).toEqual({ p01: 3, p02: 0 });
   });
-  it("wanted by two stay with the smaller id; the other gets the next free one", () => {
+  it("requested by two go to the smaller id", () => {
     expect(seats([wish("p02", 3), wish("p01", 3)])).toEqual({ p01: 3, p02: 4 });
     expect(seats([wish("p01", 7), wish("p02", 7), wish("p03", 0)])).toEqual({ p01: 7, p02: 1, p03: 0 });
   });
-  it("are given to those who want any, after the others", () => {
+  it("are then given to all others", () => {
     expect(seats([wish("p01"), wish("p02", 0), wish("p03", 99), wish("p04", -1)])).toEqual({
       p01: 1,
       p02: 0,
@@ -21,17 +21,17 @@ describe("seats", () => {
       p04: 3,
     });
   });
-  it("never run out, and no two have the same", () => {
+  it("never run out and are unique", () => {
     const many = Array.from({ length: 30 }, (_, i) => wish(`p${i}`, i % 5));
     const got = assignSeats(many, 8);
     expect(new Set(got.values()).size).toBe(30);
     expect(Math.max(...got.values())).toBe(29);
   });
-  it("do not hang on the order in which people are known", () => {
+  it("do not depend on the order", () => {
     const all = [wish("c", 1), wish("a", 1), wish("b"), wish("d", 2), wish("e", 1)];
     expect(seats([...all].reverse())).toEqual(seats(all));
   });
-  it("to ask for are free ones, or the one from before", () => {
+  it("to request are free or the previous one", () => {
     const others = [wish("p01", 0), wish("p02", 1)];
     expect(freeSeat(others, 8, null)).toBe(2);
     expect(freeSeat(others, 8, 5)).toBe(5);
@@ -42,7 +42,7 @@ describe("seats", () => {
 });
 
 describe("places", () => {
-  it("leave room for each, and face the middle", () => {
+  it("leave space and face the middle", () => {
     for (const count of [1, 2, 3, 8, 12, 20, 40]) {
       const places = Array.from({ length: 2 * count }, (_, i) => seatPlace(i, count));
       for (const [i, a] of places.entries()) {

@@ -28,14 +28,14 @@ describe("a tracker on the same seat", () => {
     await wait(3000);
     expect(ana.client.me!.other?.kind).toBe("tracker");
     expect(other.names).toEqual(["Ana T", "Bo"]);
-    ana.client.say("moving");
+    ana.client.write("moving");
     await wait(500);
     expect(other.said.at(-1)).toBe("Ana T: moving");
     LEFT();
     await wait(3000);
     expect(other.names).toEqual(["Ana", "Bo"]);
   });
-  it("is replaced although its message was lost", async () => {
+  it("is replaced after a lost message", async () => {
     await wait(2000);
     enter();
     await wait(1000);
@@ -52,7 +52,7 @@ describe("a tracker on the same seat", () => {
     expect(ana.client.me!.other).toBeNull();
     expect(other.names).toEqual(["Ana", "Bo"]);
   });
-  it("is not disturbed by two windows of a person", async () => {
+  it("is not disturbed by two windows", async () => {
     const pages = [ana, new Page(broker, "p01", "Ana")];
     await wait(2000);
     enter();
@@ -76,7 +76,7 @@ describe("a tracker on the same seat", () => {
     expect(other.names).toEqual(["Ana T", "Bo"]);
     expect(broker.stored("p/p01/presence")).toMatchObject({ here: true, session: 77 });
   });
-  it("is replaced when it vanishes, and returns", async () => {
+  it("is replaced until it returns", async () => {
     await wait(2000);
     enter();
     broker.frame("p01", 1);

@@ -17,7 +17,7 @@ function leg(legs: Legs, bones: ReadonlyMap<string, Quat>, hips: Quat = [0, 0, 0
 }
 
 describe("sitting", () => {
-  it("puts feet flat on the floor, knees forward", () => {
+  it("has feet on the floor, knees forward", () => {
     for (const scale of [0.9, 1, 1.08, 1.15]) {
       const legs = {
         ...USUAL,
@@ -35,12 +35,12 @@ describe("sitting", () => {
       expect(s.hips).toBeGreaterThan(SEAT);
     }
   });
-  it("is the same on both sides, seen in a mirror", () => {
+  it("is symmetric", () => {
     const { bones } = sit(USUAL);
     const q = bones.get("leftUpperLeg")!;
     expect(bones.get("rightUpperLeg")).toEqual([q[0], -q[1], -q[2], q[3]]);
   });
-  it("bends no leg to nonsense, whatever the avatar", () => {
+  it("is plausible for any avatar", () => {
     for (const legs of [
       { hips: 0.3, drop: 0.02, thigh: 0.08, shin: 0.08, ankle: 0.03 },
       { hips: 2, drop: 0.1, thigh: 0.9, shin: 0.9, ankle: 0.1 },
@@ -53,7 +53,7 @@ describe("sitting", () => {
       expect(knee[2]).toBeGreaterThanOrEqual(0);
     }
   });
-  it("keeps the knees where they are when the hips turn", () => {
+  it("keeps the knees when the hips turn", () => {
     const s = sit(USUAL);
     const hips = multiply(about("y", 0.4), about("x", -0.2));
     const turned = leg(USUAL, legsFor(s, hips), hips);
@@ -74,7 +74,7 @@ describe("sitting", () => {
 });
 
 describe("rest on a chair", () => {
-  it("has the forearms before the body, level", () => {
+  it("has level forearms before the body", () => {
     const pose = seatedRest(0, 0);
     const upper = multiply(pose.get("leftShoulder")!, pose.get("leftUpperArm")!);
     const down = rotate(upper, [1, 0, 0]);
@@ -94,7 +94,7 @@ describe("rest on a chair", () => {
 });
 
 describe("sway", () => {
-  it("is small on a chair, and none without a body", () => {
+  it("is limited on a chair, 0 without a body", () => {
     expect(seatedSway([0.05, 0.94, 0], [0, 0.94, 0], 0.94)[0]).toBeCloseTo(0.05 / 0.94, 6);
     const far = seatedSway([9, -9, 9], [0, 0.94, 0], 0.94);
     expect(far[0] * 0.94).toBeCloseTo(0.15, 6);

@@ -5,7 +5,7 @@ import { KINDS, boardTopic, parseTopic, meetingTopic, topicOf } from "./topics";
 const BASE = "r/lab/blue_room-1";
 
 describe("topics", () => {
-  it("are read as they are written", () => {
+  it("are parsed as they are composed", () => {
     for (const kind of KINDS) {
       expect(parseTopic(BASE, topicOf(BASE, "p01", kind))).toEqual({ kind, participant: "p01" });
     }
@@ -18,7 +18,7 @@ describe("topics", () => {
     }
     expect(parseTopic(BASE, `${BASE}/room`)).toEqual({ kind: "meeting" });
   });
-  it("of other meetings, with other names or pages are none", () => {
+  it("of other forms have no meaning", () => {
     for (const topic of [
       "r/lab/blue_room-12/room",
       "r/lab/other/p/p01/pose",

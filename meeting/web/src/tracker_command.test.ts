@@ -24,21 +24,21 @@ const address = (command: string | null): URL => {
 };
 
 describe("the command for one's tracker", () => {
-  it("holds account, meeting and looks, whatever stands in them", () => {
+  it("contains account, meeting and look", () => {
     const url = address(trackerCommand(entered, me));
     expect([url.protocol, url.host, url.pathname]).toEqual(["mqtt:", "localhost:1883", "/lab/main"]);
     expect([url.username, url.password].map(decodeURIComponent)).toEqual([entered.user, entered.password]);
     expect(Object.fromEntries(url.searchParams)).toEqual({ name: "Jörg's", look: "robot", seat: "2" });
   });
-  it("names the participant where the account's name does not", () => {
+  it("names the participant if necessary", () => {
     const url = address(trackerCommand({ ...entered, user: "ana" }, { ...me, avatar: null, seat: null }));
     expect(Object.fromEntries(url.searchParams)).toEqual({ name: "Jörg's", participant: "p03" });
   });
-  it("goes by TLS where the broker does", () => {
+  it("uses TLS where the broker does", () => {
     const url = address(trackerCommand({ ...entered, tcp: "mqtts://[::1]:8883" }, me));
     expect([url.protocol, url.host]).toEqual(["mqtts:", "[::1]:8883"]);
   });
-  it("is none for those who watch, and where programs cannot reach the broker", () => {
+  it("is null for watchers and without TCP", () => {
     expect(trackerCommand({ ...entered, participant: null }, null)).toBeNull();
     expect(trackerCommand({ ...entered, tcp: null }, me)).toBeNull();
     expect(trackerCommand(entered, null)).toBeNull();

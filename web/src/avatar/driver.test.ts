@@ -33,7 +33,7 @@ function follow(d: PoseDriver, q: Quat, seconds: number): number {
 }
 
 describe("the driver", () => {
-  it("shows the pose, each for the first time once", () => {
+  it("reports each new pose once", () => {
     const d = new PoseDriver();
     const q = about("z", 0.7);
     const now = follow(d, q, 1);
@@ -44,7 +44,7 @@ describe("the driver", () => {
     expect(again.moving).toBe(false);
     expect(angleBetween(again.bones.get("leftUpperArm")!, q)).toBeLessThan(1e-3);
   });
-  it("has most of a new pose in the first picture and all but 2 % in the second", () => {
+  it("shows 98 % of a new pose in two pictures", () => {
     const d = new PoseDriver();
     const now = follow(d, about("z", 0), 1);
     const q = about("z", 1);
@@ -52,7 +52,7 @@ describe("the driver", () => {
     expect(angleBetween(d.step(now + 1 / 60).bones.get("leftUpperArm")!, q)).toBeLessThan(0.13);
     expect(angleBetween(d.step(now + 2 / 60).bones.get("leftUpperArm")!, q)).toBeLessThan(0.02);
   });
-  it("comes to rest when poses stop coming, and hips go home", () => {
+  it("comes to rest without poses", () => {
     const d = new PoseDriver();
     d.setBody({ type: "body", stature: null, scaleFrom: "", bones: new Map([["hips", [0, 1, 0] as const]]) });
     let now = follow(d, about("z", 1), 1);
@@ -86,7 +86,7 @@ describe("bones that an avatar lacks", () => {
   it("change nothing when it has all", () => {
     expect(foldMissing(bones, () => true).get("head")).toEqual(about("x", 0.1));
   });
-  it("hand their rotation on", () => {
+  it("pass their rotation on", () => {
     const out = foldMissing(bones, (b) => b !== "neck" && b !== "chest" && b !== "upperChest");
     expect(out.has("neck")).toBe(false);
     expect(angleBetween(out.get("head")!, about("x", 0.6))).toBeCloseTo(0, 6);

@@ -22,14 +22,14 @@ describe("inspection of avatar files", () => {
     expect(inspect(file(vrm1()))).toEqual({ version: "1", title: "Ada", author: "B, C" });
     expect(inspect(file(vrm0()))).toEqual({ version: "0", title: "Old", author: "D" });
   });
-  it("names the missing bone", () => {
+  it("names the missing bones", () => {
     expect(() => inspect(file(vrm1("head")))).toThrow("lacks the bone head");
     expect(() => inspect(file(vrm0("leftUpperArm")))).toThrow("left upper arm");
     const none = vrm1();
     none.extensions.VRMC_vrm.humanoid.humanBones = {};
     expect(() => inspect(file(none))).toThrow("and 12 more");
   });
-  it("does not count a bone whose node is not there", () => {
+  it("ignores bones without a node", () => {
     expect(() => inspect(file({ ...vrm1(), nodes: vrm1().nodes.slice(0, 14) }))).toThrow("right foot");
   });
   it("refuses other files and says why", () => {
@@ -40,7 +40,7 @@ describe("inspection of avatar files", () => {
     expect(() => inspect(file(vrm1()).slice(0, 200))).toThrow("incomplete");
     expect(() => inspect(file({ ...vrm1(), images: [{ uri: "http://x/y.png" }] }))).toThrow("other files");
   });
-  it("names the compression that the page cannot read", () => {
+  it("names an unsupported compression", () => {
     const needs = (...names: string[]) =>
       file({ ...vrm1(), extensionsUsed: names, extensionsRequired: names });
     for (const name of [

@@ -16,14 +16,14 @@ describe("the mirror", () => {
     ]);
     expect(mirrorBones(mirrorBones(bones))).toEqual(bones);
   });
-  it("is a reflection: turning the reflected vector gives the reflected turned vector", () => {
+  it("commutes with rotation as a reflection", () => {
     const q = multiply(about("z", 0.7), multiply(about("y", -1.2), about("x", 0.5)));
     const v = [0.3, -0.8, 0.5] as const;
     const a = rotate(mirrorRotation(q), mirrorPosition(v));
     const b = mirrorPosition(rotate(q, v));
     a.forEach((x, i) => expect(x).toBeCloseTo(b[i]!, 12));
   });
-  it("makes a left arm that points forward a right arm that points forward", () => {
+  it("keeps a forward arm pointing forward", () => {
     const left = about("y", -Math.PI / 2); // +x to +z
     expect(rotate(left, [1, 0, 0])[2]).toBeCloseTo(1, 12);
     const right = mirrorBones(new Map([["leftUpperArm", left]])).get("rightUpperArm")!;

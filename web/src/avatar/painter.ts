@@ -97,7 +97,7 @@ export class Painter {
     this.changed(w / h);
   }
 
-  /** Draws at `now`, s. `since`: time since the last picture, s; null after a pause, which says nothing about the speed. */
+  /** Draws at `now`, s. `since`: time since the last picture, s; null after a pause, which does not count as speed. */
   draw(scene: Scene, camera: Camera, now: number, since: number | null): void {
     this.renderer.render(scene, camera);
     this.draws++;

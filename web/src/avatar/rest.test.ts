@@ -20,14 +20,14 @@ function following(): RestBlend {
 }
 
 describe("coming to rest", () => {
-  it("starts at rest and is with the person after 0.3 s", () => {
+  it("follows the person after 0.3 s", () => {
     const b = new RestBlend();
     expect(b.update(0, false)).toBe(1);
     const w = run(b, 0, 0.31, true);
     expect(w[10]).toBeGreaterThan(0);
     expect(w.at(-1)).toBe(0);
   });
-  it("begins after 0.3 s and takes about a second", () => {
+  it("starts after 0.3 s and takes a second", () => {
     const b = following();
     const w = run(b, 1, 1.4, false);
     expect(w[28]).toBe(0);
@@ -51,7 +51,7 @@ describe("coming to rest", () => {
     expect(Math.abs(back[0]! - half)).toBeLessThan(0.06);
     expect(back.at(-1)).toBe(0);
   });
-  it("depends on the clock alone, which may stop", () => {
+  it("depends on the clock, which may stop", () => {
     const slow = new RestBlend();
     slow.update(0, true);
     slow.update(1, true);
@@ -62,7 +62,7 @@ describe("coming to rest", () => {
 });
 
 describe("the rest pose", () => {
-  it("lets both arms hang and is the same in a mirror", () => {
+  it("is symmetric with hanging arms", () => {
     const pose = restPose(0, 0);
     expect(rotate(pose.get("leftUpperArm")!, [1, 0, 0])[1]).toBeLessThan(-0.9);
     expect(rotate(pose.get("rightUpperArm")!, [-1, 0, 0])[1]).toBeLessThan(-0.9);

@@ -20,7 +20,7 @@ class FakeSocket {
     this.readyState = FakeSocket.OPEN;
     this.onopen();
   }
-  says(m: object): void {
+  delivers(m: object): void {
     this.onmessage({ data: JSON.stringify(m) });
   }
   closes(code: number, reason: string): void {
@@ -35,10 +35,10 @@ const socket = (): FakeSocket => FakeSocket.all.at(-1)!;
 const FULL = "Too many pages are open. Close one.";
 const pong = { type: "pong", id: 1, stamp: 2 };
 
-/** ms to the next try, without the part that is left to chance. */
+/** ms to the next try, without the random part. */
 function wait(): number {
   const s = last();
-  if (s.kind !== "lost") throw new Error("it is not lost");
+  if (s.kind !== "lost") throw new Error("the connection is not lost");
   return s.retryAt - performance.now();
 }
 
@@ -64,15 +64,15 @@ afterEach(() => {
 });
 
 describe("the connection", () => {
-  it("is open when the program has spoken", () => {
+  it("is open after the first message", () => {
     socket().opens();
     expect(last().kind).toBe("connecting");
-    socket().says(pong);
-    socket().says(pong);
+    socket().delivers(pong);
+    socket().delivers(pong);
     expect(states.map((s) => s.kind)).toEqual(["connecting", "open"]);
   });
 
-  it("that is turned away says why, is never open, and waits ever longer", () => {
+  it("that is refused waits longer each time", () => {
     for (const pause of [500, 1000, 2000]) {
       socket().opens();
       socket().closes(1013, FULL);
@@ -82,15 +82,15 @@ describe("the connection", () => {
     }
     expect(states.some((s) => s.kind === "open")).toBe(false);
     socket().opens();
-    socket().says(pong); // another page has gone
+    socket().delivers(pong); // another page has gone
     socket().closes(1006, "");
     expect(last()).toMatchObject({ kind: "lost", words: "" });
     expect(wait()).toBeCloseTo(500);
   });
 
-  it("has no words of its own for what others say when it ends", () => {
+  it("has no reason for an ordinary end", () => {
     socket().opens();
-    socket().says(pong);
+    socket().delivers(pong);
     socket().closes(1001, "going away");
     expect(last()).toMatchObject({ kind: "lost", words: "" });
   });

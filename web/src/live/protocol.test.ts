@@ -27,7 +27,7 @@ describe("text messages", () => {
     expect(m.spread.get("l_wrist")?.[5]).toBe(9);
     expect([m.secondMode, m.F, m.Dc]).toEqual([0.1, 0.1, 1.8]);
   });
-  it("reads a pose without what only some methods tell", () => {
+  it("reads a pose without optional members", () => {
     const { spread: _s, second_mode: _m, ...rest } = pose;
     const m = read(rest);
     if (m?.type !== "pose" || m.state !== "tracking") throw new Error("no pose");
@@ -63,7 +63,7 @@ describe("text messages", () => {
       expect(parseMessage(t), t).toBeNull();
     }
   });
-  it("reads hello, and takes only plain names for looks", () => {
+  it("reads hello with plain names of looks", () => {
     const m = read({
       type: "hello",
       protocol: 1,
@@ -112,7 +112,7 @@ describe("pictures", () => {
     const p = parsePicture(make(1, 20))!;
     expect([p.frame, p.stamp, p.jpeg.size]).toEqual([77, 12.5, 4]);
   });
-  it("are refused when short or of another kind", () => {
+  it("are refused if short or of another kind", () => {
     for (const b of [make(1, 0), make(1, 16), make(2, 20)]) expect(parsePicture(b)).toBeNull();
   });
 });

@@ -14,7 +14,7 @@ beforeEach(() => {
 });
 
 describe("the banner", () => {
-  it("asks whether the program runs when nothing is known", () => {
+  it("asks for the program without a reason", () => {
     banner.setState({ kind: "connecting" });
     expect(element("banner").hidden).toBe(true);
     lost("");
@@ -28,7 +28,7 @@ describe("the banner", () => {
     expect(element("banner").hidden).toBe(true);
   });
 
-  it("gives the reason, also during the next try", () => {
+  it("gives the reason, also while retrying", () => {
     lost("Too many pages are open.");
     expect(words()).toBe("Too many pages are open. Trying again in 4 s.");
     banner.setState({ kind: "connecting" });

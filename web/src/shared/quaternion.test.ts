@@ -16,7 +16,7 @@ describe("quaternions", () => {
     const b = about("z", 1.1);
     close(rotate(multiply(a, b), [1, 2, 3]), rotate(a, rotate(b, [1, 2, 3])));
   });
-  it("slerp has constant speed and goes the short way", () => {
+  it("slerp is uniform on the short arc", () => {
     const a = about("y", 0.2);
     const b = about("y", 1.4);
     expect(angleBetween(a, slerp(a, b, 0.25))).toBeCloseTo(0.3, 9);
@@ -26,7 +26,7 @@ describe("quaternions", () => {
     expect(slerp(a, b, 1)).toBe(b);
     expect(slerp(a, a, 0.5).every(Number.isFinite)).toBe(true);
   });
-  it("unit mends rounding and refuses the rest", () => {
+  it("unit repairs rounding and refuses others", () => {
     close(unit([0, 0, 0, 1.02])!, IDENTITY);
     expect(unit([0, 0, 0, 0])).toBeNull();
     expect(unit([1, 1, 1, 1])).toBeNull();

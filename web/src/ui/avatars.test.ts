@@ -53,7 +53,7 @@ beforeEach(() => {
 });
 
 describe("a bad file before anything is shown", () => {
-  it("makes way for the avatar that was chosen, and promises nothing", async () => {
+  it("is replaced by the chosen avatar", async () => {
     void avatars.setLooks(["plain", "casual", "robot"]);
     await settle();
     void avatars.choose("look:robot");
@@ -65,7 +65,7 @@ describe("a bad file before anything is shown", () => {
     expect(remembered).toEqual(["look:robot"]);
   });
 
-  it("makes way for the avatar of the settings, or the first when that does not come", async () => {
+  it("is replaced by a stored or first avatar", async () => {
     void avatars.setLooks(["plain", "casual"]);
     await settle();
     void avatars.take(file("bad"));
@@ -80,7 +80,7 @@ describe("a bad file before anything is shown", () => {
     expect(remembered).toEqual([]);
   });
 
-  it("leaves the start to the program's first words", async () => {
+  it("leaves the first avatar to the program", async () => {
     await avatars.take(file("bad"));
     expect(said).toEqual(["This is not a VRM avatar."]);
     void avatars.setLooks(["plain", "casual"]);
@@ -88,7 +88,7 @@ describe("a bad file before anything is shown", () => {
     await answer("casual");
   });
 
-  it("says that there is none when there is none", async () => {
+  it("is reported when there is no avatar", async () => {
     await avatars.setLooks([]);
     await avatars.take(file("bad"));
     expect(said).toEqual(["This is not a VRM avatar. No avatar is shown."]);
@@ -102,13 +102,13 @@ describe("a bad file", () => {
     await answer("casual");
   });
 
-  it("leaves what is shown", async () => {
+  it("keeps the shown avatar", async () => {
     await avatars.take(file("bad"));
     expect(said).toEqual(["This is not a VRM avatar. The avatar stays as it was."]);
     expect(asked).toEqual(["casual"]);
   });
 
-  it("makes way for one that was still on its way", async () => {
+  it("is replaced by one that still loads", async () => {
     void avatars.choose("look:plain");
     void avatars.take(file("bad"));
     await settle();
@@ -121,7 +121,7 @@ describe("a bad file", () => {
 });
 
 describe("a good file", () => {
-  it("takes the place of the one that was on its way", async () => {
+  it("replaces one that still loads", async () => {
     void avatars.setLooks(["plain", "casual"]);
     await settle();
     await avatars.take(file("good"));

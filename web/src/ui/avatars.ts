@@ -181,7 +181,7 @@ export class Avatars {
     return true;
   }
 
-  /** `last`: nothing else is tried, so the message says what is shown. */
+  /** `last`: nothing else is tried, so the message adds what is shown. */
   private failed(e: unknown, otherwise: string, last: boolean): void {
     const words = e instanceof AvatarError ? e.message : `${otherwise}. Try again.`;
     this.uses.notify("error", last ? `${words} ${this.info ? STAYS : NONE}` : words);

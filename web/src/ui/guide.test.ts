@@ -29,7 +29,7 @@ beforeEach(() => {
 });
 
 describe("the guide", () => {
-  it("says that the room is empty when it has counted down", () => {
+  it("confirms the empty scene after 5 s", () => {
     enter("empty_room");
     element("guide-count").press();
     vi.advanceTimersByTime(4900);
@@ -38,7 +38,7 @@ describe("the guide", () => {
     expect(sent).toEqual([{ type: "guide", step: "empty" }]);
   });
 
-  it("stops counting when the connection is lost, and knows no phase", () => {
+  it("stops the countdown when disconnected", () => {
     enter("empty_room");
     element("guide-count").press();
     vi.advanceTimersByTime(2000);
@@ -57,7 +57,7 @@ describe("the guide", () => {
     expect(sent).toEqual([{ type: "guide", step: "empty" }]);
   });
 
-  it("keeps out of the picture only who said that the room is empty", () => {
+  it("asks to stay out only after confirmation", () => {
     enter("background", true);
     expect(element("guide-text").textContent).toMatch(/Stay out of view/);
     expect(element("guide").dataset.figure).toBe("room");
@@ -72,7 +72,7 @@ describe("the guide", () => {
     expect(element("guide-title").textContent).toMatch(/Step in/);
   });
 
-  it("is not done with a person who was found while nobody was connected", () => {
+  it("is not done for a person found before", () => {
     enter("person");
     guide.disconnected();
     enter("tracking");
@@ -80,7 +80,7 @@ describe("the guide", () => {
     expect(said.join()).not.toMatch(/Done/);
   });
 
-  it("says so when nothing can be said to the program", () => {
+  it("reports a missing connection", () => {
     enter("empty_room");
     connected = false;
     for (const id of ["guide-now", "guide-skip", "guide-back"]) {

@@ -35,8 +35,8 @@ beforeEach(() => {
   outputs.setOutputs([]);
 });
 
-describe("an address that is added", () => {
-  it("gets the error that names it, without its password, and nothing else", () => {
+describe("an added address", () => {
+  it("gets only the error that names it", () => {
     add("mqtt://ana:secret@host/Home");
     expect(input()).toBe("");
     expect(outputs.refused("the recording was ended: No space left on device")).toBe(false);
@@ -47,7 +47,7 @@ describe("an address that is added", () => {
     expect(outputs.refused('the output "mqtt://ana@host/Home" does not name a room')).toBe(false);
   });
 
-  it("is answered when the list has it, also without its password", () => {
+  it("is answered by the list of outputs", () => {
     for (const [given, shown] of [
       ["vmc://localhost", "vmc://localhost"],
       ["mqtt://ana:secret@host/home/studio", "mqtt://ana@host/home/studio"],
@@ -60,7 +60,7 @@ describe("an address that is added", () => {
     }
   });
 
-  it("and was in the list before waits for the error that says so", () => {
+  it("that is already listed gets its error", () => {
     outputs.setOutputs([output("vmc://localhost")]);
     add("vmc://localhost");
     outputs.setOutputs([output("vmc://localhost")]);
@@ -78,7 +78,7 @@ describe("an address that is added", () => {
     expect(outputs.refused('the output "vmc://localhost" is odd')).toBe(false);
   });
 
-  it("that cannot be one is not sent", () => {
+  it("that is malformed is not sent", () => {
     add("localhost");
     expect(complaint()).toMatch(/looks like/);
     add(`vmc://${"a".repeat(2000)}`);
@@ -88,7 +88,7 @@ describe("an address that is added", () => {
 });
 
 describe("outputs without a connection", () => {
-  it("have no state, and what is pressed says why nothing happens", () => {
+  it("have no state and report the reason", () => {
     outputs.setOutputs([output("vmc://localhost")]);
     expect(listed()).toMatch(/sending.*7 sent/);
     outputs.disconnected();

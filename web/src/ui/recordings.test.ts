@@ -33,7 +33,7 @@ beforeEach(() => {
 });
 
 describe("recording", () => {
-  it("twice in a moment starts and stops", () => {
+  it("starts and stops within a moment", () => {
     recordings.toggle();
     expect(label()).toBe("Starting…");
     expect(element("record").classes.has("on")).toBe(true);
@@ -43,7 +43,7 @@ describe("recording", () => {
     expect(sent).toEqual([true, false, true]);
   });
 
-  it("is not refused by a status that was on its way, and is confirmed by one that shows it", () => {
+  it("is confirmed by a status that shows it", () => {
     recordings.toggle();
     status(null);
     expect(label()).toBe("Starting…");
@@ -60,7 +60,7 @@ describe("recording", () => {
     expect(sent).toEqual([true, false, true]);
   });
 
-  it("that was stopped at once is not taken for ended by a status that was on its way", () => {
+  it("that was stopped ignores an older status", () => {
     recordings.toggle();
     recordings.toggle();
     status(null);
@@ -70,7 +70,7 @@ describe("recording", () => {
     expect(label()).toBe("Record");
   });
 
-  it("that does not come about is forgotten after a while", () => {
+  it("that does not start is forgotten", () => {
     recordings.toggle();
     vi.advanceTimersByTime(3100);
     status(null);
@@ -81,7 +81,7 @@ describe("recording", () => {
     expect(sent).toEqual([true, true, true]);
   });
 
-  it("can be stopped when the person is gone before it was seen to start", () => {
+  it("can be stopped when the person has left", () => {
     recordings.toggle();
     status(null, "person");
     expect(element("record").disabled).toBe(false);
@@ -90,7 +90,7 @@ describe("recording", () => {
     expect(element("record").disabled).toBe(true);
   });
 
-  it("knows nothing without a connection", () => {
+  it("is unknown without a connection", () => {
     recordings.toggle();
     recordings.disconnected();
     expect([label(), element("record").disabled]).toEqual(["Record", true]);

@@ -13,12 +13,12 @@ describe("settings", () => {
     const s = { ...DEFAULTS, mirrorAvatar: true, tab: "send" as const, avatar: "look:plain" };
     expect(parseStored(SettingsSchema, JSON.stringify(s))).toEqual(s);
   });
-  it("take their defaults where they are broken", () => {
+  it("have defaults where they are malformed", () => {
     for (const t of [null, "", "{", "3", "null", '{"tab":"else","keys":1,"avatar":7}']) {
       expect(parseStored(SettingsSchema, t)).toEqual(DEFAULTS);
     }
   });
-  it("of two windows are those that were changed last, one by one", () => {
+  it("of two windows are merged one by one", () => {
     const kept = new Map<string, string>();
     vi.stubGlobal("localStorage", {
       getItem: (key: string) => kept.get(key) ?? null,
@@ -32,7 +32,7 @@ describe("settings", () => {
     here.save({ ...DEFAULTS, overlay: false, keys: true, tab: "send" });
     expect(here.load()).toEqual({ ...DEFAULTS, overlay: false, avatar: "look:casual", tab: "send" });
   });
-  it("hold for the page where the browser keeps nothing", () => {
+  it("are defaults where nothing is stored", () => {
     vi.stubGlobal("localStorage", undefined);
     const stored = storedSettings();
     stored.save({ ...DEFAULTS, overlay: false });
@@ -40,16 +40,16 @@ describe("settings", () => {
   });
 });
 
-describe("of too many messages", () => {
-  it("the oldest goes that is no error; an error only when all are", () => {
+describe("too many messages", () => {
+  it("the oldest that is no error is removed", () => {
     expect(toRemove([true, false, false, true, false])).toBe(1);
     expect(toRemove([false, true])).toBe(0);
     expect(toRemove([true, true, true])).toBe(0);
   });
 });
 
-describe("pauses between tries", () => {
-  it("grow, are bounded and differ between pages", () => {
+describe("delays between tries", () => {
+  it("grow to a bound and differ by page", () => {
     expect([0, 1, 2, 9, 100].map((n) => retryDelay(n, 0.5))).toEqual([500, 1000, 2000, 10000, 10000]);
     expect(retryDelay(3, 0)).toBeLessThan(retryDelay(3, 0.9));
   });

@@ -39,7 +39,7 @@ beforeEach(() => {
 });
 
 describe("gauges", () => {
-  it("show a latency while somebody is tracked, and only then", () => {
+  it("show a latency only while tracking", () => {
     status("tracking");
     expect(shown()).toMatchObject({ tracked: "24.6", median: "61", p95: "84" });
     for (const phase of ["lost", "person", "stopped", "ended", "empty_room"] as const) {
@@ -49,7 +49,7 @@ describe("gauges", () => {
     }
   });
 
-  it("show nothing of before when the connection is lost", () => {
+  it("are cleared when disconnected", () => {
     status("tracking");
     gauges.setPose({
       type: "pose",

@@ -4,14 +4,14 @@ import { RADIUS_95, ellipse, ellipseFromAbove, ellipseInPicture } from "./geomet
 import { Pairing } from "./pairing";
 
 describe("ellipses", () => {
-  it("have the half axes of a diagonal covariance", () => {
+  it("have the half axes of the covariance", () => {
     const e = ellipse(9, 0, 4);
     expect([e.major, e.minor, e.angle]).toEqual([3 * RADIUS_95, 2 * RADIUS_95, 0]);
     expect(Math.abs(ellipse(4, 0, 9).angle)).toBeCloseTo(Math.PI / 2, 9);
     expect(ellipse(5, 4, 5).angle).toBeCloseTo(Math.PI / 4, 9);
     expect(ellipse(1, 1, 1).minor).toBeCloseTo(0, 6);
   });
-  it("do not show in the picture what lies along the line of sight", () => {
+  it("of the image ignore the line of sight", () => {
     const camera = { width: 640, height: 480, fx: 500, fy: 500, cx: 320, cy: 240 };
     const e = ellipseInPicture([0, 0, 2000], [16, 0, 0, 16, 0, 1e4], camera)!;
     expect(e.major).toBeCloseTo(1 * RADIUS_95, 9);
@@ -22,7 +22,7 @@ describe("ellipses", () => {
     expect(side.major).toBeGreaterThan(10);
     expect(ellipseInPicture([0, 0, -5], [1, 0, 0, 1, 0, 1], camera)).toBeNull();
   });
-  it("show from above exactly x and z", () => {
+  it("from above show x and z alone", () => {
     const e = ellipseFromAbove([4, 9, 0, 9, 9, 100]);
     expect(e.major).toBeCloseTo(10 * RADIUS_95, 9);
     expect(Math.abs(e.angle)).toBeCloseTo(Math.PI / 2, 9);
@@ -35,7 +35,7 @@ describe("pictures and poses", () => {
     const p = new Pairing<{ frame: number }, { frame: number }>((x) => dropped.push(x.frame));
     return { p, dropped };
   };
-  it("belong together by number", () => {
+  it("are paired by frame number", () => {
     const { p, dropped } = make();
     for (const frame of [1, 2, 3]) p.picture({ frame });
     for (const frame of [1, 2]) p.pose({ frame }, 100);
@@ -45,7 +45,7 @@ describe("pictures and poses", () => {
     expect(p.pick(121)).toEqual({ picture: { frame: 3 }, pose: { frame: 3 } });
     expect(dropped).toEqual([1, 2]);
   });
-  it("show pictures as they come while there is nobody", () => {
+  it("are shown unpaired without poses", () => {
     const { p } = make();
     p.picture({ frame: 1 });
     expect(p.pick(0)).toEqual({ picture: { frame: 1 }, pose: null });
@@ -53,7 +53,7 @@ describe("pictures and poses", () => {
     p.picture({ frame: 9 });
     expect(p.pick(1000)).toEqual({ picture: { frame: 9 }, pose: null });
   });
-  it("keep few, and free each once", () => {
+  it("are limited, each freed once", () => {
     const { p, dropped } = make();
     for (let frame = 0; frame < 50; frame++) {
       p.picture({ frame });
@@ -64,7 +64,7 @@ describe("pictures and poses", () => {
     expect(new Set(dropped).size).toBe(50);
     expect(dropped).toHaveLength(50);
   });
-  it("begin anew when numbers do", () => {
+  it("restart when the numbers restart", () => {
     const { p } = make();
     p.picture({ frame: 100 });
     p.pose({ frame: 100 }, 0);

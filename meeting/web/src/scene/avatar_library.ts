@@ -8,11 +8,11 @@ import { drawsInSoftware } from "#web/shared/graphics";
 import { LIGHT_STRANGERS, ownLook, strangersFile } from "../avatar_file";
 import type { AvatarChoice } from "../messages";
 
-/** Bytes of all strangers' files that are kept at a time. */
+/** Limit of the bytes of participants' files at a time. */
 const MOST_BYTES = 256 * 1024 * 1024;
 const PAUSE = 20; // ms between avatars that are built
 
-/** The same for the same file. */
+/** Equal for equal files. */
 export const keyOf = (choice: AvatarChoice): string =>
   "look" in choice ? `look:${choice.look}` : `file:${choice.sha256}`;
 
@@ -21,7 +21,7 @@ interface Entry {
   bytes: number;
   users: Set<Avatar>;
   waiting: number;
-  /** Whose surfaces the others use. */
+  /** The avatar whose surfaces the others use. */
   first: Avatar | null;
 }
 
@@ -45,7 +45,7 @@ function forget(material: Material | Material[]): void {
   }
 }
 
-/** Gives `to`, which came of the same file, the surfaces of `from`; its own go. */
+/** Replaces the surfaces of `to` by those of `from`, which is of the same file. */
 function shareSurfaces(from: Object3D, to: Object3D): void {
   const a = meshes(from);
   const b = meshes(to);
@@ -68,7 +68,7 @@ export class AvatarLibrary {
   private last: Promise<unknown> = Promise.resolve();
   private readonly keys = new WeakMap<Avatar, string>();
 
-  /** A new avatar for one participant; give it back with release(). Throws AvatarError in words. */
+  /** A new avatar for one participant; give it back with release(). Throws AvatarError. */
   async make(choice: AvatarChoice): Promise<Avatar> {
     const key = keyOf(choice);
     const entry = this.entry(key, choice);
@@ -82,14 +82,14 @@ export class AvatarLibrary {
       this.keys.set(avatar, key);
       return avatar;
     } catch (e) {
-      if (entry.users.size === 0) this.entries.delete(key); // the next one may have more luck
+      if (entry.users.size === 0) this.entries.delete(key); // the next request tries again
       throw e;
     } finally {
       entry.waiting--;
     }
   }
 
-  /** One after the other, with a moment for the rest of the page between them: to build one takes a while. */
+  /** Builds avatars one after the other, with pauses for the rest of the page. */
   private inTurn<T>(work: () => Promise<T>): Promise<T> {
     const done = this.last.then(work);
     this.last = done
@@ -102,7 +102,7 @@ export class AvatarLibrary {
     const key = this.keys.get(avatar);
     const entry = key === undefined ? undefined : this.entries.get(key);
     if (!entry?.users.delete(avatar)) return;
-    // The surfaces are those of all; they go with the last one.
+    // The surfaces are shared: they are freed with the last avatar.
     if (entry.users.size > 0 || entry.waiting > 0) return;
     avatar.dispose();
     this.entries.delete(key!);
@@ -126,7 +126,7 @@ export class AvatarLibrary {
       waiting: 0,
       first: null,
     };
-    made.data.catch(() => undefined); // told to whom it concerns, in make()
+    made.data.catch(() => undefined); // make() reports it
     this.entries.set(key, made);
     return made;
   }

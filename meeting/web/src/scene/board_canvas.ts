@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of the blackboard: chalk on slate. The same picture hangs on the wall and lies under the pointer.
+// The picture of the blackboard: chalk on slate. The scene and the large view show the same picture.
 
 import type { Stroke } from "../messages";
 import { UNIT, onSlate } from "../strokes";
@@ -8,7 +8,7 @@ const REDRAW = 250; // ms between whole redraws
 
 export class BoardCanvas {
   readonly canvas = document.createElement("canvas");
-  /** Goes up with each change. */
+  /** Increases with each change. */
   version = 0;
   private readonly g: CanvasRenderingContext2D;
   private pending = 0;
@@ -31,7 +31,7 @@ export class BoardCanvas {
     this.later();
   }
 
-  /** Strokes that came on top; null: all is to be drawn anew. */
+  /** Draws added strokes; null: everything must be redrawn. */
   add(strokes: readonly Stroke[] | null): void {
     if (!strokes) {
       this.later();
@@ -42,7 +42,7 @@ export class BoardCanvas {
     this.touched();
   }
 
-  /** Whole redraws are not made more often than they can be seen. */
+  /** Redraws everything soon, not more often than is visible. */
   later(): void {
     if (this.pending) return;
     const wait = Math.max(0, this.drawnAt + REDRAW - performance.now());
@@ -61,7 +61,7 @@ export class BoardCanvas {
     const g = this.g;
     g.fillStyle = this.slate;
     g.fillRect(0, 0, width, height);
-    // A slate that was wiped many times.
+    // The traces of wiped chalk.
     const light = g.createRadialGradient(
       width * 0.4,
       height * 0.35,

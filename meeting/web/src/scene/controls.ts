@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mouse, fingers and keys on the picture of the meeting.
+// Pointers and keys on the picture of the meeting.
 
 import type { Rig } from "../rig";
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names over the heads, and what was just said: text of the page over the picture, never HTML.
+// Names over the heads, and new messages of the chat: text over the picture, never HTML.
 
 import type { Camera, Vector3 } from "three";
 import { plainLine } from "../names";
 import { h } from "#web/shared/dom";
 
-const SAID = 7; // s that words stay
+const SAID = 7; // s that a message stays
 const MOST_WORDS = 90; // characters
 
 interface Tag {
@@ -32,7 +32,7 @@ export class Tags {
     this.all.delete(id);
   }
 
-  say(id: string, text: string, now: number): void {
+  showMessage(id: string, text: string, now: number): void {
     const tag = this.all.get(id);
     if (!tag) return;
     tag.said.textContent = plainLine(text, MOST_WORDS);
@@ -51,12 +51,12 @@ export class Tags {
     return tag;
   }
 
-  /** Words that were there long enough go. */
+  /** Hides messages whose time is over. */
   step(now: number): void {
     for (const t of this.all.values()) if (!t.said.hidden && now > t.until) t.said.hidden = true;
   }
 
-  /** Puts the tag where `point` (of the world) is in the picture; null: it is not to be seen. */
+  /** Puts the tag where `point` (of the world) is in the picture; null: it is hidden. */
   place(id: string, point: Vector3 | null, camera: Camera): void {
     const tag = this.all.get(id);
     if (!tag) return;

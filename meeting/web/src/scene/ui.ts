@@ -135,8 +135,8 @@ export class SceneUi {
     this.stage?.touch();
   }
 
-  say(id: string, text: string): void {
-    this.tags.say(id, text, performance.now() / 1000);
+  showMessage(id: string, text: string): void {
+    this.tags.showMessage(id, text, performance.now() / 1000);
     this.stage?.touch();
   }
 

@@ -18,12 +18,12 @@ export class ChatView {
   private unread = 0;
   private open = false;
 
-  /** `say`: empty when it is said, or why not. */
-  constructor(private readonly say: (text: string) => string) {
+  /** `send` gives an empty string, or the reason why the message cannot be sent. */
+  constructor(private readonly send: (text: string) => string) {
     byId("chat-form", HTMLFormElement).addEventListener("submit", (e) => {
       e.preventDefault();
       if (!this.text.value.trim()) return;
-      const refused = this.say(this.text.value);
+      const refused = this.send(this.text.value);
       this.error.textContent = refused;
       if (!refused) this.text.value = "";
     });
@@ -35,7 +35,7 @@ export class ChatView {
     this.text.form!.querySelector("button")!.disabled = !on;
   }
 
-  /** So many messages wait for the connection. */
+  /** Shows the number of messages that wait for the connection. */
   waiting(n: number): void {
     const words =
       n === 0 ? "" : `${n === 1 ? "One message waits" : `${n} messages wait`} for the connection.`;
@@ -65,7 +65,7 @@ export class ChatView {
     if (line.kind === "said" && !line.mine && !this.open) this.setUnread(this.unread + 1);
   }
 
-  /** The person sees the chat, or does not. */
+  /** `open`: whether the chat is visible. */
   seen(open: boolean): void {
     if (this.open === open) return;
     this.open = open;

@@ -57,7 +57,7 @@ export class EntryForm {
   /** Shows the form; `words`: the reason, or empty. */
   open(words: string, canEnter: boolean): void {
     this.box.hidden = false;
-    this.say(words);
+    this.report(words);
     for (const id of ["enter", "watch"]) byId(id, HTMLButtonElement).disabled = !canEnter;
     if (canEnter) this.name.focus();
   }
@@ -81,7 +81,7 @@ export class EntryForm {
     byId("look-note", HTMLElement).textContent = SUMMARY[this.chosen.replace(/^look:/, "")] ?? "";
   }
 
-  private say(words: string): void {
+  private report(words: string): void {
     this.error.textContent = words;
   }
 
@@ -92,7 +92,7 @@ export class EntryForm {
       const n = characters(name);
       this.name.setAttribute("aria-invalid", String(n < 1 || n > MAX_NAME));
       if (n < 1 || n > MAX_NAME) {
-        this.say(
+        this.report(
           n < 1
             ? "Enter a name first. Others see it above your avatar."
             : `A name has at most ${MAX_NAME} characters.`,
@@ -109,7 +109,7 @@ export class EntryForm {
     } catch (e) {
       if (e instanceof AvatarError) this.url.focus();
       const known = e instanceof AvatarError || e instanceof EntryError;
-      this.say(known ? e.message : "Something went wrong. Try again.");
+      this.report(known ? e.message : "Something went wrong. Try again.");
       if (!known) console.error(e);
     } finally {
       this.wait(false);
@@ -120,13 +120,13 @@ export class EntryForm {
     const chosen = this.chosen;
     if (chosen === "none") return null;
     if (chosen !== "url") return { look: chosen.slice(5) };
-    this.say("");
+    this.report("");
     return describeFile(this.url.value);
   }
 
   private wait(on: boolean): void {
     this.busy = on;
-    if (on) this.say("");
+    if (on) this.report("");
     this.box.setAttribute("aria-busy", String(on));
     for (const id of ["enter", "watch"]) byId(id, HTMLButtonElement).disabled = on;
   }

@@ -7,7 +7,7 @@ import { MAX_TITLE, type MeetingMessage } from "../messages";
 import { plainLine } from "../names";
 
 interface Uses {
-  /** Empty when the meeting has taken it, or why not in words. */
+  /** Gives an empty string when the meeting has accepted it, or the reason why not. */
   alter: (change: MeetingChange) => Promise<string>;
   /** With the password; null when there is none. */
   command: () => string | null;
@@ -24,7 +24,7 @@ export class MeetingTab {
   private readonly showButton: HTMLButtonElement;
   private readonly copyButton: HTMLButtonElement;
   private meeting: MeetingMessage | null = null;
-  private number = 0; // of the newest change: what an older one comes to is not told any more
+  private number = 0; // of the newest change: results of older ones are not shown
 
   constructor(private readonly uses: Uses) {
     byId("chair-form", HTMLFormElement).addEventListener("submit", (e) => {
@@ -41,7 +41,7 @@ export class MeetingTab {
   enter(chair: boolean, camera: boolean, look: boolean): void {
     this.number++;
     this.meeting = null;
-    this.tell("");
+    this.report("");
     this.reveal(false);
     byId("chair", HTMLElement).hidden = !chair;
     byId("camera", HTMLElement).hidden = !camera;
@@ -84,18 +84,18 @@ export class MeetingTab {
     this.seats.setAttribute("aria-invalid", String(seats === null));
     if ("words" in title) {
       this.title.focus();
-      return this.tell(title.words, true);
+      return this.report(title.words, true);
     }
     if (seats === null) {
       this.seats.focus();
-      return this.tell("The number of seats is from 1 to 100.", true);
+      return this.report("The number of seats is from 1 to 100.", true);
     }
     this.title.value = title.title;
     this.seats.value = String(seats);
     const change: MeetingChange = {};
     if (title.title !== plainLine(meeting.title, MAX_TITLE)) change.title = title.title;
     if (seats !== meeting.seats) change.seats = seats;
-    if (Object.keys(change).length === 0) return this.tell("Nothing has changed.");
+    if (Object.keys(change).length === 0) return this.report("Nothing has changed.");
     void this.ask(change, "Saved.");
   }
 
@@ -107,12 +107,12 @@ export class MeetingTab {
 
   private async ask(change: MeetingChange, done: string): Promise<void> {
     const number = ++this.number;
-    this.tell("Saving…");
+    this.report("Saving…");
     const refused = await this.uses.alter(change);
-    if (number === this.number) this.tell(refused || done, refused !== "");
+    if (number === this.number) this.report(refused || done, refused !== "");
   }
 
-  private tell(words: string, wrong = false): void {
+  private report(words: string, wrong = false): void {
     this.words.classList.toggle("error", wrong);
     this.words.classList.toggle("soft", !wrong);
     this.words.textContent = words;
