@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the camera to the avatar drawn, with the bundled clip as the camera and a real Chromium:
-//   TELEMIME_PROGRAM=build/release/telemime node e2e/latency.mjs [seconds]
+// Measures the time from the camera to the drawn avatar, with the bundled clip as the camera and a real Chromium:
+//   TELEMIME_PROGRAM=build/release/telemime node web/e2e/latency.mjs [seconds]
 
 import { readFileSync } from "node:fs";
+import { Listener } from "./listener.mjs";
 import { hasAvatar, inPhase, openPage, startBrowser, startProgram } from "./program.mjs";
 
 const seconds = Number(process.argv[2] ?? 30);
@@ -24,15 +25,9 @@ await page.waitForTimeout(seconds * 1000);
 const [drawnAfter, timeAfter, end] = [await drawnSoFar(), await browserTime(), performance.now()];
 const drawn = (1000 * (drawnAfter - drawnBefore)) / (end - begin);
 const cores = (1000 * (timeAfter - timeBefore)) / (end - begin);
-// Only now: to look into all that comes costs time, too.
-const session = await page.context().newCDPSession(page);
-const status = await new Promise((resolve) => {
-  session.on("Network.webSocketFrameReceived", ({ response }) => {
-    if (response.opcode !== 1 || !response.payloadData.includes('"type":"status"')) return;
-    resolve(JSON.parse(response.payloadData));
-  });
-  void session.send("Network.enable");
-});
+const listener = await Listener.open(program); // not before: it costs time, too
+const status = await listener.next((m) => m.type === "status");
+listener.close();
 await close();
 await browser.close();
 await program.stop();

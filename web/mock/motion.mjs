@@ -3,49 +3,36 @@
 
 import { about, mixQuat, mul } from "./quat.mjs";
 
-/** Joints of the T-pose, m: y up, facing +z, x to the person's left. */
-export const BODY = {
-  hips: [0, 0.94, 0],
-  spine: [0, 1.04, 0],
-  chest: [0, 1.2, 0],
-  neck: [0, 1.45, 0],
-  head: [0, 1.53, 0.01],
-  leftShoulder: [0.03, 1.42, 0],
-  leftUpperArm: [0.18, 1.42, 0],
-  leftLowerArm: [0.46, 1.42, 0],
-  leftHand: [0.71, 1.42, 0],
-  rightShoulder: [-0.03, 1.42, 0],
-  rightUpperArm: [-0.18, 1.42, 0],
-  rightLowerArm: [-0.46, 1.42, 0],
-  rightHand: [-0.71, 1.42, 0],
-  leftUpperLeg: [0.09, 0.88, 0],
-  leftLowerLeg: [0.09, 0.48, 0],
-  leftFoot: [0.09, 0.08, 0],
-  rightUpperLeg: [-0.09, 0.88, 0],
-  rightLowerLeg: [-0.09, 0.48, 0],
-  rightFoot: [-0.09, 0.08, 0],
+/** Parents and joints of the T-pose, m: y up, facing +z, x to the person's left. */
+const MIDDLE = {
+  hips: [null, [0, 0.94, 0]],
+  spine: ["hips", [0, 1.04, 0]],
+  chest: ["spine", [0, 1.2, 0]],
+  neck: ["chest", [0, 1.45, 0]],
+  head: ["neck", [0, 1.53, 0.01]],
 };
+const LEFT = {
+  leftShoulder: ["chest", [0.03, 1.42, 0]],
+  leftUpperArm: ["leftShoulder", [0.18, 1.42, 0]],
+  leftLowerArm: ["leftUpperArm", [0.46, 1.42, 0]],
+  leftHand: ["leftLowerArm", [0.71, 1.42, 0]],
+  leftUpperLeg: ["hips", [0.09, 0.88, 0]],
+  leftLowerLeg: ["leftUpperLeg", [0.09, 0.48, 0]],
+  leftFoot: ["leftLowerLeg", [0.09, 0.08, 0]],
+};
+const right = (bone) => bone.replace("left", "right");
+const BONES = [
+  ...Object.entries(MIDDLE),
+  ...Object.entries(LEFT),
+  ...Object.entries(LEFT).map(([bone, [parent, [x, y, z]]]) => [right(bone), [right(parent), [-x, y, z]]]),
+];
 
-export const PARENT = {
-  spine: "hips",
-  chest: "spine",
-  neck: "chest",
-  head: "neck",
-  leftShoulder: "chest",
-  leftUpperArm: "leftShoulder",
-  leftLowerArm: "leftUpperArm",
-  leftHand: "leftLowerArm",
-  rightShoulder: "chest",
-  rightUpperArm: "rightShoulder",
-  rightLowerArm: "rightUpperArm",
-  rightHand: "rightLowerArm",
-  leftUpperLeg: "hips",
-  leftLowerLeg: "leftUpperLeg",
-  leftFoot: "leftLowerLeg",
-  rightUpperLeg: "hips",
-  rightLowerLeg: "rightUpperLeg",
-  rightFoot: "rightLowerLeg",
-};
+/** The joints of the T-pose. */
+export const BODY = Object.fromEntries(BONES.map(([bone, [, joint]]) => [bone, joint]));
+/** The parent of each bone but the hips. */
+export const PARENT = Object.fromEntries(
+  BONES.filter(([, [parent]]) => parent).map(([bone, [parent]]) => [bone, parent]),
+);
 
 const UPPER = Object.keys(BODY).filter((b) => !/Leg|Foot/.test(b));
 

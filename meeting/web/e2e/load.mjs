@@ -5,11 +5,9 @@
 // Exit code 1: a bound is broken.
 
 import { fork } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { cpus, tmpdir } from "node:os";
-import { join } from "node:path";
+import { readFileSync, writeFileSync } from "node:fs";
+import { cpus } from "node:os";
 import { parseArgs } from "node:util";
-import { transformWithEsbuild } from "vite";
 import { launch } from "#e2e/process";
 import { startBroker } from "../mock/broker.mjs";
 
@@ -52,7 +50,6 @@ const median = (numbers) => [...numbers].sort((a, b) => a - b)[Math.floor(number
 
 // -- the meetings
 
-const folder = mkdtempSync(join(tmpdir(), "telemime-load-"));
 const password = "load";
 const all = Array.from({ length: meetings }, (_, r) => {
   const name = `meeting${two(r)}`;
@@ -70,10 +67,6 @@ const broker = await startBroker(
     { user: `${name}.watch`, password, read: [`${topic}/#`], write: [] },
   ]),
 );
-const codec = join(folder, "codec.mjs");
-const source = new URL("../src/frame.ts", import.meta.url).pathname;
-writeFileSync(codec, (await transformWithEsbuild(readFileSync(source, "utf8"), source)).code);
-
 const failures = [];
 const fail = (words) => {
   console.log(`FAILED: ${words}`);
@@ -109,7 +102,7 @@ const pages = await Promise.all(
         if (m.streams) child.report = m;
       });
       child.on("exit", () => reject(new Error("a browser cannot join")));
-      child.send({ open: mine, codec });
+      child.send({ open: mine });
     });
     child.ended = new Promise((resolve) => child.on("exit", resolve));
     return child;
@@ -145,7 +138,6 @@ pages.forEach((p) => p.send({ stop: true }));
 await Promise.all(pages.map((p) => p.ended));
 await Promise.all(trackers.map((t) => t.end("SIGINT")));
 await broker.close();
-rmSync(folder, { recursive: true, force: true });
 
 // -- the result
 

@@ -3,6 +3,7 @@
 // process with some of them, controlled by messages of its parent.
 
 import mqtt from "mqtt";
+import { loadCodec } from "../mock/people.mjs";
 
 const FINE = 10; // bins of the histogram in a millisecond
 const LONGEST = 2000; // ms; the last bin holds all that is longer
@@ -73,7 +74,7 @@ function browse({ url, user, password, topic, people }, decodeFrame) {
 
 process.on("message", async (m) => {
   if (m.open) {
-    const { decodeFrame } = await import(m.codec);
+    const { decodeFrame } = await loadCodec();
     await Promise.all(m.open.map((b) => browse(b, decodeFrame)));
     process.send({ ready: true });
   } else if (m.measure) {

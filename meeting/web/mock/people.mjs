@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trackers for a meeting: synthetic people whose motion goes to the broker in the format of meeting/docs/protocol.md.
 
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
 import mqtt from "mqtt";
-import { createServer } from "vite";
+import { transformWithEsbuild } from "vite";
 import { BODY, poseAt } from "#mock/motion";
 
 /** The page's own codec, in Node. */
 export async function loadCodec() {
-  const vite = await createServer({
-    configFile: false,
-    root: new URL("..", import.meta.url).pathname,
-    appType: "custom",
-    logLevel: "error",
-    server: { middlewareMode: true, hmr: false, ws: false, watch: null },
-    optimizeDeps: { noDiscovery: true },
-  });
-  const codec = await vite.ssrLoadModule("/src/frame.ts");
-  await vite.close();
-  return codec;
+  const source = fileURLToPath(new URL("../src/frame.ts", import.meta.url));
+  const { code } = await transformWithEsbuild(readFileSync(source, "utf8"), source);
+  return import(`data:text/javascript,${encodeURIComponent(code)}`);
 }
 
 const json = (m) => JSON.stringify({ v: 1, ...m });

@@ -45,12 +45,6 @@ export interface MeetingDebug {
   boneRotations(id: string): Record<string, BoneReading>;
 }
 
-declare global {
-  interface Window {
-    telemimeMeeting?: MeetingDebug;
-  }
-}
-
 export function exposeMeeting(from: MeetingDebug): void {
   Object.defineProperty(window, "telemimeMeeting", { value: Object.freeze(from) });
 }

@@ -39,11 +39,8 @@ export interface Wire {
 /** Opens a connection. `session`: its number, for its last will. */
 export type Dial = (session: number, events: WireEvents) => Wire;
 
-export interface LinkListener {
+interface LinkListener extends Pick<WireEvents, "message" | "alive" | "pulse"> {
   state(s: LinkState): void;
-  message(topic: string, payload: Uint8Array, retained: boolean): void;
-  alive(): void;
-  pulse(): void;
 }
 
 /** A connection that lasted this long resets the delays, ms. */
@@ -109,7 +106,8 @@ export class Link {
       });
     } catch (e) {
       // The browser rejects the address, and would reject it again.
-      this.closed({ refused: true, words: `The meeting cannot be reached from this page. ${reason(e)}` });
+      const reason = e instanceof Error ? e.message : String(e);
+      this.closed({ refused: true, words: `The meeting cannot be reached from this page. ${reason}` });
     }
   }
 
@@ -160,5 +158,3 @@ export class Link {
     this.listener.state(s);
   }
 }
-
-const reason = (e: unknown): string => (e instanceof Error ? e.message : String(e));

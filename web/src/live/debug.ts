@@ -24,12 +24,6 @@ export interface Debug {
   boneRotations(): Record<string, BoneReading>;
 }
 
-declare global {
-  interface Window {
-    telemime?: Debug;
-  }
-}
-
 /** A pose with its maps as plain objects. */
 export function plain(pose: Pose | null): Record<string, unknown> | null {
   if (!pose) return null;

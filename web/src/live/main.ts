@@ -199,12 +199,8 @@ const toggles = SWITCHES.map(({ id, setting, name }) => {
   button(id, toggle);
   return toggle;
 });
-const [mirrorAvatar, mirrorPicture, overlay, closeUp] = toggles as [
-  () => void,
-  () => void,
-  () => void,
-  () => void,
-];
+type Run = () => void;
+const [mirrorAvatar, mirrorPicture, overlay, closeUp] = toggles as [Run, Run, Run, Run];
 const resetView = () => loop.resetView();
 button("reset-view", resetView);
 button("recalibrate", () => send({ type: "recalibrate" }));

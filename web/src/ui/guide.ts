@@ -15,24 +15,21 @@ interface Step {
   title: string;
   text: string;
   figure: "out" | "room" | "in" | "done" | "camera";
-  busy: boolean;
 }
 
 const STEPS: Partial<Record<Phase | "around" | "done", Step>> = {
-  opening: { number: 1, title: "Opening the camera", text: "One moment.", figure: "camera", busy: true },
+  opening: { number: 1, title: "Opening the camera", text: "One moment.", figure: "camera" },
   empty_room: {
     number: 1,
     title: "Step out of view",
     text: "Telemime captures the empty background first. Start the countdown and step out, or confirm that nobody is in view.",
     figure: "out",
-    busy: false,
   },
   background: {
     number: 1,
     title: "Capturing the background",
     text: "Stay out of view for a moment.",
     figure: "room",
-    busy: true,
   },
   // The background phase when the user has not confirmed that nobody is in view.
   around: {
@@ -41,16 +38,14 @@ const STEPS: Partial<Record<Phase | "around" | "done", Step>> = {
     title: "Capturing the background",
     text: "Stay where you are for a moment. The background is learned around you.",
     figure: "in",
-    busy: true,
   },
   person: {
     number: 2,
     title: "Step in and face the camera",
     text: "Stand still with your arms slightly away from your body.",
     figure: "in",
-    busy: false,
   },
-  done: { number: 3, title: "Done", text: "The avatar follows you.", figure: "done", busy: false },
+  done: { number: 3, title: "Done", text: "The avatar follows you.", figure: "done" },
 };
 
 export class Guide {
@@ -160,7 +155,6 @@ export class Guide {
     byId("guide-title", HTMLElement).textContent = step.title;
     byId("guide-text", HTMLElement).textContent = step.text;
     this.box.dataset.figure = step.figure;
-    this.box.classList.toggle("busy", step.busy);
     document.querySelectorAll<HTMLElement>("#guide-steps li").forEach((li, i) => {
       const n = i + 1;
       li.dataset.state =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-import { fitCanvas } from "./fit";
+import { fitCanvas } from "../shared/graphics";
 
 /** A short history as a line; null makes a gap. */
 export class Sparkline {

@@ -2,10 +2,9 @@
 // The person from above: the depth, which a single camera shows least well, with its uncertainty. The camera is at the
 // bottom and looks up; x points to the right, or to the left when mirrored as the video is.
 
-import { drawsInSoftware, flatContext } from "../shared/graphics";
+import { drawsInSoftware, fitCanvas, flatContext } from "../shared/graphics";
 import type { Camera, Pose, TrackedPose } from "../live/protocol";
 import type { Vec3 } from "../shared/quaternion";
-import { fitCanvas } from "./fit";
 import { ellipseFromAbove } from "./geometry";
 import {
   LINES,

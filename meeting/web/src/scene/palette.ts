@@ -1,31 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Colours of the meeting by day and in the evening.
 
-export interface Palette {
-  zenith: number;
-  horizon: number;
-  floor: number;
-  rug: number;
-  rugEdge: number;
-  wall: number;
-  slat: number;
-  wood: number;
-  woodDark: number;
-  cushion: number;
-  shell: number;
-  leaf: number;
-  pot: number;
-  slate: string;
-  slateEdge: number;
-  sky: number; // light from above
-  ground: number; // light from below
-  sun: number;
-  skyPower: number;
-  sunPower: number;
-  shadow: number; // 0 to 1
-}
-
-export const DAY: Palette = {
+export const DAY = {
   zenith: 0xc9dbe6,
   horizon: 0xf1efe9,
   floor: 0xdccdb6,
@@ -41,13 +17,15 @@ export const DAY: Palette = {
   pot: 0xc98a68,
   slate: "#2c3d39",
   slateEdge: 0x2a3936,
-  sky: 0xffffff,
-  ground: 0xb6a68f,
+  sky: 0xffffff, // light from above
+  ground: 0xb6a68f, // light from below
   sun: 0xfff3e0,
   skyPower: 1.75,
   sunPower: 1.7,
-  shadow: 0.34,
+  shadow: 0.34, // 0 to 1
 };
+
+export type Palette = typeof DAY;
 
 export const EVENING: Palette = {
   zenith: 0x1a2430,

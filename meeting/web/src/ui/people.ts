@@ -17,15 +17,19 @@ export interface PersonRow {
   complaint: string;
 }
 
-interface Row {
-  box: HTMLElement;
-  dot: HTMLElement;
-  name: HTMLElement;
-  badges: HTMLElement;
-  words: HTMLElement;
-  details: HTMLElement;
-  complaint: HTMLElement;
+function makeRow() {
+  const dot = h("span", { class: "dot" });
+  const name = h("b", { dir: "auto" });
+  const badges = h("span", { class: "badges" });
+  const words = h("span", { class: "soft numbers" });
+  const details = h("span", { class: "soft numbers" });
+  const complaint = h("span", { class: "soft complaint" });
+  const who = h("span", { class: "who" }, name, badges);
+  const text = h("div", { class: "row-text" }, who, words, details, complaint);
+  const box = h("li", { class: "row person" }, dot, text);
+  return { box, dot, name, badges, words, details, complaint };
 }
+type Row = ReturnType<typeof makeRow>;
 
 const ms = (v: number): string => `${Math.round(v * 1000)} ms`;
 
@@ -55,31 +59,11 @@ export class People {
       this.rows.delete(id);
     }
     people.forEach((p, i) => {
-      const row = this.rows.get(p.id) ?? this.make(p.id);
+      const row = this.rows.get(p.id) ?? makeRow();
+      this.rows.set(p.id, row);
       if (this.list.children[i] !== row.box) this.list.insertBefore(row.box, this.list.children[i] ?? null);
       this.fill(row, p);
     });
-  }
-
-  private make(id: string): Row {
-    const dot = h("span", { class: "dot" });
-    const name = h("b", { dir: "auto" });
-    const badges = h("span", { class: "badges" });
-    const words = h("span", { class: "soft numbers" });
-    const details = h("span", { class: "soft numbers" });
-    const complaint = h("span", { class: "soft complaint" });
-    const text = h(
-      "div",
-      { class: "row-text" },
-      h("span", { class: "who" }, name, badges),
-      words,
-      details,
-      complaint,
-    );
-    const box = h("li", { class: "row person" }, dot, text);
-    const row = { box, dot, name, badges, words, details, complaint };
-    this.rows.set(id, row);
-    return row;
   }
 
   private fill(row: Row, p: PersonRow): void {
