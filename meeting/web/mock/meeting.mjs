@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plays `telemime meeting`: a Mosquitto, the page at /room, and /room/enter. Run by itself it fills the meeting with
-// synthetic people, too:
-//   node mock/meeting.mjs [--port 7080] [--avatars DIR] [--people 5] [--seats 8]
+// A mock of `telemime meeting`: a Mosquitto, the page at /room, and /room/enter. As a program it adds synthetic people:
+//   node meeting/web/mock/meeting.mjs [--port 7080] [--avatars DIR] [--people 5] [--seats 8]
 
 import { randomBytes } from "node:crypto";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
@@ -24,23 +23,20 @@ const TYPES = {
 const LOOKS = ["plain", "casual", "office", "summer", "robot"];
 const secret = () => randomBytes(24).toString("base64url");
 
-/** What the page may do: its own files, its broker, and avatars by HTTPS. No inline scripts or styles, no eval. */
+/** Allows the page's own files, its broker, and avatars by HTTPS; no inline scripts or styles, no eval. */
 const policy = (broker) =>
   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; font-src 'self'; " +
   `worker-src 'self'; connect-src 'self' blob: data: https: ${broker}; ` +
   "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/** Avatars by name: files of a folder, or else one of boxes for all. */
+/** Avatars by name: one of boxes for all looks, or files of a folder. */
 function avatarsOf(folder) {
-  const out = new Map();
-  if (folder) {
-    for (const f of readdirSync(folder)) {
-      if (f.endsWith(".vrm")) out.set(f.slice(0, -4), readFileSync(join(folder, f)));
-    }
-  }
+  const files = folder ? readdirSync(folder).filter((f) => f.endsWith(".vrm")) : [];
   const boxes = boxAvatar();
-  for (const look of LOOKS) if (!out.has(look)) out.set(look, boxes);
-  return out;
+  return new Map([
+    ...LOOKS.map((look) => [look, boxes]),
+    ...files.map((f) => [f.slice(0, -4), readFileSync(join(folder, f))]),
+  ]);
 }
 
 /** `accounts`: participants' accounts; the first is a chair's. `startBroker`: startCluster of cluster.mjs for another one. */
@@ -54,36 +50,28 @@ export async function startMeeting({
 } = {}) {
   const topic = "r/mock/blue";
   const ids = Array.from({ length: accounts }, (_, i) => `p${String(i + 1).padStart(2, "0")}`);
-  const account = (participant, read, write) => ({
-    participant,
-    user: `blue.${participant}`,
-    password: secret(),
-    read,
-    write,
-  });
+  const account = (participant, ...write) => {
+    const keys = { user: `blue.${participant}`, password: secret() };
+    return { participant, ...keys, read: [`${topic}/#`], write };
+  };
   const all = [
-    ...ids.map((id, i) =>
-      account(id, [`${topic}/#`], [`${topic}/p/${id}/#`, ...(i === 0 ? [`${topic}/room`] : [])]),
-    ),
-    account("watch", [`${topic}/#`], []),
-    account("service", [`${topic}/#`], [`${topic}/#`]),
+    ...ids.map((id, i) => account(id, `${topic}/p/${id}/#`, ...(i === 0 ? [`${topic}/room`] : []))),
+    account("watch"),
+    account("service", `${topic}/#`),
   ];
   const of = new Map(all.map((a) => [a.participant, a]));
   const broker = await startBroker(all, topic);
   const invites = { speak: secret(), watch: secret(), chair: secret() };
   const tokens = new Map(); // return token -> participant
   const taken = new Set();
-  const asked = []; // addresses of all requests, to see that no secret is in them
+  const asked = []; // addresses of all requests, which contain no secrets
   const files = avatarsOf(avatars);
 
   function enter({ invite, return: token, watch }) {
     const back = tokens.get(token);
     const speaks = invite === invites.speak || invite === invites.chair || (!invite && back);
     if (!speaks && invite !== invites.watch) return [403, {}];
-    if (watch || !speaks) {
-      const a = of.get("watch");
-      return [200, { ...keysOf(a), participant: null, roles: ["watch"] }];
-    }
+    if (watch || !speaks) return [200, { ...keysOf("watch"), participant: null, roles: ["watch"] }];
     // The first seat is the chair's.
     const free = ids.find((id, i) => !taken.has(id) && (invite === invites.chair) === (i === 0));
     const id = back ?? free;
@@ -92,9 +80,12 @@ export async function startMeeting({
     const mine = back ? token : secret();
     tokens.set(mine, id);
     const roles = ["speak", "board", ...(id === ids[0] ? ["chair"] : [])];
-    return [200, { ...keysOf(of.get(id)), participant: id, roles, return: mine }];
+    return [200, { ...keysOf(id), participant: id, roles, return: mine }];
   }
-  const keysOf = (a) => ({ user: a.user, password: a.password, mqtt: broker.ws, topic, looks: LOOKS });
+  const keysOf = (id) => {
+    const { user, password } = of.get(id);
+    return { user, password, mqtt: broker.ws, topic, looks: LOOKS };
+  };
 
   const server = createServer((request, response) => {
     const url = new URL(request.url, "http://localhost");
@@ -119,7 +110,7 @@ export async function startMeeting({
         try {
           question = JSON.parse(body);
         } catch {
-          // whatever it is, it is no question
+          // refused below
         }
         const [code, answer] = question && typeof question === "object" ? enter(question) : [400, {}];
         send(code, "application/json", JSON.stringify(answer));
@@ -139,7 +130,7 @@ export async function startMeeting({
   });
   await new Promise((resolve) => server.listen(port, "127.0.0.1", resolve));
 
-  // The meeting's own service: it keeps what the meeting is with the broker, whatever happens to that.
+  // The service of the meeting publishes its state again when the broker was restarted.
   let meeting = { title, seats, epoch: 1, chairs: [ids[0]], locked: false };
   const service = mqtt.connect(broker.tcp, {
     protocolVersion: 4,
@@ -170,7 +161,7 @@ export async function startMeeting({
     invites,
     service,
     link: (role) => `${url}#k=${invites[role]}`,
-    /** An account nobody has yet, for a tracker; the last ones first. */
+    /** An unused account for a tracker, the last one first. */
     takeAccount() {
       const id = [...ids].reverse().find((i) => !taken.has(i));
       taken.add(id);

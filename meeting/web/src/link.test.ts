@@ -27,21 +27,18 @@ class Broker {
 }
 
 let broker: Broker, states: LinkState[], received: string[], link: Link;
+const LISTENER: ConstructorParameters<typeof Link>[1] = {
+  state: (s) => states.push(s),
+  message: (topic, _, kept) => received.push(topic + (kept ? " kept" : "")),
+  alive: () => received.push("alive"),
+  pulse: () => received.push("pulse"),
+};
 beforeEach(() => {
   vi.useFakeTimers();
   broker = new Broker();
   states = [];
   received = [];
-  link = new Link(
-    broker.dial,
-    {
-      state: (s) => states.push(s),
-      message: (topic, _, kept) => received.push(topic + (kept ? " kept" : "")),
-      alive: () => received.push("alive"),
-      pulse: () => received.push("pulse"),
-    },
-    () => 0.5,
-  );
+  link = new Link(broker.dial, LISTENER, () => 0.5);
 });
 afterEach(() => vi.useRealTimers());
 
@@ -126,17 +123,9 @@ describe("the connection", () => {
     expect(broker.dials.length).toBe(2);
   });
   it("is refused for a malformed address", () => {
-    const refusing = new Link(
-      () => {
-        throw new Error("bad address");
-      },
-      {
-        state: (s) => states.push(s),
-        message: () => undefined,
-        alive: () => undefined,
-        pulse: () => undefined,
-      },
-    );
+    const refusing = new Link(() => {
+      throw new Error("bad address");
+    }, LISTENER);
     refusing.open();
     expect(refusing.state).toMatchObject({ kind: "refused" });
   });

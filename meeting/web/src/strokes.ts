@@ -5,18 +5,16 @@ import { LIMITS, toBytes, type Stroke } from "./messages";
 
 /** Units of a board's width and height in messages. */
 export const UNIT = 10000;
-export const CHALKS: readonly { name: string; colour: string }[] = [
-  { name: "White", colour: "#f4f1e8" },
-  { name: "Yellow", colour: "#ffd76a" },
-  { name: "Coral", colour: "#ff9280" },
-  { name: "Blue", colour: "#86ccff" },
-  { name: "Green", colour: "#98e6ad" },
-  { name: "Violet", colour: "#d8b8ff" },
-];
-export const WIDTHS: readonly { name: string; width: number }[] = [
-  { name: "Fine", width: 35 },
-  { name: "Broad", width: 90 },
-];
+/** Colours and widths to choose from, by their names. */
+export const CHALKS = {
+  White: "#f4f1e8",
+  Yellow: "#ffd76a",
+  Coral: "#ff9280",
+  Blue: "#86ccff",
+  Green: "#98e6ad",
+  Violet: "#d8b8ff",
+};
+export const WIDTHS = { Fine: 35, Broad: 90 };
 /** A longer line is split. */
 export const MAX_POINTS = 300;
 /** Size of a full page: well below the limit of a message, as a page is sent again with each stroke. */

@@ -30,6 +30,23 @@ export function button(id: string, pressed: () => void): HTMLButtonElement {
   return b;
 }
 
+const CONFIRM_TIME = 4000; // ms
+
+/** A listener for a button that acts on a second press soon after the first; `show`: whether it asks for that press. */
+export function confirmTwice(show: (asking: boolean) => void, act: () => void): () => void {
+  let timer = 0;
+  const ask = (on: boolean): void => {
+    window.clearTimeout(timer);
+    timer = on ? window.setTimeout(() => ask(false), CONFIRM_TIME) : 0;
+    show(on);
+  };
+  return () => {
+    const confirmed = timer > 0;
+    ask(!confirmed);
+    if (confirmed) act();
+  };
+}
+
 /** Sets the text only when it differs: screen readers do not read it again. */
 export function setText(e: Element, text: string): void {
   if (e.textContent !== text) e.textContent = text;

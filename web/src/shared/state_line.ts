@@ -8,6 +8,7 @@ export type Level = "good" | "wait" | "bad" | "";
 export class StateLine {
   private readonly dot = byId("state-dot", HTMLElement);
   private readonly live = byId("live", HTMLElement);
+  private last = "";
 
   /** `level`: the colour of the dot. */
   show(level: Level, name: string, words: string): void {
@@ -21,5 +22,11 @@ export class StateLine {
   /** Screen readers read it when they are idle. */
   announce(words: string): void {
     this.live.textContent = words;
+  }
+
+  /** Announces a new state, if it is `important`. */
+  protected announceState(words: string, important: boolean): void {
+    if (words !== this.last && important) this.announce(words);
+    this.last = words;
   }
 }

@@ -2,10 +2,9 @@
 // Recordings: start and stop, list, download, delete.
 
 import type { Command, Recording, Status } from "../live/protocol";
-import { button, byId, durationText, h, renderOnce, setCount, sizeText } from "../shared/dom";
+import { button, byId, confirmTwice, durationText, h, renderOnce, setCount, sizeText } from "../shared/dom";
 import { icon, trashButton } from "../shared/icons";
 
-const CONFIRM_TIME = 4000; // ms in which a second press deletes
 const ANSWER_TIME = 3000; // ms in which a status confirms a request
 
 /** What this page requested last, until a status confirms it. */
@@ -85,25 +84,13 @@ export class Recordings {
 
   private row(r: Recording): HTMLElement {
     const label = `Delete recording ${r.number}`;
-    let confirming = 0;
-    const show = (content: Node | string, words: string) => {
-      remove.replaceChildren(content);
-      remove.setAttribute("aria-label", words);
-      remove.classList.toggle("sure", confirming > 0);
+    const show = (asking: boolean): void => {
+      remove.replaceChildren(asking ? "Delete?" : icon("trash"));
+      remove.setAttribute("aria-label", asking ? `${label}? Press again to delete` : label);
+      remove.classList.toggle("sure", asking);
     };
-    const pressed = () => {
-      if (confirming) {
-        window.clearTimeout(confirming);
-        this.send({ type: "forget", recording: r.number });
-        return;
-      }
-      confirming = window.setTimeout(() => {
-        confirming = 0;
-        show(icon("trash"), label);
-      }, CONFIRM_TIME);
-      show("Delete?", `${label}? Press again to delete`);
-    };
-    const remove: HTMLButtonElement = trashButton(label, pressed, { "data-focus": `d${r.number}` });
+    const forget = (): void => void this.send({ type: "forget", recording: r.number });
+    const remove = trashButton(label, confirmTwice(show, forget), { "data-focus": `d${r.number}` });
     const files = r.files.map((f) => {
       const extension = f.name.split(".").pop()?.toUpperCase() ?? f.name;
       return h(

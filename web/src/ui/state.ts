@@ -20,21 +20,17 @@ const STATES: Record<Phase, readonly [string, Level]> = {
 const CAPTIONED: readonly Phase[] = ["lost", "stopped", "ended"];
 
 export class LiveState extends StateLine {
-  private announced = "";
-
   setStatus(s: Status): void {
     const [name, level] = STATES[s.phase];
     this.show(level, name, s.words);
     const caption = byId("camera-words", HTMLElement);
     caption.hidden = !CAPTIONED.includes(s.phase);
     caption.textContent = s.words || name;
-    const words = `${name}. ${s.words}`;
-    if (words !== this.announced && CAPTIONED.concat("tracking").includes(s.phase)) this.announce(words);
-    this.announced = words;
+    this.announceState(`${name}. ${s.words}`, CAPTIONED.concat("tracking").includes(s.phase));
   }
 
   disconnected(): void {
-    this.announced = "";
+    this.announceState("", false);
     byId("camera-words", HTMLElement).hidden = true;
     this.show("bad", "Not connected", "");
   }

@@ -3,7 +3,6 @@
 
 import { flatContext } from "../shared/graphics";
 import type { Camera, Picture, Pose } from "../live/protocol";
-import { ellipseInPicture } from "./geometry";
 import { POSES_STOPPED, Pairing } from "./pairing";
 import {
   LINES,
@@ -11,6 +10,7 @@ import {
   drawJoint,
   drawLine,
   drawSpread,
+  ellipseInPicture,
   readPalette,
   sideOf,
   type Palette,

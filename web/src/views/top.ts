@@ -5,13 +5,13 @@
 import { drawsInSoftware, fitCanvas, flatContext } from "../shared/graphics";
 import type { Camera, Pose, TrackedPose } from "../live/protocol";
 import type { Vec3 } from "../shared/quaternion";
-import { ellipseFromAbove } from "./geometry";
 import {
   LINES,
   SPREAD_JOINTS,
   drawJoint,
   drawLine,
   drawSpread,
+  ellipseFromAbove,
   readPalette,
   sideOf,
   type Palette,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { RADIUS_95, ellipse, ellipseFromAbove, ellipseInPicture } from "./geometry";
+import { RADIUS_95, ellipse, ellipseFromAbove, ellipseInPicture } from "./skeleton";
 import { Pairing } from "./pairing";
 
 describe("ellipses", () => {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blackboard, large: to be read and drawn on with mouse, finger, pen or keys.
 
-import { button, byId, h } from "#web/shared/dom";
+import { button, byId, confirmTwice, h } from "#web/shared/dom";
 import { CHALKS, WIDTHS } from "../strokes";
 
-const SURE = 4000; // ms in which a second press wipes the board
 const STEP = 0.01; // of the board's width, for a key
 const MOST_WAY = 20000; // numbers of one line: then it goes on as the next
 
@@ -25,11 +24,10 @@ export class BoardView {
   private readonly words = byId("board-words", HTMLElement);
   private readonly toggleButton: HTMLButtonElement;
   private readonly wipeButton: HTMLButtonElement;
-  private may = { draw: false, wipe: false };
+  private mayDraw = false;
   private way: number[] = []; // of the line under way
   private pointer: number | null = null;
   private pen = { x: 0.5, y: 0.5, down: false, shown: false };
-  private sure = 0;
   private due = false;
 
   constructor(private readonly uses: Uses) {
@@ -37,18 +35,17 @@ export class BoardView {
     this.toggleButton = button("board-toggle", () => this.toggle());
     button("board-close", () => this.toggle(false));
     button("board-undo", () => this.undo());
-    this.wipeButton = button("board-clear", () => this.wipe());
-    this.unsure();
-    this.choices(
-      "chalks",
-      "chalk",
-      CHALKS.map((c) => [c.name, c.colour]),
+    const wipe = (): void => {
+      this.uses.wipe();
+      this.uses.announce("The blackboard is wiped.");
+    };
+    this.wipeButton = button(
+      "board-clear",
+      confirmTwice((asking) => this.showWipe(asking), wipe),
     );
-    this.choices(
-      "widths",
-      "width",
-      WIDTHS.map((w) => [w.name, String(w.width)]),
-    );
+    this.showWipe(false);
+    this.choices("chalks", "chalk", CHALKS);
+    this.choices("widths", "width", WIDTHS);
     this.canvas.addEventListener("pointerdown", (e) => this.down(e));
     this.canvas.addEventListener("pointermove", (e) => this.move(e));
     for (const end of ["pointerup", "pointercancel"] as const)
@@ -64,7 +61,7 @@ export class BoardView {
   }
 
   allow(draw: boolean, wipe: boolean): void {
-    this.may = { draw, wipe };
+    this.mayDraw = draw;
     this.wipeButton.hidden = !wipe;
     this.canvas.classList.toggle("draws", draw);
     for (const id of ["chalks", "widths", "board-undo"]) byId(id, HTMLElement).hidden = !draw;
@@ -86,7 +83,7 @@ export class BoardView {
   }
 
   undo(): void {
-    if (!this.may.draw) return;
+    if (!this.mayDraw) return;
     this.uses.announce(this.uses.undo() ? "Your last line was removed." : "You have no lines to undo.");
   }
 
@@ -97,14 +94,14 @@ export class BoardView {
     requestAnimationFrame(() => this.paint());
   }
 
-  private choices(id: string, name: string, list: [string, string][]): void {
+  private choices(id: string, name: string, list: Record<string, string | number>): void {
     byId(id, HTMLElement).replaceChildren(
-      ...list.map(([label, value], i) => {
-        const radio = h("input", { type: "radio", name, value, "aria-label": label });
+      ...Object.entries(list).map(([label, value], i) => {
+        const radio = h("input", { type: "radio", name, value: String(value), "aria-label": label });
         radio.checked = i === 0;
         const mark = h("span", { class: `chalk ${name}` });
-        if (name === "chalk") mark.style.background = value;
-        else mark.style.setProperty("--size", `${Number(value) / 9 + 2}px`);
+        if (typeof value === "string") mark.style.background = value;
+        else mark.style.setProperty("--size", `${value / 9 + 2}px`);
         return h("label", { title: label }, radio, mark);
       }),
     );
@@ -162,7 +159,7 @@ export class BoardView {
   }
 
   private down(e: PointerEvent): void {
-    if (e.button !== 0 || this.pointer !== null || !this.may.draw) return;
+    if (e.button !== 0 || this.pointer !== null || !this.mayDraw) return;
     this.lift();
     this.pen.shown = false;
     this.canvas.setPointerCapture(e.pointerId);
@@ -199,7 +196,7 @@ export class BoardView {
   }
 
   private key(e: KeyboardEvent): void {
-    if (!this.may.draw || e.ctrlKey || e.altKey || e.metaKey) return;
+    if (!this.mayDraw || e.ctrlKey || e.altKey || e.metaKey) return;
     const k = STEP * (e.shiftKey ? 5 : 1);
     const step: Record<string, [number, number]> = {
       ArrowLeft: [-k, 0],
@@ -236,25 +233,15 @@ export class BoardView {
     this.uses.announce("The chalk is off the board.");
   }
 
-  private wipe(): void {
-    if (!this.may.wipe) return;
-    if (this.sure) {
-      this.unsure();
-      this.uses.wipe();
-      this.uses.announce("The blackboard is wiped.");
-      return;
-    }
-    this.wipeButton.classList.add("sure");
-    this.wipeButton.setAttribute("aria-label", "Wipe the lines of all participants? Press again to wipe");
-    this.wipeButton.title = "Press again to wipe the blackboard";
-    this.sure = window.setTimeout(() => this.unsure(), SURE);
-  }
-
-  private unsure(): void {
-    window.clearTimeout(this.sure);
-    this.sure = 0;
-    this.wipeButton.classList.remove("sure");
-    this.wipeButton.setAttribute("aria-label", "Wipe the blackboard: the lines of all participants");
-    this.wipeButton.title = "Wipe the blackboard";
+  /** `asking`: a second press wipes the board. */
+  private showWipe(asking: boolean): void {
+    this.wipeButton.classList.toggle("sure", asking);
+    this.wipeButton.setAttribute(
+      "aria-label",
+      asking
+        ? "Wipe the lines of all participants? Press again to wipe"
+        : "Wipe the blackboard: the lines of all participants",
+    );
+    this.wipeButton.title = asking ? "Press again to wipe the blackboard" : "Wipe the blackboard";
   }
 }

@@ -14,8 +14,6 @@ const STATES: Record<LinkState["kind"], readonly [string, Level]> = {
 };
 
 export class MeetingState extends StateLine {
-  private announced = "";
-
   entry(): void {
     this.show("", "Not joined", "");
   }
@@ -32,7 +30,6 @@ export class MeetingState extends StateLine {
     const [name, level] = STATES[link.kind];
     this.show(level, name, words);
     const news = link.kind === "open" ? "You have joined the meeting." : `${name}. ${words}`;
-    if (news !== this.announced && link.kind !== "connecting") this.announce(news);
-    this.announced = news;
+    this.announceState(news, link.kind !== "connecting");
   }
 }
