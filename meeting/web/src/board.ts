@@ -120,13 +120,9 @@ export class OwnStrokes {
     return true;
   }
 
-  get canUndo(): boolean {
-    return this.pages.size > 0;
-  }
-
   /** Removes the last line; false when there is none. */
   undo(): boolean {
-    if (!this.canUndo) return false;
+    if (this.pages.size === 0) return false;
     let left = this.lines.pop() ?? 1; // lines of an earlier visit are undone stroke by stroke
     for (const n of [...this.pages.keys()].sort((a, b) => b - a)) {
       const page = this.pages.get(n)!;

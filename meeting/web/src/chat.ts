@@ -63,7 +63,8 @@ export class ChatLog {
 export class Outbox {
   private readonly pace = new RateLimit(OWN_AT_ONCE, OWN_PER_SECOND);
   private next = 0;
-  private readonly kept: { id: string; bytes: Uint8Array }[] = [];
+  /** Messages that the broker does not have yet. */
+  readonly waiting: { id: string; bytes: Uint8Array }[] = [];
 
   /** `session`: distinguishes the messages of this page from those of other pages of this participant. */
   constructor(private readonly session: number) {}
@@ -74,16 +75,13 @@ export class Outbox {
     if (!trimmed) return "";
     const n = characters(trimmed);
     if (n > MAX_TEXT) return `This has ${n} characters. A message has at most ${MAX_TEXT}.`;
-    if (this.kept.length >= 20) return "The meeting cannot be reached. Earlier messages are still waiting.";
+    if (this.waiting.length >= 20)
+      return "The meeting cannot be reached. Earlier messages are still waiting.";
     const message = { id: `${this.session}-${++this.next}`, text: trimmed };
     const bytes = toBytes(message);
     if (bytes.length > LIMITS.chat) return "This message is too long.";
-    this.kept.push({ id: message.id, bytes });
+    this.waiting.push({ id: message.id, bytes });
     return message;
-  }
-
-  get waiting(): readonly { id: string; bytes: Uint8Array }[] {
-    return this.kept;
   }
 
   /** Whether one more may be sent; it then counts as sent. `now` in s. */
@@ -93,7 +91,7 @@ export class Outbox {
 
   /** The broker has it. */
   done(id: string): void {
-    const i = this.kept.findIndex((m) => m.id === id);
-    if (i >= 0) this.kept.splice(i, 1);
+    const i = this.waiting.findIndex((m) => m.id === id);
+    if (i >= 0) this.waiting.splice(i, 1);
   }
 }

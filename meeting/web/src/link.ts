@@ -52,13 +52,14 @@ export function anySession(): number {
 }
 
 export class Link {
-  private current: LinkState = { kind: "closed" };
+  state: LinkState = { kind: "closed" };
   private wire: Wire | null = null;
   private number = 0; // of the connection: events of older ones are ignored
   private tries = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private openedAt = 0;
-  private session_ = 0;
+  /** The session of the current connection or attempt. */
+  session = 0;
 
   constructor(
     private readonly dial: Dial,
@@ -66,26 +67,17 @@ export class Link {
     private readonly chance: () => number = Math.random,
   ) {}
 
-  get state(): LinkState {
-    return this.current;
-  }
-
-  /** The session of the current connection or attempt. */
-  get session(): number {
-    return this.session_;
-  }
-
   open(): void {
     this.drop();
     clearTimeout(this.timer);
     const number = ++this.number;
     const mine = (): boolean => this.number === number;
     this.set({ kind: "connecting" });
-    const before = this.session_;
-    do this.session_ = anySession();
-    while (this.session_ === before);
+    const before = this.session;
+    do this.session = anySession();
+    while (this.session === before);
     try {
-      this.wire = this.dial(this.session_, {
+      this.wire = this.dial(this.session, {
         open: () => {
           if (!mine()) return;
           this.openedAt = performance.now();
@@ -113,12 +105,12 @@ export class Link {
 
   /** Reconnects without waiting. */
   tryNow(): void {
-    if (this.current.kind === "lost") this.open();
+    if (this.state.kind === "lost") this.open();
   }
 
   /** False when there is no connection, or it was lost meanwhile. */
   async publish(topic: string, payload: Uint8Array, retain: boolean): Promise<boolean> {
-    if (this.current.kind !== "open" || !this.wire) return false;
+    if (this.state.kind !== "open" || !this.wire) return false;
     try {
       await this.wire.publish(topic, payload, retain);
       return true;
@@ -147,14 +139,14 @@ export class Link {
       this.set({ kind: "refused", words: why.words });
       return;
     }
-    if (this.current.kind === "open" && performance.now() - this.openedAt > STABLE) this.tries = 0;
+    if (this.state.kind === "open" && performance.now() - this.openedAt > STABLE) this.tries = 0;
     const wait = retryDelay(this.tries++, this.chance());
     this.timer = setTimeout(() => this.open(), wait);
     this.set({ kind: "lost", retryAt: performance.now() + wait, words: why.words });
   }
 
   private set(s: LinkState): void {
-    this.current = s;
+    this.state = s;
     this.listener.state(s);
   }
 }

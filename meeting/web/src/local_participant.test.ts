@@ -36,7 +36,7 @@ describe("this page as a participant", () => {
     expect(take()).toEqual([]);
     me.settled();
     expect(take()).toEqual(["presence true 7", "state Ana 7"]);
-    expect(me.announced).toBe(true);
+    expect(me.here).toBe(true);
     me.receive("presence", presence(true, 7)); // its own message
     expect(take()).toEqual([]);
     me.change({ ...STATE, name: "Anna" });

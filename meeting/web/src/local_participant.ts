@@ -21,7 +21,8 @@ export class LocalParticipant {
   other: { session: number; kind: StateMessage["kind"] | null } | null = null;
   /** The session that this page has taken over from: it may only have been late. */
   private missed: number | null = null;
-  private here = false;
+  /** This page has announced itself. */
+  here = false;
   private ready = false;
   private session = 0;
   /** Sessions of this page. The last will of one is lost when the broker's computer fails. */
@@ -35,11 +36,6 @@ export class LocalParticipant {
     public state: OwnState,
     private readonly publish: Publish,
   ) {}
-
-  /** Whether this page has announced itself. */
-  get announced(): boolean {
-    return this.here;
-  }
 
   /** Connected as `session`. Nothing is published before the retained messages have arrived. */
   connected(session: number): void {

@@ -286,7 +286,7 @@ export class MeetingClient {
   private keepSeat(): void {
     const me = this.me;
     // The request counts only once it has come back from the broker.
-    if (!me?.announced || me.other || this.roster.get(me.id)?.state?.seat !== me.state.seat) return;
+    if (!me?.here || me.other || this.roster.get(me.id)?.state?.seat !== me.state.seat) return;
     const seat = this.roster.seats.get(me.id);
     if (seat !== undefined && seat < this.roster.meeting.seats && seat !== me.state.seat)
       me.change({ ...me.state, seat });

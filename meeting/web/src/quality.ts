@@ -34,12 +34,7 @@ export class Arrivals {
   flooded = 0;
   private recent: { at: number; sequence: number }[] = [];
   private newest: number | null = null;
-  private readonly limit = new RateLimit(MAX_AT_ONCE, MAX_PER_SECOND);
-
-  /** False when there are too many. */
-  take(now: number): boolean {
-    return this.limit.take(now);
-  }
+  readonly limit = new RateLimit(MAX_AT_ONCE, MAX_PER_SECOND);
 
   add(now: number, sequence: number): void {
     this.newest = now;

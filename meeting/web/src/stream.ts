@@ -48,10 +48,10 @@ export class PoseStream {
     if (this.left && this.left.session === frame.session && now < this.left.at + LEFTOVERS) return "leftover";
     if (frame.session === this.session) {
       if (this.newest && frame.sequence <= this.newest.sequence) return "outOfOrder";
-      if (!this.arrivals.take(now)) return "flooded";
+      if (!this.arrivals.limit.take(now)) return "flooded";
       if (!this.playout.add(frame, now)) return "malformed"; // its clock runs backward
     } else {
-      if (!this.arrivals.take(now)) return "flooded";
+      if (!this.arrivals.limit.take(now)) return "flooded";
       this.start(frame.session);
       this.playout.add(frame, now);
     }

@@ -48,18 +48,23 @@ export class Avatar {
     vrm.update(0);
     vrm.scene.updateMatrixWorld(true);
     for (const bone of this.boneNames) {
-      const raw = vrm.humanoid.getRawBoneNode(bone);
+      const raw = this.raw(bone);
       if (raw) this.restWorld.set(bone, raw.getWorldQuaternion(new Quaternion()));
     }
     this.restHips = this.node("hips")!.position.clone();
-    this.hipHeight = vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(new Vector3()).y;
-    this.headHeight = vrm.humanoid.getRawBoneNode("head")!.getWorldPosition(new Vector3()).y;
+    this.hipHeight = this.position("hips", new Vector3()).y;
+    this.headHeight = this.position("head", new Vector3()).y;
     this.top = new Box3().setFromObject(vrm.scene, true).max.y;
     this.hasSprings = (vrm.springBoneManager?.joints.size ?? 0) > 0;
   }
 
   private node(bone: string): Object3D | null {
     return this.vrm.humanoid.getNormalizedBoneNode(bone as VRMHumanBoneName);
+  }
+
+  /** The file's own bone. */
+  private raw(bone: VRMHumanBoneName): Object3D | null {
+    return this.vrm.humanoid.getRawBoneNode(bone);
   }
 
   private get boneNames(): VRMHumanBoneName[] {
@@ -90,17 +95,12 @@ export class Avatar {
   /** Hides the head and what is attached to it, for pictures from the avatar's eyes. */
   set headless(on: boolean) {
     // The head shrinks to a point inside the neck. Poses do not change the scale.
-    this.vrm.humanoid.getRawBoneNode("head")!.scale.setScalar(on ? 1e-4 : 1);
+    this.raw("head")!.scale.setScalar(on ? 1e-4 : 1);
   }
 
-  /** Position of the head bone, m, world. */
-  headPosition(out: Vector3): Vector3 {
-    return this.vrm.humanoid.getRawBoneNode("head")!.getWorldPosition(out);
-  }
-
-  /** Position of the hips, m, world. */
-  hipsPosition(out: Vector3): Vector3 {
-    return this.vrm.humanoid.getRawBoneNode("hips")!.getWorldPosition(out);
+  /** Position of a bone, m, world. */
+  position(bone: "head" | "hips", out: Vector3): Vector3 {
+    return this.raw(bone)!.getWorldPosition(out);
   }
 
   read(): Record<string, BoneReading> {
@@ -108,7 +108,7 @@ export class Avatar {
     const out: Record<string, BoneReading> = {};
     for (const bone of this.boneNames) {
       const rest = this.restWorld.get(bone);
-      const raw = this.vrm.humanoid.getRawBoneNode(bone);
+      const raw = this.raw(bone);
       const n = this.node(bone);
       if (!rest || !raw || !n) continue;
       const world = raw.getWorldQuaternion(new Quaternion()).multiply(rest.clone().invert());

@@ -17,8 +17,10 @@ export class Painter {
   /** How long the last picture took, s. Measured without a graphics card only. */
   took = 0;
   private readonly resolution: Resolution;
-  private contextLost = false;
-  private draws = 0;
+  /** Nothing can be drawn at the moment: the context is lost. */
+  blind = false;
+  /** The number of drawn pictures. */
+  pictures = 0;
   private fence: WebGLSync | null = null;
   private begun: number | null = null; // the picture that the fence belongs to
   private next = 0;
@@ -42,32 +44,23 @@ export class Painter {
     this.resolution = new Resolution(window.devicePixelRatio || 1, this.software);
     canvas.addEventListener("webglcontextlost", (e) => {
       e.preventDefault();
-      this.contextLost = true;
+      this.blind = true;
       this.fence = null;
     });
     canvas.addEventListener("webglcontextrestored", () => {
-      this.contextLost = false;
+      this.blind = false;
       this.resize();
     });
     new ResizeObserver(() => this.resize()).observe(box);
-  }
-
-  get pictures(): number {
-    return this.draws;
   }
 
   get ratio(): number {
     return this.renderer.getPixelRatio();
   }
 
-  /** Nothing can be drawn at the moment. */
-  get blind(): boolean {
-    return this.contextLost;
-  }
-
   /** The last picture is still being drawn. Always false with a graphics card, which takes a few milliseconds. */
   get busy(): boolean {
-    if (!this.fence || this.contextLost) return false;
+    if (!this.fence || this.blind) return false;
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
     if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
     gl.deleteSync(this.fence);
@@ -100,12 +93,12 @@ export class Painter {
   /** Draws at `now`, s. `since`: time since the last picture, s; null after a pause, which does not count as speed. */
   draw(scene: Scene, camera: Camera, now: number, since: number | null): void {
     this.renderer.render(scene, camera);
-    this.draws++;
+    this.pictures++;
     if (since !== null && this.resolution.drew(since * 1000)) {
       this.resize(); // which clears the canvas
       this.renderer.render(scene, camera);
     }
-    if (this.software && !this.contextLost) this.watch(now);
+    if (this.software && !this.blind) this.watch(now);
   }
 
   /** `busy` is true until all that was drawn up to here is there. */

@@ -20,13 +20,13 @@ const TURN: Record<string, [number, number]> = {
 const ZOOM: Record<string, number> = { "+": 0.9, "=": 0.9, "-": 1.1 };
 
 export class Stage {
-  private readonly painter: Painter;
+  readonly painter: Painter;
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(FOV, 1, 0.05, 60);
   private readonly controls: OrbitControls;
   private readonly shadow = shadow();
   private readonly scratch = new Vector3();
-  private avatar: Avatar | null = null;
+  avatar: Avatar | null = null;
   private dirty = true;
   private touched = false;
   private lastDraw = 0;
@@ -46,27 +46,6 @@ export class Stage {
     canvas.addEventListener("keydown", (e) => this.key(e));
     this.painter.resize();
     this.resetView();
-  }
-
-  get software(): boolean {
-    return this.painter.software;
-  }
-
-  get current(): Avatar | null {
-    return this.avatar;
-  }
-
-  get pictures(): number {
-    return this.painter.pictures;
-  }
-
-  get ratio(): number {
-    return this.painter.ratio;
-  }
-
-  /** The last picture is still being drawn (without a graphics card only). */
-  get busy(): boolean {
-    return this.painter.busy;
   }
 
   setAvatar(avatar: Avatar): void {
@@ -146,7 +125,7 @@ export class Stage {
     const since = now - this.lastDraw;
     this.lastDraw = now;
     avatar.show(shown.bones, shown.hips, Math.min(0.1, since));
-    const hips = avatar.hipsPosition(this.scratch);
+    const hips = avatar.position("hips", this.scratch);
     this.shadow.position.x = hips.x;
     this.shadow.position.z = hips.z;
     painter.draw(this.scene, this.camera, now, this.paused ? null : since);

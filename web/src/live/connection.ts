@@ -22,7 +22,8 @@ export class Connection {
   private retry = 0;
   private lastMessage = 0;
   private pingId = 0;
-  private refused = 0;
+  /** The number of messages that this page did not understand. */
+  misunderstood = 0;
   private current: ConnectionState = { kind: "connecting" };
 
   constructor(
@@ -32,11 +33,6 @@ export class Connection {
     window.setInterval(() => this.heartbeat(), PING_INTERVAL);
     window.addEventListener("online", () => this.tryNow());
     this.open();
-  }
-
-  /** Messages that this page did not understand. */
-  get misunderstood(): number {
-    return this.refused;
   }
 
   /** False when there is no connection: nothing is queued. */
@@ -80,11 +76,11 @@ export class Connection {
     if (typeof data === "string") {
       const m = parseMessage(data);
       if (m) this.listener.message(m);
-      else this.refused++;
+      else this.misunderstood++;
     } else if (data instanceof ArrayBuffer) {
       const p = parsePicture(data);
       if (p) this.listener.picture(p);
-      else this.refused++;
+      else this.misunderstood++;
     }
   }
 

@@ -48,7 +48,7 @@ export class Loop {
     try {
       const [canvas, view] = [byId("avatar-canvas", HTMLCanvasElement), byId("avatar-view", HTMLElement)];
       this.stage = new loaded.Stage(canvas, view);
-      this.driver.direct = this.stage.software;
+      this.driver.direct = this.stage.painter.software;
     } catch {
       this.complain("The avatar cannot be shown: WebGL is off in this browser. Everything else works.");
     }
@@ -56,15 +56,15 @@ export class Loop {
   }
 
   get avatar(): Avatar | null {
-    return this.stage?.current ?? null;
+    return this.stage?.avatar ?? null;
   }
 
   /** For tests; see Debug.counters. */
   get counters(): Record<string, number> {
     return {
       ticks: this.ticks,
-      renders: this.stage?.pictures ?? 0,
-      ratio: this.stage?.ratio ?? 0,
+      renders: this.stage?.painter.pictures ?? 0,
+      ratio: this.stage?.painter.ratio ?? 0,
       drawnSent: this.drawnSent,
       shown: this.lastShown,
       rest: this.rest,
@@ -105,7 +105,7 @@ export class Loop {
 
   /** Reports the last pose once its picture is complete. */
   private report(): void {
-    if (!this.drawn || this.stage?.busy) return;
+    if (!this.drawn || this.stage?.painter.busy) return;
     if (this.send({ type: "drawn", ...this.drawn })) this.drawnSent++;
     this.drawn = null;
   }

@@ -237,25 +237,18 @@ export class Avatars {
 
   private acceptDrops(): void {
     const hint = byId("drop", HTMLElement);
-    let depth = 0;
     const files = (e: DragEvent) => e.dataTransfer?.types.includes("Files") ?? false;
-    window.addEventListener("dragenter", (e) => {
+    window.addEventListener("dragover", (e) => {
       if (!files(e)) return;
-      depth++;
+      e.preventDefault();
       hint.hidden = false;
     });
     window.addEventListener("dragleave", (e) => {
-      if (!files(e)) return;
-      depth = Math.max(0, depth - 1);
-      hint.hidden = depth === 0;
-    });
-    window.addEventListener("dragover", (e) => {
-      if (files(e)) e.preventDefault();
+      if (!e.relatedTarget) hint.hidden = true; // it has left the window
     });
     window.addEventListener("drop", (e) => {
       if (!files(e)) return;
       e.preventDefault();
-      depth = 0;
       hint.hidden = true;
       const f = e.dataTransfer?.files[0];
       if (f) void this.take(f);

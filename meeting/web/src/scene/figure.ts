@@ -19,16 +19,12 @@ const FINGERS = relaxedFingers();
 export class Figure {
   /** Add it to the scene. */
   readonly object: Object3D = new Group(); // at the chair
-  private avatar_: Avatar | null = null;
+  avatar: Avatar | null = null; // changed by setAvatar()
   private seated: Seated | null = null;
   private shown = new Map<string, Quat>();
   private lastSway: Vec3 = [0, 0, 0];
   private fresh = true;
   private readonly scratch = new Vector3();
-
-  get avatar(): Avatar | null {
-    return this.avatar_;
-  }
 
   setPlace(p: Place): void {
     if (this.object.position.x === p.x && this.object.position.z === p.z) return;
@@ -39,9 +35,9 @@ export class Figure {
 
   /** Gives the old one, to be released. */
   setAvatar(avatar: Avatar | null): Avatar | null {
-    const before = this.avatar_;
+    const before = this.avatar;
     if (before) this.object.remove(before.scene);
-    this.avatar_ = avatar;
+    this.avatar = avatar;
     this.fresh = true;
     if (avatar) {
       const joints = new Map(Object.entries(avatar.read()).map(([bone, r]) => [bone, r.position]));
@@ -54,7 +50,7 @@ export class Figure {
 
   /** Shows the pose; true when something visible has changed. `home`: the hips of the person's T-pose. */
   show(pose: StreamPose, home: Vec3 | undefined, now: number, dt: number, breath: number): boolean {
-    const avatar = this.avatar_;
+    const avatar = this.avatar;
     if (!avatar || !this.seated) return false;
     const resting = pose.rest > 0 ? seatedRest(now, breath * pose.rest) : new Map<string, Quat>();
     const upper = blendPoses(withoutLegs(pose.bones), resting, pose.rest);
@@ -77,17 +73,17 @@ export class Figure {
 
   /** The position of the name: over the head, or over the empty chair. */
   tagPlace(out: Vector3): Vector3 {
-    if (!this.avatar_) return out.set(0, TAG_WITHOUT, 0).applyMatrix4(this.object.matrixWorld);
-    this.avatar_.headPosition(out);
-    out.y += (this.avatar_.top - this.avatar_.headHeight) * 1.12 + 0.05;
+    if (!this.avatar) return out.set(0, TAG_WITHOUT, 0).applyMatrix4(this.object.matrixWorld);
+    this.avatar.position("head", out);
+    out.y += (this.avatar.top - this.avatar.headHeight) * 1.12 + 0.05;
     return out;
   }
 
   /** The point between the eyes, m; null without an avatar. */
   get eyes(): Vec3 | null {
-    if (!this.avatar_) return null;
-    const head = this.avatar_.headPosition(this.scratch);
-    const size = this.avatar_.top - this.avatar_.headHeight;
+    if (!this.avatar) return null;
+    const head = this.avatar.position("head", this.scratch);
+    const size = this.avatar.top - this.avatar.headHeight;
     const turn = this.object.rotation.y;
     const ahead = 0.42 * size;
     return [head.x + ahead * Math.sin(turn), head.y + 0.4 * size, head.z + ahead * Math.cos(turn)];
