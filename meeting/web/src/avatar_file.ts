@@ -20,25 +20,21 @@ const tooLong = (): AvatarError =>
 /** The body of a response, at most `most` bytes: reading a longer one stops. */
 async function bodyOf(answer: Response, most: number): Promise<Uint8Array<ArrayBuffer>> {
   if (Number(answer.headers.get("content-length") ?? 0) > most) throw tooLong();
-  const reader = answer.body?.getReader();
-  if (!reader) throw new AvatarError("The avatar's file is empty.");
-  const parts: Uint8Array[] = [];
+  if (!answer.body) throw new AvatarError("The avatar's file is empty.");
   let length = 0;
-  for (let part = await reader.read(); !part.done; part = await reader.read()) {
-    length += part.value.length;
-    if (length > most) {
-      void reader.cancel().catch(() => undefined);
-      throw tooLong();
-    }
-    parts.push(part.value);
-  }
-  const all = new Uint8Array(length);
-  let at = 0;
-  for (const p of parts) {
-    all.set(p, at);
-    at += p.length;
-  }
-  return all;
+  const limit = new TransformStream<Uint8Array, Uint8Array>({
+    transform(part, controller) {
+      length += part.length;
+      if (length > most) controller.error();
+      else controller.enqueue(part);
+    },
+  });
+  const body = new Response(answer.body.pipeThrough(limit)).arrayBuffer();
+  return new Uint8Array(
+    await body.catch((e: unknown) => {
+      throw length > most ? tooLong() : e;
+    }),
+  );
 }
 
 /** Downloads by HTTPS without credentials or referrer; throws AvatarError. */

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connection to the broker. It reconnects with growing delays. It does not depend on the MQTT library.
 
-import { retryDelay } from "#web/shared/retry";
+import { retryDelay, type ConnectionState } from "#web/shared/retry";
 
-export type LinkState =
-  | { kind: "closed" }
-  | { kind: "connecting" }
-  | { kind: "open" }
-  | { kind: "lost"; retryAt: number; words: string } // retryAt: performance.now() of the next try
-  | { kind: "refused"; words: string };
+export type LinkState = ConnectionState | { kind: "closed" } | { kind: "refused"; words: string };
 
 /** Why there is no connection. `refused`: trying again with the same account is useless. */
 export interface Closed {

@@ -22,53 +22,42 @@ function done<T>(request: IDBRequest<T>): Promise<T> {
   });
 }
 
-function open(): Promise<IDBDatabase> {
+/** Opens the database for `work`. */
+async function withDatabase<T>(work: (db: IDBDatabase) => Promise<T>): Promise<T> {
   const request = indexedDB.open(DATABASE, 1);
   request.onupgradeneeded = () => {
-    request.result.createObjectStore(FILES, { keyPath: "id" });
-    request.result.createObjectStore(ENTRIES, { keyPath: "id" });
+    for (const name of [FILES, ENTRIES]) request.result.createObjectStore(name, { keyPath: "id" });
   };
-  return done(request);
+  const db = await done(request);
+  try {
+    return await work(db);
+  } finally {
+    db.close();
+  }
 }
 
-async function change(what: (files: IDBObjectStore, entries: IDBObjectStore) => void): Promise<void> {
-  const db = await open();
-  try {
+const change = (what: (files: IDBObjectStore, entries: IDBObjectStore) => void): Promise<void> =>
+  withDatabase((db) => {
     const t = db.transaction([FILES, ENTRIES], "readwrite");
-    await new Promise<void>((resolve, reject) => {
+    return new Promise((resolve, reject) => {
       t.oncomplete = () => resolve();
       t.onerror = t.onabort = () => reject(t.error ?? new Error("IndexedDB"));
       what(t.objectStore(FILES), t.objectStore(ENTRIES));
     });
-  } finally {
-    db.close();
-  }
-}
+  });
 
 /** Oldest first; empty when the browser stores nothing (private window). */
 export async function listAvatars(): Promise<StoredEntry[]> {
-  try {
-    const db = await open();
-    try {
-      const all = await done(db.transaction(ENTRIES).objectStore(ENTRIES).getAll());
-      return (all as StoredEntry[]).sort((a, b) => a.id.localeCompare(b.id));
-    } finally {
-      db.close();
-    }
-  } catch {
-    return [];
-  }
+  const all: Promise<StoredEntry[]> = withDatabase((db) =>
+    done(db.transaction(ENTRIES).objectStore(ENTRIES).getAll()),
+  );
+  return (await all.catch(() => [])).sort((a, b) => a.id.localeCompare(b.id));
 }
 
 export async function getAvatar(id: string): Promise<StoredAvatar | null> {
-  const db = await open();
-  try {
-    return (
-      ((await done(db.transaction(FILES).objectStore(FILES).get(id))) as StoredAvatar | undefined) ?? null
-    );
-  } finally {
-    db.close();
-  }
+  const request = (db: IDBDatabase): IDBRequest<StoredAvatar | undefined> =>
+    db.transaction(FILES).objectStore(FILES).get(id);
+  return (await withDatabase((db) => done(request(db)))) ?? null;
 }
 
 /** Stores the file. It replaces one of the same name; of more than 8 the oldest is removed. Throws without space. */

@@ -23,6 +23,11 @@ async function answer(look: string, there = true): Promise<void> {
   answers.get(look)!(there);
   await vi.waitFor(() => expect(there ? avatars.info?.name : said.at(-1)).toMatch(new RegExp(look, "i")));
 }
+/** The program sends its list of looks. */
+async function start(...looks: string[]): Promise<void> {
+  void avatars.setLooks(looks);
+  await settle();
+}
 const settle = () => new Promise((resolve) => setTimeout(resolve, 5));
 const file = (text: string) => new File([text], "mine.vrm");
 
@@ -54,8 +59,7 @@ beforeEach(() => {
 
 describe("a bad file before anything is shown", () => {
   it("is replaced by the chosen avatar", async () => {
-    void avatars.setLooks(["plain", "casual", "robot"]);
-    await settle();
+    await start("plain", "casual", "robot");
     void avatars.choose("look:robot");
     void avatars.take(file("bad"));
     await settle();
@@ -66,8 +70,7 @@ describe("a bad file before anything is shown", () => {
   });
 
   it("is replaced by a stored or first avatar", async () => {
-    void avatars.setLooks(["plain", "casual"]);
-    await settle();
+    await start("plain", "casual");
     void avatars.take(file("bad"));
     void avatars.take(file("bad")); // one more
     await settle();
@@ -83,8 +86,7 @@ describe("a bad file before anything is shown", () => {
   it("leaves the first avatar to the program", async () => {
     await avatars.take(file("bad"));
     expect(said).toEqual(["This is not a VRM avatar."]);
-    void avatars.setLooks(["plain", "casual"]);
-    await settle();
+    await start("plain", "casual");
     await answer("casual");
   });
 
@@ -97,8 +99,7 @@ describe("a bad file before anything is shown", () => {
 
 describe("a bad file", () => {
   beforeEach(async () => {
-    void avatars.setLooks(["plain", "casual"]);
-    await settle();
+    await start("plain", "casual");
     await answer("casual");
   });
 
@@ -122,8 +123,7 @@ describe("a bad file", () => {
 
 describe("a good file", () => {
   it("replaces one that still loads", async () => {
-    void avatars.setLooks(["plain", "casual"]);
-    await settle();
+    await start("plain", "casual");
     await avatars.take(file("good"));
     expect(avatars.info?.name).toBe("mine");
     answers.get("casual")!(true);
