@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far an avatar's bones are from those that were tracked.
 
-import { conj, mul } from "../mock/quat.mjs";
+import { MathUtils, Quaternion } from "three";
 import { PARENT } from "../mock/motion.mjs";
 
 /** The angle between two rotations, degrees. */
-export function angleBetween(a, b) {
-  const q = mul(conj(a), b);
-  return (2 * Math.atan2(Math.hypot(q[0], q[1], q[2]), Math.abs(q[3])) * 180) / Math.PI;
-}
+export const angleBetween = (a, b) => MathUtils.radToDeg(new Quaternion(...a).angleTo(new Quaternion(...b)));
 
 export const meanAndWorst = (errors) => ({
   mean: errors.reduce((a, b) => a + b, 0) / errors.length,
@@ -16,7 +13,10 @@ export const meanAndWorst = (errors) => ({
 });
 
 /** The rotation of a bone in the world, from the sent rotations of it and its parents. */
-const turned = (bones, name) => (PARENT[name] ? mul(turned(bones, PARENT[name]), bones[name]) : bones[name]);
+const turned = (bones, name) =>
+  new Quaternion(...(PARENT[name] ? turned(bones, PARENT[name]) : [])).multiply(
+    new Quaternion(...bones[name]),
+  );
 
 const otherSide = (bone) => bone.replace(/^(left|right)/, (side) => ({ left: "right", right: "left" })[side]);
 

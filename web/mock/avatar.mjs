@@ -2,9 +2,8 @@
 // A small avatar of boxes as a VRM 1.0 file. Its bones have rest rotations (VRM 1.0 allows any), so that tests find code
 // that ignores them.
 
-import { BoxGeometry } from "three";
-import { BODY, PARENT } from "./motion.mjs";
-import { about, conj, mul, rotate } from "./quat.mjs";
+import { BoxGeometry, Quaternion, Vector3 } from "three";
+import { BODY, PARENT, about } from "./motion.mjs";
 
 const TIP = {
   head: [0, 0.2, 0],
@@ -42,23 +41,24 @@ export function boxAvatar({ name = "Boxes", without = null } = {}) {
   const world = {};
   const indexOf = {};
   bones.forEach((bone, i) => {
-    world[bone] = mul(about("y", 37 * (i % 5)), about(i % 2 ? "x" : "z", 23 * (i % 4)));
+    world[bone] = about("y", 37 * (i % 5)).multiply(about(i % 2 ? "x" : "z", 23 * (i % 4)));
     const p = PARENT[bone];
     const offset = BODY[bone].map((v, k) => v - (p ? BODY[p][k] : 0));
-    const back = p ? conj(world[p]) : [0, 0, 0, 1];
+    const back = p ? world[p].clone().invert() : new Quaternion();
     indexOf[bone] = nodes.length;
     nodes.push({
       name: bone,
-      translation: rotate(back, offset),
-      rotation: mul(back, world[bone]),
+      translation: new Vector3(...offset).applyQuaternion(back).toArray(),
+      rotation: back.multiply(world[bone]).toArray(),
       children: [],
     });
     if (p) nodes[indexOf[p]].children.push(indexOf[bone]);
   });
   const addBox = (name, bone, mesh, middle, scale) => {
-    const rotation = conj(world[bone]);
+    const back = world[bone].clone().invert();
+    const translation = new Vector3(...middle).applyQuaternion(back).toArray();
     nodes[indexOf[bone]].children.push(nodes.length);
-    nodes.push({ name, mesh, translation: rotate(rotation, middle), rotation, scale });
+    nodes.push({ name, mesh, translation, rotation: back.toArray(), scale });
   };
   for (const bone of bones) {
     const child = NEXT[bone] ?? bones.find((b) => PARENT[b] === bone && !NEXT[bone]);

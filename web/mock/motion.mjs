@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A synthetic person: a skeleton and a few gestures.
 
-import { about, mixQuat, mul } from "./quat.mjs";
+import { MathUtils, Quaternion, Vector3 } from "three";
+
+const AXES = { x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1) };
+
+/** The rotation about a coordinate axis, degrees. */
+export const about = (axis, degrees) =>
+  new Quaternion().setFromAxisAngle(AXES[axis], MathUtils.degToRad(degrees));
 
 /** Parents and joints of the T-pose, m: y up, facing +z, x to the person's left. */
 const MIDDLE = {
@@ -49,9 +55,9 @@ const GESTURES = {
   wave: (t) => ({
     ...armsDown,
     rightUpperArm: about("z", 12),
-    rightLowerArm: mul(about("z", -78 - 24 * Math.sin(5 * t)), about("x", -20)),
+    rightLowerArm: about("z", -78 - 24 * Math.sin(5 * t)).multiply(about("x", -20)),
     rightHand: about("z", -12 * Math.sin(5 * t + 0.6)),
-    head: mul(about("y", -12), about("z", 6 * Math.sin(2 * t))),
+    head: about("y", -12).multiply(about("z", 6 * Math.sin(2 * t))),
     hips: about("y", -8),
   }),
   /** The left arm at the camera. */
@@ -62,8 +68,8 @@ const GESTURES = {
     head: about("y", 5),
   }),
   open: (t) => ({
-    leftUpperArm: mul(about("z", 20 + 14 * Math.sin(1.6 * t)), about("y", -15)),
-    rightUpperArm: mul(about("z", -20 - 14 * Math.sin(1.6 * t)), about("y", 15)),
+    leftUpperArm: about("z", 20 + 14 * Math.sin(1.6 * t)).multiply(about("y", -15)),
+    rightUpperArm: about("z", -20 - 14 * Math.sin(1.6 * t)).multiply(about("y", 15)),
     chest: about("x", -4),
     head: about("x", -8),
   }),
@@ -83,8 +89,9 @@ export function poseAt(t, gesture) {
   const b = GESTURES[next](t);
   const bones = {};
   for (const bone of UPPER) {
-    const q = mixQuat(a[bone] ?? [0, 0, 0, 1], b[bone] ?? [0, 0, 0, 1], blend);
-    bones[bone] = q[3] < 0 ? q.map((v) => -v) : q;
+    const [from, to] = [a, b].map((pose) => pose[bone]?.clone() ?? new Quaternion());
+    const [x, y, z, w] = from.slerp(to, blend);
+    bones[bone] = w < 0 ? [-x, -y, -z, -w] : [x, y, z, w];
   }
   const hips = [0.05 * Math.sin(0.7 * t), 0.94 + 0.01 * Math.sin(1.9 * t), 0.06 * Math.sin(0.4 * t)];
   return { hips, bones };

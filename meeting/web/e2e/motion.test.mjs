@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { after, before, test } from "node:test";
 import mqtt from "mqtt";
-import { mixQuat } from "#mock/quat";
+import { Quaternion } from "three";
 import { launch } from "#e2e/process";
 import { LIGHT, LONG, PATIENCE, startBrowser, startProgram } from "#e2e/program";
 import { dressed, followsPerson, inTheMeeting, openMeeting, shows } from "./meeting.mjs";
@@ -75,7 +75,8 @@ function truthOf(motion, frames, participant) {
     const share = a === b ? 0 : (captured - a.captured) / (b.captured - a.captured);
     const [from, to] = [motion[a.sequence], motion[b.sequence]];
     const bones = Object.keys(from).filter((bone) => to[bone]);
-    return { bones: Object.fromEntries(bones.map((bone) => [bone, mixQuat(from[bone], to[bone], share)])) };
+    const between = (a, b) => new Quaternion(...a).slerp(new Quaternion(...b), share).toArray();
+    return { bones: Object.fromEntries(bones.map((bone) => [bone, between(from[bone], to[bone])])) };
   };
 }
 
