@@ -38,7 +38,7 @@ test("random messages disturb nobody else", LONG, async () => {
   const frame = () => Buffer.from(bad.frame(performance.now() * 1000));
   const old = frame();
   const state = JSON.stringify({ v: 1, session: bad.session, kind: "tracker", name: "Mallory", seat: 0 });
-  const rubbish = [
+  const invalid = [
     () => ["pose", bytes(upTo(200))],
     () => ["pose", Buffer.alloc(upTo(20000), upTo(255))], // oversized
     () => ["pose", old], // replayed
@@ -55,7 +55,7 @@ test("random messages disturb nobody else", LONG, async () => {
     () => [["nothing", "board", "board/01", "pose/x", "p/p01/pose"][upTo(4)], bytes(upTo(100))],
   ];
   for (let sent = 0; sent < MESSAGES; sent += 100) {
-    const some = Array.from({ length: 100 }, () => rubbish[upTo(rubbish.length - 1)]());
+    const some = Array.from({ length: 100 }, () => invalid[upTo(invalid.length - 1)]());
     await Promise.all(
       some.map(([what, data]) => bad.client.publishAsync(`${bad.base}/${what}`, data, { qos: 1 })),
     );

@@ -301,13 +301,13 @@ function box(id: string, key: "strangers" | "details", changed: () => void): voi
   });
 }
 const setStrangers = (): void => {
-  scene.strangers(settings.strangers);
+  scene.options.strangers = settings.strangers;
   if (client) scene.follow(client.roster, client.me?.id ?? null);
 };
 box("strangers", "strangers", setStrangers);
 box("details", "details", showPeople);
 setStrangers();
-const setCalm = (): void => scene.still(calm.matches);
+const setCalm = (): void => void (scene.options.still = calm.matches);
 calm.addEventListener("change", setCalm);
 setCalm();
 

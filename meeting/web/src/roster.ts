@@ -107,6 +107,11 @@ export class Roster {
     );
   }
 
+  /** The number of participants beyond the seats of the meeting. */
+  get furtherSeats(): number {
+    return Math.max(0, ...[...this.seats.values()].map((seat) => seat + 1 - this.meeting.seats));
+  }
+
   /** Something arrived from the broker, at least an answer to a ping; `now` in s of the local clock, here and below. */
   alive(now: number): void {
     this.tick(now);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The messages between the program and the page (docs/live-protocol.md), and the checks of what comes in. A message that
+// The messages between the program and the page (docs/live-protocol.md), and the checks of received messages. A message that
 // lacks a required member is refused as a whole; unknown members are ignored.
 
 import * as v from "valibot";

@@ -30,11 +30,14 @@ interface Member {
   busy: boolean;
 }
 
-export class Cast {
+export interface CastOptions {
   /** Download avatars from other websites. */
-  strangers = true;
+  strangers: boolean;
   /** Resting avatars do not breathe. */
-  still = false;
+  still: boolean;
+}
+
+export class Cast {
   private readonly all = new Map<string, Member>();
   private lastShow = 0;
   private hidden: string | null = null;
@@ -44,6 +47,7 @@ export class Cast {
     private readonly stage: MeetingStage,
     private readonly library: AvatarLibrary,
     private readonly tags: Tags,
+    private readonly options: Readonly<CastOptions>,
     private readonly loading: (count: number) => void,
   ) {}
 
@@ -94,7 +98,7 @@ export class Cast {
     const own = state?.avatar ?? null;
     const substitute = member.failed.has(keyOf(SUBSTITUTE)) ? null : SUBSTITUTE;
     if (!own) return { choice: state?.kind === "tracker" ? substitute : null, why: "" };
-    if ("url" in own && !this.strangers)
+    if ("url" in own && !this.options.strangers)
       return { choice: substitute, why: `The avatar at ${new URL(own.url).host} is not downloaded.` };
     const why = member.failed.get(keyOf(own));
     return why === undefined ? { choice: own, why: "" } : { choice: substitute, why };
@@ -156,7 +160,7 @@ export class Cast {
       if (!p) continue;
       const pose = p.stream.pose(now);
       try {
-        const breath = this.still ? 0 : 1;
+        const breath = this.options.still ? 0 : 1;
         if (member.figure.show(pose, p.state?.bones.get("hips"), now, dt, breath)) moved = true;
       } catch (e) {
         // An avatar that cannot be moved does not affect the others.
@@ -199,7 +203,3 @@ export class Cast {
     return this.all.get(id)?.figure.avatar !== null && this.all.has(id);
   }
 }
-
-/** Number of participants beyond the seats of the meeting. */
-export const furtherSeats = (roster: Roster): number =>
-  Math.max(0, ...[...roster.seats.values()].map((s) => s + 1 - roster.meeting.seats));

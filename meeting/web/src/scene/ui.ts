@@ -8,7 +8,7 @@ import type { Rig } from "../rig";
 import type { Roster } from "../roster";
 import { drawsInSoftware } from "#web/shared/graphics";
 import { BoardCanvas } from "./board_canvas";
-import type { Cast } from "./cast";
+import type { Cast, CastOptions } from "./cast";
 import { control } from "./controls";
 import { DAY, EVENING, type Palette } from "./palette";
 import type { MeetingStage } from "./meeting_stage";
@@ -31,9 +31,7 @@ export class SceneUi {
   private readonly tags = new Tags(byId("tags", HTMLElement));
   private readonly dark = window.matchMedia("(prefers-color-scheme: dark)");
   private built = "";
-  private calm = false;
-  private fetchStrangers = true;
-  private furtherSeats: (roster: Roster) => number = () => 0;
+  readonly options: CastOptions = { strangers: true, still: false };
 
   constructor(
     private readonly rig: Rig,
@@ -74,18 +72,15 @@ export class SceneUi {
       missing("The part of this page that draws the meeting did not load: load the page again.");
       return;
     }
-    const [{ MeetingStage }, { Cast, furtherSeats }, { AvatarLibrary }] = parts;
+    const [{ MeetingStage }, { Cast }, { AvatarLibrary }] = parts;
     try {
       const view = byId("meeting-view", HTMLElement);
       const stage = new MeetingStage(canvas, view, this.tags, this.rig, this.slate.canvas);
-      const cast = new Cast(stage, new AvatarLibrary(), this.tags, (n) =>
+      const cast = new Cast(stage, new AvatarLibrary(), this.tags, this.options, (n) =>
         view.classList.toggle("loading", n > 0),
       );
-      this.furtherSeats = furtherSeats;
       this.stage = stage;
       this.cast = cast;
-      this.strangers(this.fetchStrangers);
-      this.still(this.calm);
       control(canvas, this.rig);
       const { roster, me } = this.what();
       this.follow(roster, me);
@@ -114,15 +109,15 @@ export class SceneUi {
     const anchor = cast.anchor(me, roster);
     const eyes = this.rig.view === "eyes" && anchor ? me : null;
     cast.hide(eyes);
-    stage.draw(now, moved, anchor, this.calm || stage.software, eyes);
+    stage.draw(now, moved, anchor, this.options.still || stage.software, eyes);
   }
 
   private build(): void {
-    const { roster } = this.what();
-    const key = `${roster.meeting.seats} ${this.furtherSeats(roster)} ${this.dark.matches}`;
+    const { furtherSeats, meeting } = this.what().roster;
+    const key = `${meeting.seats} ${furtherSeats} ${this.dark.matches}`;
     if (!this.stage || key === this.built) return;
     this.built = key;
-    this.stage.build(roster.meeting.seats, this.furtherSeats(roster), this.colours);
+    this.stage.build(meeting.seats, furtherSeats, this.colours);
   }
 
   /** Call it after a change of participants or of the meeting. */
@@ -138,16 +133,6 @@ export class SceneUi {
   showMessage(id: string, text: string): void {
     this.tags.showMessage(id, text, performance.now() / 1000);
     this.stage?.touch();
-  }
-
-  strangers(on: boolean): void {
-    this.fetchStrangers = on;
-    if (this.cast) this.cast.strangers = on;
-  }
-
-  still(on: boolean): void {
-    this.calm = on;
-    if (this.cast) this.cast.still = on;
   }
 
   /** The shown poses of those who have both motion and an avatar. */
