@@ -16,20 +16,18 @@ const tests = process.argv.slice(2).flatMap((path) =>
         .map((name) => `${path}/${name}`)
     : [`${path}.test.mjs`],
 );
-const missing = [];
-if (!existsSync(chromium)) missing.push(`Chromium (TELEMIME_CHROMIUM names it; now ${chromium})`);
-if (!installed("ffmpeg", "-version")) missing.push("ffmpeg");
 const meetings = tests.filter((t) => t.startsWith("meeting/"));
-if (
-  meetings.some((t) => !t.includes("cluster")) &&
-  !installed(process.env.TELEMIME_MOSQUITTO ?? "mosquitto", "-h")
-)
-  missing.push("Mosquitto (TELEMIME_MOSQUITTO names it)");
-if (
-  meetings.some((t) => t.includes("cluster")) &&
-  !installed(process.env.TELEMIME_NATS_SERVER ?? "nats-server", "--version")
-)
-  missing.push("nats-server (TELEMIME_NATS_SERVER names it)");
+const clusters = meetings.filter((t) => t.includes("cluster"));
+const mosquitto = process.env.TELEMIME_MOSQUITTO ?? "mosquitto";
+const nats = process.env.TELEMIME_NATS_SERVER ?? "nats-server";
+const missing = [
+  !existsSync(chromium) && `Chromium (TELEMIME_CHROMIUM names it; now ${chromium})`,
+  !installed("ffmpeg", "-version") && "ffmpeg",
+  meetings.length > clusters.length &&
+    !installed(mosquitto, "-h") &&
+    "Mosquitto (TELEMIME_MOSQUITTO names it)",
+  clusters.length > 0 && !installed(nats, "--version") && "nats-server (TELEMIME_NATS_SERVER names it)",
+].filter(Boolean);
 if (missing.length > 0) {
   console.log(
     `skipped, not installed: ${missing.join(", ")}. scripts/deps.sh test installs what is missing.`,

@@ -4,7 +4,7 @@
 import type { BoneReading } from "#web/avatar/load";
 import type { Quat } from "#web/shared/quaternion";
 import type { LinkState } from "./link";
-import type { Reading } from "./quality";
+import type { Reading } from "./stream";
 
 export interface DebugPerson {
   id: string;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The meeting's page: connects the entry form, the meeting and its scene.
 
-import { Banner } from "#web/shared/banner";
 import { button, byId } from "#web/shared/dom";
 import { buildFrame } from "#web/shared/frame";
+import { Banner, Toasts } from "#web/shared/notices";
 import { Panel } from "#web/shared/panel";
 import { Shortcuts } from "#web/shared/shortcuts";
-import { Toasts } from "#web/shared/toasts";
 import { exposeMeeting } from "./debug";
 import { EntryError, enter, inviteOf, storedEntry, tokenFor, withSeat, type Entered } from "./entry";
 import type { Dial, LinkState } from "./link";

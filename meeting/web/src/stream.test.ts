@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { about } from "#web/shared/quaternion";
 import { encodeFrame } from "./frame";
-import { qualityText } from "./quality";
+import { qualityText } from "./stream";
 import { PoseStream } from "./stream";
 import { frameOf } from "./testing_meeting";
 

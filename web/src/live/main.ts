@@ -2,13 +2,12 @@
 // The live page: connects the WebSocket, the views and the controls.
 
 import { PoseDriver } from "../avatar/driver";
-import { Banner } from "../shared/banner";
 import { button, byId, setText } from "../shared/dom";
 import { buildFrame } from "../shared/frame";
+import { Banner, Toasts } from "../shared/notices";
 import { Panel } from "../shared/panel";
 import type { ConnectionState } from "../shared/retry";
 import { Shortcuts } from "../shared/shortcuts";
-import { Toasts } from "../shared/toasts";
 import { Avatars } from "../ui/avatars";
 import { Guide } from "../ui/guide";
 import { OutputList } from "../ui/outputs";

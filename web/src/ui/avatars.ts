@@ -7,7 +7,7 @@ import { getAvatar, listAvatars, putAvatar, removeAvatar, type StoredEntry } fro
 import { button, byId, h, labelOf, sizeText } from "../shared/dom";
 import { drawsInSoftware } from "../shared/graphics";
 import { trashButton } from "../shared/icons";
-import type { Level } from "../shared/toasts";
+import type { Level } from "../shared/notices";
 
 export interface AvatarInfo {
   id: string; // as in the settings

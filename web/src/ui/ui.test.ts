@@ -5,7 +5,6 @@ import { durationText, sizeText } from "../shared/dom";
 import { fileAddress } from "./recordings";
 import { DEFAULTS, SettingsSchema, storedSettings } from "./settings";
 import { parseStored } from "../shared/stored";
-import { toRemove } from "../shared/toasts";
 
 describe("settings", () => {
   afterEach(() => vi.unstubAllGlobals());
@@ -37,14 +36,6 @@ describe("settings", () => {
     const stored = storedSettings();
     stored.save({ ...DEFAULTS, overlay: false });
     expect(stored.load()).toEqual(DEFAULTS);
-  });
-});
-
-describe("too many messages", () => {
-  it("the oldest that is no error is removed", () => {
-    expect(toRemove([true, false, false, true, false])).toBe(1);
-    expect(toRemove([false, true])).toBe(0);
-    expect(toRemove([true, true, true])).toBe(0);
   });
 });
 

@@ -2,7 +2,7 @@
 // The participants, and how their motion arrives.
 
 import { byId, h, setCount, setText } from "#web/shared/dom";
-import { qualityText, type Reading } from "../quality";
+import { qualityText, type Reading } from "../stream";
 
 export interface PersonRow {
   id: string;

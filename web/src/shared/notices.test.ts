@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import { Banner } from "./banner";
+import { Banner, toRemove } from "./notices";
 import { useFakePage } from "./testing_dom";
 
 const element = useFakePage();
@@ -36,5 +36,13 @@ describe("the banner", () => {
     expect(words()).toBe("Too many pages are open. Trying again.");
     lost("");
     expect(words()).toMatch(/^No connection to Telemime\. Is the program/);
+  });
+});
+
+describe("too many messages", () => {
+  it("the oldest that is no error is removed", () => {
+    expect(toRemove([true, false, false, true, false])).toBe(1);
+    expect(toRemove([false, true])).toBe(0);
+    expect(toRemove([true, true, true])).toBe(0);
   });
 });
