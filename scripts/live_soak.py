@@ -99,48 +99,38 @@ class Soak:
             await page.close()
 
     async def reads(self):
-        """A page as it should be; it also reports what it drew. Nothing may throw it out."""
-        try:
-            async with self.page() as page:
-                await self.read(page)
-        except (ConnectionError, OSError, asyncio.IncompleteReadError) as error:
-            if not self.over:
-                self.fail(f"the page that reads was thrown out: {error!r}")
-            raise
-
-    async def read(self, page):
+        """A page as it should be; it also reports what it drew."""
         asked = 0.0
-        while not self.over:
-            message = await page.hear()
-            silent, self.heard_at = time.monotonic() - self.heard_at, time.monotonic()
-            self.longest_silence = max(self.longest_silence, silent)
-            if isinstance(message, bytes):
-                self.count("pictures")
-                continue
-            self.count(message["type"])
-            if message["type"] == "pose":
-                page.say({"type": "drawn", "frame": message["frame"], "stamp": message["stamp"]})
-            elif message["type"] == "status":
-                self.status = message
-            elif message["type"] == "message" and message["level"] == "error":
-                self.fail("the page is told: " + message["words"])
-            if time.monotonic() - asked > 4:
-                asked = time.monotonic()
-                page.say({"type": "ping", "id": int(asked)})
-            await page.writer.drain()
+        async with self.page() as page:
+            while not self.over:
+                message = await page.hear()
+                silent, self.heard_at = time.monotonic() - self.heard_at, time.monotonic()
+                self.longest_silence = max(self.longest_silence, silent)
+                if isinstance(message, bytes):
+                    self.count("pictures")
+                    continue
+                self.count(message["type"])
+                if message["type"] == "pose":
+                    page.say({"type": "drawn", "frame": message["frame"], "stamp": message["stamp"]})
+                elif message["type"] == "status":
+                    self.status = message
+                elif message["type"] == "message" and message["level"] == "error":
+                    self.fail("the page gets the error: " + message["words"])
+                if time.monotonic() - asked > 4:
+                    asked = time.monotonic()
+                    page.say({"type": "ping", "id": int(asked)})
+                await page.writer.drain()
 
     async def never_reads(self):
         """Stalls until the program closes it, and comes again."""
-        while not self.over:
-            # A small limit: asyncio stops taking bytes off the socket when twice as many wait.
-            async with self.page(limit=2**10):
-                self.count("pages that never read")
-                await asyncio.sleep(90)
+        # A small limit: asyncio stops taking bytes off the socket when twice as many wait.
+        async with self.page(limit=2**10):
+            self.count("pages that never read")
+            await asyncio.sleep(90)
 
     async def come_and_go(self):
-        while not self.over:
-            await asyncio.gather(*(self.looks_around() for _ in range(random.randint(1, 8))))
-            await asyncio.sleep(random.uniform(0.0, 2.0))
+        await asyncio.gather(*(self.looks_around() for _ in range(random.randint(1, 8))))
+        await asyncio.sleep(random.uniform(0.0, 2.0))
 
     async def looks_around(self):
         """Reads for some seconds. Some are hidden for a time; some say nonsense."""
@@ -177,15 +167,6 @@ class Soak:
     async def records(self):
         """In a tenth of the time, from the middle of the warm-up on: recorded, downloaded, deleted."""
         period = min(300.0, self.options.seconds / 6)
-        while not self.over:
-            try:
-                await self.record(period)
-            except (ConnectionError, OSError, asyncio.IncompleteReadError) as error:
-                if not self.over:
-                    self.fail(f"the page that records was thrown out: {error!r}")
-                raise
-
-    async def record(self, period):
         await asyncio.sleep(0.45 * period)
         async with self.page() as page:
             page.say({"type": "pictures", "on": False})
@@ -220,36 +201,34 @@ class Soak:
                 soak.count("VMC datagrams")
 
         loop = asyncio.get_running_loop()
-        while not self.over:
-            transport, _ = await loop.create_datagram_endpoint(Receiver, local_addr=("127.0.0.1", port))
-            await asyncio.sleep(random.uniform(10, 30))
-            transport.close()
-            await asyncio.sleep(random.uniform(2, 15))
-            self.count("VMC receivers")
+        transport, _ = await loop.create_datagram_endpoint(Receiver, local_addr=("127.0.0.1", port))
+        await asyncio.sleep(random.uniform(10, 30))
+        transport.close()
+        await asyncio.sleep(random.uniform(2, 15))
+        self.count("VMC receivers")
 
     async def receives_bap(self, port):
         """Reads lines, or never reads, or dies with a reset; then it is gone for some time."""
-        while not self.over:
-            clients = []
-            server = await asyncio.start_server(lambda r, w: clients.append((r, w)), "127.0.0.1", port)
-            stalls = random.random() < 0.3
-            until = time.monotonic() + random.uniform(10, 30)
-            while time.monotonic() < until:
-                if not clients or stalls:
+        clients = []
+        server = await asyncio.start_server(lambda r, w: clients.append((r, w)), "127.0.0.1", port)
+        stalls = random.random() < 0.3
+        until = time.monotonic() + random.uniform(10, 30)
+        while time.monotonic() < until:
+            if not clients or stalls:
+                await asyncio.sleep(0.2)
+                continue
+            try:
+                line = await asyncio.wait_for(clients[-1][0].readline(), 1)
+                self.count("BAP lines", 1 if line else 0)
+                if not line:
                     await asyncio.sleep(0.2)
-                    continue
-                try:
-                    line = await asyncio.wait_for(clients[-1][0].readline(), 1)
-                    self.count("BAP lines", 1 if line else 0)
-                    if not line:
-                        await asyncio.sleep(0.2)
-                except (asyncio.TimeoutError, ConnectionError, ValueError):
-                    pass
-            server.close()
-            for _, writer in clients:
-                writer.transport.abort()
-            await asyncio.sleep(random.uniform(2, 15))
-            self.count("BAP receivers")
+            except (asyncio.TimeoutError, ConnectionError, ValueError):
+                pass
+        server.close()
+        for _, writer in clients:
+            writer.transport.abort()
+        await asyncio.sleep(random.uniform(2, 15))
+        self.count("BAP receivers")
 
     # -- the watch
 
@@ -296,12 +275,14 @@ class Soak:
             if not self.counts.get(what):
                 self.fail(f"no {what} came at all")
 
-    async def guarded(self, what, work):
-        """What fails outside, for instance a page that the program has closed, begins again."""
+    async def repeated(self, what, work, may_fail=True):
+        """Does the work again and again, also when the program has closed its connection, if it may do that."""
         while not self.over:
             try:
                 await work()
             except (ConnectionError, OSError, asyncio.IncompleteReadError) as error:
+                if not may_fail and not self.over:
+                    self.fail(f"{what} was thrown out: {error!r}")
                 self.count(f"{what}: {type(error).__name__}")
                 await asyncio.sleep(1)
 
@@ -311,12 +292,12 @@ class Soak:
             await self.start(folder, vmc, bap)
             self.begun = self.heard_at = time.monotonic()
             helpers = [
-                asyncio.create_task(self.guarded(what, work))
-                for what, work in (
-                    ("the page that reads", self.reads),
+                asyncio.create_task(self.repeated(*task))
+                for task in (
+                    ("the page that reads", self.reads, False),
                     ("the page that never reads", self.never_reads),
                     ("pages that come and go", self.come_and_go),
-                    ("recording", self.records),
+                    ("the page that records", self.records, False),
                     ("VMC", lambda: self.receives_vmc(vmc)),
                     ("BAP", lambda: self.receives_bap(bap)),
                 )
