@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joining: the secret of the link, the request to the server of the meeting, and what this browser stores for the next time.
+// Joining: the secret of the link, the request to the server of the meeting, the command for the user's tracker, and what
+// this browser stores for the next time.
 
 import { sha256 } from "@noble/hashes/sha2";
 import { bytesToHex } from "@noble/hashes/utils";
 import * as v from "valibot";
 import { Stored, parseStored } from "#web/shared/stored";
+import type { OwnState } from "./local_participant";
 import { characters } from "./messages";
+import { plainLine } from "./names";
 import { isSegment, meetingTopic } from "./topics";
 
 /** The secret behind # in a link; null when there is none. */
@@ -126,6 +129,30 @@ export async function enter(request: EntryRequest, fetcher: typeof fetch = fetch
   const entered = readEntered(await answer.json().catch(() => null));
   if (!entered) throw new EntryError("This page does not understand the server's answer. Reload the page.");
   return entered;
+}
+
+/** Escapes a part of an address within single quotes. */
+const encode = (text: string): string =>
+  encodeURIComponent(text).replace(/['!()*]/g, (c) => `%${c.charCodeAt(0).toString(16).toUpperCase()}`);
+
+/**
+ * `telemime live --send '...'` as this participant, including the password; null when the server does not publish the MQTT
+ * address of the broker, or the user only watches.
+ */
+export function trackerCommand(entered: Entered, state: OwnState | null): string | null {
+  const { tcp, user, password, participant, topic } = entered;
+  if (!tcp || !participant || !state) return null;
+  const [scheme, host] = tcp.split("://") as [string, string];
+  const [, tenant, meeting] = topic.split("/") as [string, string, string];
+  const options: string[] = [];
+  const name = plainLine(state.name, 40);
+  if (name) options.push(`name=${encode(name)}`);
+  if (state.avatar && "look" in state.avatar) options.push(`look=${encode(state.avatar.look)}`);
+  if (state.seat !== null) options.push(`seat=${state.seat}`);
+  if (user !== `${meeting}.${participant}`) options.push(`participant=${participant}`);
+  const rest = options.length ? `?${options.join("&")}` : "";
+  const account = `${encode(user)}:${encode(password)}`;
+  return `telemime live --send '${scheme}://${account}@${host}/${tenant}/${meeting}${rest}'`;
 }
 
 const KEY = "telemime-room";

@@ -7,7 +7,16 @@ import { Banner, Toasts } from "#web/shared/notices";
 import { Panel } from "#web/shared/panel";
 import { Shortcuts } from "#web/shared/shortcuts";
 import { exposeMeeting } from "./debug";
-import { EntryError, enter, inviteOf, storedEntry, tokenFor, withSeat, type Entered } from "./entry";
+import {
+  EntryError,
+  enter,
+  inviteOf,
+  storedEntry,
+  tokenFor,
+  trackerCommand,
+  withSeat,
+  type Entered,
+} from "./entry";
 import type { Dial, LinkState } from "./link";
 import type { LocalParticipant, OwnState } from "./local_participant";
 import { plainLine } from "./names";
@@ -16,7 +25,6 @@ import { MeetingClient, type MeetingListener } from "./meeting_client";
 import { Roster } from "./roster";
 import { storedSettings } from "./settings";
 import { SceneUi } from "./scene/ui";
-import { trackerCommand } from "./tracker_command";
 import { BoardView } from "./ui/board_view";
 import { ChatView } from "./ui/chat_view";
 import { EntryForm, type Wish } from "./ui/entry_form";

@@ -2,13 +2,36 @@
 // The destinations of the motion: a list with their states, and a form to add one by its address.
 
 import type { Command, Output, Sender } from "../live/protocol";
-import { MAX_ADDRESS, withoutPassword } from "./address";
 import { byId, h, renderOnce, setCount } from "../shared/dom";
 import { trashButton } from "../shared/icons";
 
 const ANSWER_TIME = 3000; // ms in which the program reports an error of an address
 const NO_CONNECTION = "There is no connection to Telemime.";
 const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
+
+const MAX_ADDRESS = 2000; // characters, the limit of the program
+
+/**
+ * The address as the program shows it: without a user's password, or the secret of a meeting's link.
+ * The same as without_password in src/telemime/streaming/url.cpp.
+ */
+export function withoutPassword(given: string): string {
+  const secret = given.indexOf(/^http/i.test(given) ? "#" : "#k=");
+  const url = secret < 0 ? given : given.slice(0, secret);
+  const scheme = url.indexOf("://");
+  if (scheme < 0) return url;
+  const start = scheme + 3;
+  const behind = url.slice(start).search(/[/?#]/);
+  const end = behind < 0 ? url.length : start + behind;
+  const colon = url.indexOf(":", start);
+  let at = url.slice(0, end).lastIndexOf("@");
+  if (at < start) {
+    // There is no user before the host. A password that contains "/" ends behind it.
+    const hostAndPath = colon < 0 || colon > end || /^[0-9]+$/.test(url.slice(colon + 1, end));
+    at = hostAndPath && !/^mqtt/i.test(url) ? -1 : url.lastIndexOf("@");
+  }
+  return at < 0 || colon < 0 || colon > at ? url : url.slice(0, colon) + url.slice(at);
+}
 
 /** Class of the dot: states that this page does not know count as waiting. */
 function dotClass(o: Output): "good" | "bad" | "wait" | "" {
