@@ -40,7 +40,6 @@ const text = (most: number) =>
     v.string(),
     v.check((s) => s.length > 0 && characters(s) <= most),
   );
-const version = { v: v.literal(1) };
 const session = whole(1, 0xffff);
 const epoch = whole(0, 0xffffffff);
 
@@ -75,7 +74,6 @@ const BonesSchema = v.pipe(
 );
 
 const StateSchema = v.object({
-  ...version,
   session,
   kind: v.picklist(["tracker", "browser"]),
   /** As sent; names.ts makes it fit for display. */
@@ -89,23 +87,20 @@ const StateSchema = v.object({
   stature: orNull(within(0.3, 3)), // m
   bones: BonesSchema,
 });
-export type StateMessage = Omit<v.InferOutput<typeof StateSchema>, "v">;
+export type StateMessage = v.InferOutput<typeof StateSchema>;
 
 const PresenceSchema = v.object({
-  ...version,
   here: v.boolean(),
   session,
   /** Something is published at least this often, s; null: nothing is promised. */
   every: orNull(within(0.5, 60)),
 });
-export type PresenceMessage = Omit<v.InferOutput<typeof PresenceSchema>, "v">;
 
 const ChatSchema = v.object({
-  ...version,
   id: v.pipe(v.string(), v.regex(/^\d{1,5}-\d{1,10}$/)),
   text: text(MAX_TEXT),
 });
-export type ChatMessage = Omit<v.InferOutput<typeof ChatSchema>, "v">;
+export type ChatMessage = v.InferOutput<typeof ChatSchema>;
 
 const StrokeSchema = v.object({
   /** #rrggbb */
@@ -121,12 +116,11 @@ const StrokeSchema = v.object({
 });
 export type Stroke = v.InferOutput<typeof StrokeSchema>;
 
-const BoardSchema = v.object({ ...version, epoch, strokes: v.array(StrokeSchema) });
-export type BoardMessage = Omit<v.InferOutput<typeof BoardSchema>, "v">;
+const BoardSchema = v.object({ epoch, strokes: v.array(StrokeSchema) });
+export type BoardMessage = v.InferOutput<typeof BoardSchema>;
 
 const MeetingSchema = v.pipe(
   v.looseObject({
-    ...version,
     epoch,
     title: v.fallback(v.string(), ""),
     seats: v.fallback(whole(1, MAX_SEATS), 8),
@@ -146,18 +140,14 @@ export type MeetingMessage = v.InferOutput<typeof MeetingSchema>;
 
 const utf8 = new TextDecoder("utf-8", { fatal: true });
 
-/** A reader of messages up to `limit` bytes; it gives null for everything that does not fit the schema. */
-function reader<T>(
-  schema: v.GenericSchema<unknown, T>,
-  limit: number,
-): (payload: Uint8Array) => Omit<T, "v"> | null {
+/** A reader of messages of version 1 up to `limit` bytes; it gives null for everything that does not fit the schema. */
+function reader<T>(schema: v.GenericSchema<unknown, T>, limit: number): (payload: Uint8Array) => T | null {
   return (payload) => {
     if (payload.byteLength === 0 || payload.byteLength > limit) return null;
     try {
-      const result = v.safeParse(schema, JSON.parse(utf8.decode(payload)), { abortEarly: true });
-      if (!result.success) return null;
-      const { v: _, ...message } = result.output as T & { v?: unknown };
-      return message;
+      const message = JSON.parse(utf8.decode(payload)) as { v?: unknown } | null;
+      const result = v.safeParse(schema, message, { abortEarly: true });
+      return message?.v === 1 && result.success ? result.output : null;
     } catch {
       return null; // neither UTF-8 nor JSON
     }

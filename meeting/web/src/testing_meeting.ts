@@ -48,15 +48,12 @@ export class FakeBroker {
         }
         this.there.add(one);
         events.open();
-        const pulse = setInterval(() => {
-          if (this.there.has(one)) one.events.pulse();
-          else clearInterval(pulse);
-        }, 3000);
-        for (const [topic, bytes] of this.kept) this.deliver(one.events, topic, bytes, true);
-        const ping = setInterval(() => {
-          if (!this.there.has(one)) clearInterval(ping);
-          else if (!this.deaf) events.alive();
-        }, 1500);
+        const every = (ms: number, act: () => void): void => {
+          const timer = setInterval(() => (this.there.has(one) ? act() : clearInterval(timer)), ms);
+        };
+        every(3000, () => events.pulse());
+        for (const [topic, bytes] of this.kept) this.deliver(events, topic, bytes, true);
+        every(1500, () => this.deaf || events.alive());
       });
       return {
         publish: (topic, bytes, retain) => {
