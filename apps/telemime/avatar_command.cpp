@@ -9,7 +9,7 @@
 #include <string>
 
 #include "avatars/avatar.h"
-#include "telemime/outputs/file_output.h"
+#include "telemime/core/files.h"
 
 namespace telemime {
 namespace {

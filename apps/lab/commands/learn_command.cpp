@@ -11,7 +11,6 @@
 #include "lab/experiments/learn.h"
 #include "lab/experiments/report.h"
 #include "telemime/offline/run_outputs.h"
-#include "telemime/outputs/file_output.h"
 
 namespace telemime {
 namespace {

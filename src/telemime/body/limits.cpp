@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
+#include "telemime/core/json_field.h"
 
 namespace telemime {
 namespace {
@@ -73,40 +72,30 @@ JointLimits load_limits(const std::string& name_or_file) {
   if (name_or_file == "anatomical") {
     return anatomical_limits();
   }
-  const auto fail = [&](const std::string& why) -> Error {
-    return {ErrorKind::config, "joint limits " + name_or_file + ": " + why,
-            "Use 'reference', 'anatomical' or a JSON file with all 20 angles in degrees "
-            "(docs/configuration.md)."};
-  };
-  std::ifstream in(name_or_file);
-  if (!in) {
-    throw fail("no such file and no set of that name");
+  const JsonSource source{"joint limits " + name_or_file, ErrorKind::config,
+                          "Use 'reference', 'anatomical' or a JSON file with an object 'limits' of all 20 "
+                          "angles in degrees (docs/configuration.md)."};
+  std::error_code ignored;
+  if (!std::filesystem::exists(name_or_file, ignored)) {
+    throw Error(source.kind, source.name + ": no such file and no set of that name", source.remedy);
   }
-  if (std::filesystem::is_directory(name_or_file)) {
-    throw fail("that is a folder");
-  }
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("limits") || !json["limits"].is_object()) {
-    throw fail("it is not JSON with an object 'limits'");
-  }
-  for (const auto& [key, value] : json["limits"].items()) {
-    if (std::find(kAngleNames.begin(), kAngleNames.end(), key) == kAngleNames.end()) {
-      throw fail("unknown angle '" + key + "'");
-    }
-  }
+  const auto json = parse_json(read_text_file(name_or_file, source.kind), source);
+  const JsonField root(json, source);
+  const JsonField ranges = root["limits"];
   JointLimits limits;
-  limits.name =
-      json.contains("name") && json["name"].is_string() ? json["name"].get<std::string>() : name_or_file;
+  limits.name = root.has("name") ? root["name"].text() : name_or_file;
   for (std::size_t i = 0; i < kAngleCount; ++i) {
-    const std::string name(kAngleNames[i]);
-    const auto& range = json["limits"].value(name, nlohmann::json());
-    if (!range.is_array() || range.size() != 2 || !range[0].is_number() || !range[1].is_number()) {
-      throw fail("'" + name + "' is not [min, max]");
+    const JsonField field = ranges[kAngleNames[i]];
+    const auto [min, max] = field.numbers<2>();
+    if (!(min <= max) || min < -360.0 || max > 360.0) {
+      field.fail("must have min <= max, both within 360 degrees");
     }
-    limits.min[i] = range[0].get<double>() * kDegree;
-    limits.max[i] = range[1].get<double>() * kDegree;
-    if (!(limits.min[i] <= limits.max[i]) || std::abs(limits.min[i]) > 7.0 || std::abs(limits.max[i]) > 7.0) {
-      throw fail("'" + name + "' must have min <= max, both within 360 degrees");
+    limits.min[i] = min * kDegree;
+    limits.max[i] = max * kDegree;
+  }
+  for (const auto& [key, value] : ranges.value().items()) {
+    if (std::find(kAngleNames.begin(), kAngleNames.end(), key) == kAngleNames.end()) {
+      ranges.fail("has the unknown angle '" + key + "'");
     }
   }
   return limits;

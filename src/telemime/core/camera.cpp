@@ -3,21 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
+#include "telemime/core/json_field.h"
 
 namespace telemime {
 namespace {
 
+constexpr int kLargestSide = 32768;
+constexpr const char* kRemedy =
+    "Give an OpenCV calibration (camera_matrix, image_width, image_height) or use --fov DEGREES.";
+
 Error broken(const std::filesystem::path& file, const std::string& why) {
-  return {ErrorKind::config, "camera file " + file.string() + ": " + why,
-          "Give an OpenCV calibration (camera_matrix, image_width, image_height) or use --fov DEGREES."};
+  return {ErrorKind::config, "camera file " + file.string() + ": " + why, kRemedy};
 }
 
 void check(const Camera& camera, const std::filesystem::path& file) {
@@ -28,7 +31,8 @@ void check(const Camera& camera, const std::filesystem::path& file) {
   if (!finite) {
     throw broken(file, "a number is not finite");
   }
-  if (camera.width <= 0 || camera.height <= 0 || camera.width > 32768 || camera.height > 32768) {
+  if (camera.width <= 0 || camera.height <= 0 || camera.width > kLargestSide ||
+      camera.height > kLargestSide) {
     throw broken(file, "the image size must be between 1 and 32768 pixels");
   }
   if (camera.fx <= 0.0 || camera.fy <= 0.0) {
@@ -36,28 +40,18 @@ void check(const Camera& camera, const std::filesystem::path& file) {
   }
 }
 
+// A JSON file with fx instead of a camera matrix. By default the pixels are square and the axis is central.
 std::optional<Camera> from_plain_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
-  if (!json.is_object() || !json.contains("fx")) {
+  const JsonSource source{"camera file " + file.string(), ErrorKind::config, kRemedy};
+  auto json = parse_if_json(read_text_file(file, ErrorKind::config), source);
+  if (!json || !json->contains("fx")) {
     return std::nullopt;
   }
-  Camera camera;
-  try {
-    camera.width = json.at("width").get<int>();
-    camera.height = json.at("height").get<int>();
-    camera.fx = json.at("fx").get<double>();
-    camera.fy = json.value("fy", camera.fx);
-    camera.cx = json.value("cx", (camera.width - 1) / 2.0);
-    camera.cy = json.value("cy", (camera.height - 1) / 2.0);
-    if (json.contains("distortion")) {
-      const auto values = json.at("distortion").get<std::vector<double>>();
-      std::copy_n(values.begin(), std::min<std::size_t>(5, values.size()), camera.distortion.begin());
-    }
-  } catch (const nlohmann::json::exception& e) {
-    throw broken(file, e.what());
-  }
-  return camera;
+  const JsonField field(*json, source);
+  json->emplace("fy", json->at("fx"));
+  json->emplace("cx", (field["width"].number() - 1.0) / 2.0);
+  json->emplace("cy", (field["height"].number() - 1.0) / 2.0);
+  return read_camera(field);
 }
 
 }  // namespace
@@ -106,12 +100,25 @@ Camera camera_from_field_of_view(int width, int height, double degrees) {
   return camera;
 }
 
+Camera read_camera(const JsonField& object) {
+  Camera camera;
+  camera.width = static_cast<int>(object["width"].integer(1, kLargestSide));
+  camera.height = static_cast<int>(object["height"].integer(1, kLargestSide));
+  camera.fx = object["fx"].positive();
+  camera.fy = object["fy"].positive();
+  camera.cx = object["cx"].number();
+  camera.cy = object["cy"].number();
+  if (object.has("distortion")) {
+    camera.distortion = object["distortion"].numbers<5>();
+  }
+  return camera;
+}
+
 Camera load_camera(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw broken(file, "no such file");
   }
   if (const auto plain = from_plain_json(file)) {
-    check(*plain, file);
     return *plain;
   }
   Camera camera;

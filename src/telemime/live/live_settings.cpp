@@ -3,79 +3,32 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
+#include "telemime/core/json_field.h"
 
 namespace telemime {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
-constexpr std::streamsize kLongestFile = 100'000;  // bytes
+constexpr std::size_t kLongestFile = 100'000;  // bytes
 constexpr std::size_t kMostOutputs = 64;
 constexpr int kVersion = 1;
 
-[[noreturn]] void damaged(const fs::path& file, const std::string& what) {
-  throw Error(ErrorKind::config, "the settings in " + file.string() + " cannot be used: " + what,
-              "Correct or delete the file. When an output is added or removed on the page, a new file "
-              "replaces it, and "
-              "this one is renamed to end in \".old\".");
+JsonSource source_of(const fs::path& file) {
+  return {
+      "the settings in " + file.string(), ErrorKind::config,
+      "Correct or delete the file. When an output is added or removed on the page, a new file replaces it, "
+      "and this one is renamed to end in \".old\"."};
 }
-
-[[noreturn]] void unwritable(const fs::path& file, int error_number) {
-  throw Error(ErrorKind::output,
-              "the settings cannot be saved in " + file.string() + ": " +
-                  std::generic_category().message(error_number),
-              "The outputs of this run will not be listed in the next run.");
-}
-
-// A new file that is deleted unless it was written completely and moved.
-class NewFile {
- public:
-  explicit NewFile(const fs::path& path)
-      : path_(path), descriptor_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {}
-  ~NewFile() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-    if (!whole_) {
-      ::unlink(path_.c_str());
-    }
-  }
-  NewFile(const NewFile&) = delete;
-  NewFile& operator=(const NewFile&) = delete;
-
-  bool write(const std::string& bytes) const {
-    std::size_t done = 0;
-    while (descriptor_ >= 0 && done < bytes.size()) {
-      const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (count < 0 && errno != EINTR) {
-        return false;
-      }
-      done += count > 0 ? static_cast<std::size_t>(count) : 0;
-    }
-    return descriptor_ >= 0 && ::fsync(descriptor_) == 0;
-  }
-  bool move_to(const fs::path& file) {
-    whole_ = ::rename(path_.c_str(), file.c_str()) == 0;
-    return whole_;
-  }
-
- private:
-  fs::path path_;
-  int descriptor_;
-  bool whole_ = false;
-};
 
 // An exclusive lock on a folder; no effect on file systems without locks.
 class FolderLock {
@@ -128,29 +81,22 @@ Json read(const fs::path& file) {
   if (!fs::exists(file, failed) && !failed) {
     return Json::object();
   }
-  std::ifstream in(file, std::ios::binary);
-  std::string text(static_cast<std::size_t>(kLongestFile) + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad() || (text.empty() && !in.eof())) {
-    damaged(file, "it cannot be read");
+  const JsonSource source = source_of(file);
+  std::string text;
+  try {
+    text = read_small_file(file, kLongestFile).content;
+  } catch (const std::exception& e) {
+    throw Error(source.kind, source.name + ": " + e.what(), source.remedy);
   }
-  if (text.size() > static_cast<std::size_t>(kLongestFile)) {
-    damaged(file, "it is longer than " + std::to_string(kLongestFile) + " bytes");
+  const Json json = parse_json(text, source);
+  const JsonField root(json, source);
+  root["version"].integer(kVersion, kVersion);
+  const JsonField urls = root["outputs"];
+  if (urls.size() > kMostOutputs) {
+    urls.fail("must have at most " + std::to_string(kMostOutputs) + " URLs");
   }
-  // Limits the depth, because the parser is recursive.
-  Json json = Json::parse(
-      text, [](int depth, Json::parse_event_t, Json&) { return depth < 8; }, /*allow_exceptions=*/false);
-  if (!json.is_object() || !json.contains("outputs") || !json["outputs"].is_array()) {
-    damaged(file, "not a settings file of Telemime");
-  }
-  if (json.value("version", Json()) != kVersion) {
-    damaged(file, "it was written by another version of Telemime");
-  }
-  const Json& urls = json["outputs"];
-  if (urls.size() > kMostOutputs ||
-      !std::all_of(urls.begin(), urls.end(), [](const Json& url) { return url.is_string(); })) {
-    damaged(file, "invalid list of outputs");
+  for (std::size_t i = 0; i < urls.size(); ++i) {
+    urls[i].text();
   }
   return json;
 }
@@ -168,11 +114,8 @@ LiveSettings load_settings(const fs::path& file) {
 void update_settings(const fs::path& file, const std::function<void(LiveSettings&)>& change) {
   std::error_code failed;
   const fs::path target = at_end_of_links(fs::absolute(file, failed));
-  const fs::path folder = target.parent_path();
-  if (fs::create_directories(folder, failed)) {
-    fs::permissions(folder, fs::perms::owner_all, failed);
-  }
-  const FolderLock alone(folder);
+  make_private_folders(target.parent_path());
+  const FolderLock alone(target.parent_path());
   bool unusable = false;
   Json json;
   try {
@@ -189,24 +132,18 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
   }
   json["version"] = kVersion;
   json["outputs"] = urls;
-  fs::path next = target;
-  next += ".new-" + std::to_string(::getpid());
-  errno = 0;
-  NewFile made(next);
-  if (!made.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n")) {
-    unwritable(target, errno);
-  }
   const fs::path aside = unusable ? free_name_beside(target) : fs::path();
   if (unusable) {
     fs::rename(target, aside, failed);
   }
-  errno = 0;
-  if (!made.move_to(target)) {
-    const int reason = errno;
+  try {
+    write_private_file(target, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                       /*durable=*/true);
+  } catch (const Error&) {
     if (unusable) {
       fs::rename(aside, target, failed);
     }
-    unwritable(target, reason);
+    throw;
   }
 }
 

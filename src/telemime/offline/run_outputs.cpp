@@ -9,18 +9,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime {
-namespace {
-
-Error cannot_write(const std::filesystem::path& file, int number) {
-  return {ErrorKind::output, "cannot write " + file.string() + ": " + std::generic_category().message(number),
-          "Give --out a folder that you may write, on a disk with room."};
-}
-
-}  // namespace
-
 void prepare_outputs(const TrackRequest& request) {
   for (const std::string& name : request.formats) {
     output_format(name);  // throws for one that there is not

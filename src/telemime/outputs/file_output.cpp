@@ -5,21 +5,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <system_error>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime {
-namespace {
-
-Error cannot_write_file(const std::filesystem::path& file, int number) {
-  return {ErrorKind::output, "cannot write " + file.string() + ": " + std::generic_category().message(number),
-          "Give --out a folder that you may write, on a disk with room."};
-}
-
-}  // namespace
-
 FileOutput::FileOutput(const std::filesystem::path& file, std::unique_ptr<Encoder> encoder,
                        const StreamHeader& header)
     : path_(file), encoder_(std::move(encoder)) {
@@ -93,28 +82,7 @@ void FileOutput::fail(int error_number) {
     ::close(descriptor_);
     descriptor_ = -1;
   }
-  throw Error(ErrorKind::output,
-              "cannot write " + path_.string() + ": " + std::generic_category().message(error_number),
-              remedy);
-}
-
-void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
-  std::filesystem::path temporary = file;
-  temporary += ".new";
-  errno = 0;
-  std::ofstream out(temporary, std::ios::binary);
-  out << bytes;
-  out.close();
-  std::error_code failure;
-  if (!out) {
-    const int number = errno;
-    std::filesystem::remove(temporary, failure);
-    throw cannot_write_file(file, number);
-  }
-  std::filesystem::rename(temporary, file, failure);
-  if (failure) {
-    throw cannot_write_file(file, failure.value());
-  }
+  throw cannot_write(path_, error_number, remedy);
 }
 
 }  // namespace telemime

@@ -44,8 +44,4 @@ class FileOutput {
   bool seekable_ = false;  ///< a pipe cannot be patched; its frame count remains 0
 };
 
-/// Writes a whole small file, or leaves the old one: by way of a temporary file beside it. Throws
-/// Error(output).
-void write_whole_file(const std::filesystem::path& file, const std::string& bytes);
-
 }  // namespace telemime

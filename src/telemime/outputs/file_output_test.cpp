@@ -13,11 +13,11 @@
 #include <string>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/bap/reader.h"
 #include "telemime/outputs/bvh/bvh.h"
 #include "telemime/outputs/readers/jsonl.h"
-#include "telemime/outputs/readers/text_file.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {

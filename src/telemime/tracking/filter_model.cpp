@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracking/filter_model.h"
 
-#include <cmath>
-#include <fstream>
 #include <iomanip>
-#include <iterator>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
+#include "telemime/core/json_field.h"
 
 namespace telemime {
 namespace {
@@ -32,15 +29,6 @@ std::string name_of(std::size_t index) {
   return index < 3 ? kRoot[index] : std::string(kAngleNames[index - 3]);
 }
 
-double positive(const Json& json, const std::string& key, const std::string& name) {
-  if (!json.contains(key) || !json[key].is_number() || !std::isfinite(json[key].get<double>()) ||
-      json[key].get<double>() <= 0.0) {
-    throw Error(ErrorKind::config, name + ": '" + key + "' must be a number above 0",
-                "`telemime-lab learn` writes such files.");
-  }
-  return json[key].get<double>();
-}
-
 }  // namespace
 
 FilterModel default_filter_model() {
@@ -48,50 +36,39 @@ FilterModel default_filter_model() {
 }
 
 FilterModel parse_filter_model(const std::string& text, const std::string& name, const CueTable& cues) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("format") || json["format"] != "telemime-filter") {
-    throw Error(ErrorKind::config, name + " is not a filter model",
-                "It must be a JSON object with \"format\": \"telemime-filter\".");
-  }
-  const Json none = Json::object();
-  const auto group = [&](const char* key) -> const Json& { return json.contains(key) ? json[key] : none; };
+  const JsonSource source{name, ErrorKind::config, "`telemime-lab learn` writes such files."};
+  const auto json = parse_json(text, source);
+  const JsonField root(json, source);
+  root["format"].equals("telemime-filter");
   FilterModel model;
   for (std::size_t i = 0; i < cues.size(); ++i) {
-    const std::string key(cues[i].sigma_key);
-    model.sigma[i] = key.empty() ? cues[i].sigma : positive(json, key, name);
+    model.sigma[i] = cues[i].sigma_key.empty() ? cues[i].sigma : root[cues[i].sigma_key].positive();
   }
   for (std::size_t i = 0; i < kPoseSize; ++i) {
-    model.change[static_cast<Eigen::Index>(i)] = positive(group("change"), name_of(i), name) * unit_of(i);
+    model.change[static_cast<Eigen::Index>(i)] = root["change"][name_of(i)].positive() * unit_of(i);
   }
   for (std::size_t i = 0; i < kPartCount; ++i) {
-    model.motion[i] = positive(group("motion"), std::string(kPartNames[i]), name);
+    model.motion[i] = root["motion"][kPartNames[i]].positive();
   }
-  const Json& wrist = group("end_effector");
-  model.wrist_across = positive(wrist, "wrist_across_mm", name) * kMillimetre;
-  model.wrist_along = positive(wrist, "wrist_along_mm", name) * kMillimetre;
-  model.swivel = positive(wrist, "swivel_degrees", name) * kDegree;
-  const Json& spread = group("spread");
-  model.spread.trunk = positive(spread, "trunk_mm", name) * kMillimetre;
-  model.spread.lean = positive(spread, "lean", name);
-  model.spread.slide = positive(spread, "slide_mm", name) * kMillimetre;
-  model.spread.across = positive(spread, "across", name);
-  model.spread.seen = positive(spread, "seen", name);
-  model.spread.residual = positive(spread, "residual", name);
-  model.spread.size = positive(spread, "size", name);
-  model.spread.size_given = positive(spread, "size_given", name);
+  const JsonField wrist = root["end_effector"];
+  model.wrist_across = wrist["wrist_across_mm"].positive() * kMillimetre;
+  model.wrist_along = wrist["wrist_along_mm"].positive() * kMillimetre;
+  model.swivel = wrist["swivel_degrees"].positive() * kDegree;
+  const JsonField spread = root["spread"];
+  model.spread.trunk = spread["trunk_mm"].positive() * kMillimetre;
+  model.spread.lean = spread["lean"].positive();
+  model.spread.slide = spread["slide_mm"].positive() * kMillimetre;
+  model.spread.across = spread["across"].positive();
+  model.spread.seen = spread["seen"].positive();
+  model.spread.residual = spread["residual"].positive();
+  model.spread.size = spread["size"].positive();
+  model.spread.size_given = spread["size_given"].positive();
   return model;
 }
 
 FilterModel load_filter_model(const std::string& file, const CueTable& cues) {
-  if (file.empty()) {
-    return parse_filter_model(kDefault, "data/filter.json", cues);
-  }
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) {
-    throw Error(ErrorKind::config, "the filter model " + file + " cannot be opened",
-                "Check the path and its permissions.");
-  }
-  return parse_filter_model(std::string(std::istreambuf_iterator<char>(in), {}), file, cues);
+  return file.empty() ? parse_filter_model(kDefault, "data/filter.json", cues)
+                      : parse_filter_model(read_text_file(file, ErrorKind::config), file, cues);
 }
 
 std::string to_json_text(const FilterModel& model, const std::string& note) {

@@ -16,9 +16,9 @@
 
 #include "meeting/hosting/crypto.h"
 #include "meeting/hosting/ports.h"
-#include "meeting/transport/files.h"
 #include "meeting/transport/mqtt_connection.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime::meeting {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "meeting/hosting/crypto.h"
 #include "meeting/protocol/json.h"
-#include "meeting/transport/files.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime::meeting {
 namespace {

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "meeting/protocol/json.h"
-#include "meeting/transport/files.h"
 #include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 #include "telemime/core/text.h"
 #include "telemime/streaming/send_queue.h"
 

@@ -11,8 +11,8 @@
 #include <boost/asio/ip/address.hpp>
 #include <stdexcept>
 
-#include "meeting/transport/files.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime::meeting {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "telemime/core/errors.h"
-#include "telemime/outputs/readers/text_file.h"
+#include "telemime/core/files.h"
 #include "telemime/outputs/readers/words.h"
 
 namespace telemime {

@@ -5,9 +5,9 @@
 
 #include "telemime/body/rotations.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 #include "telemime/outputs/bvh/bvh.h"
 #include "telemime/outputs/numbers.h"
-#include "telemime/outputs/readers/text_file.h"
 #include "telemime/outputs/readers/words.h"
 
 namespace telemime {

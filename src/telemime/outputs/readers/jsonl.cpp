@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
+#include "telemime/core/json_field.h"
 #include "telemime/outputs/numbers.h"
-#include "telemime/outputs/readers/json_fields.h"
-#include "telemime/outputs/readers/text_file.h"
 
 namespace telemime {
 namespace {
@@ -17,133 +16,112 @@ using nlohmann::json;
 
 constexpr std::int64_t kVersion = 1;
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw Error(ErrorKind::input, where + ": " + what, "is it a pose.jsonl written by telemime?");
+JsonSource source_of(const std::string& where) {
+  return {where, ErrorKind::input, "is it a complete pose.jsonl written by telemime (docs/formats.md)?"};
 }
 
-Eigen::Vector3d metres(const json& value, const std::string& where) {
-  return fields::vector3(value, where) / kMillimetresPerMetre;
+Eigen::Vector3d metres(const JsonField& field) {
+  const auto [x, y, z] = field.numbers<3>();
+  return Eigen::Vector3d(x, y, z) / kMillimetresPerMetre;
 }
 
-Shape read_shape(const json& object, const std::string& where) {
+Shape read_shape(const JsonField& object) {
   Shape shape;
-  shape.stature = fields::number_at(object, "stature", where) / kMillimetresPerMetre;
-  shape.sleeve = fields::number_at(object, "sleeve", where);
-  const json& segments = fields::member(object, "segments", where);
+  shape.stature = object["stature"].number() / kMillimetresPerMetre;
+  shape.sleeve = object["sleeve"].number();
+  const JsonField segments = object["segments"];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
-    const json& scale = fields::member(segments, std::string(kSegmentNames[s]), where);
-    shape.segments[s] = {fields::number_at(scale, "length", where), fields::number_at(scale, "height", where),
-                         fields::number_at(scale, "width", where)};
+    const JsonField scale = segments[kSegmentNames[s]];
+    shape.segments[s] = {scale["length"].number(), scale["height"].number(), scale["width"].number()};
   }
   return shape;
 }
 
-JointLimits read_limits(const json& object, const std::string& where) {
+JointLimits read_limits(const JsonField& object) {
   JointLimits limits;
-  limits.name = fields::text_at(object, "name", where);
-  const json& ranges = fields::member(object, "limits", where);
+  limits.name = object["name"].text();
+  const JsonField ranges = object["limits"];
   for (std::size_t a = 0; a < kAngleCount; ++a) {
-    const std::string name(kAngleNames[a]);
-    const json& range = fields::member(ranges, name, where);
-    if (!range.is_array() || range.size() != 2) {
-      fail(where, "the limits of " + name + " must be [min, max]");
-    }
-    const std::string place = std::string(where).append(": ").append(name);
-    limits.min[a] = fields::number(range[0], place) / kDegreesPerRadian;
-    limits.max[a] = fields::number(range[1], place) / kDegreesPerRadian;
+    const auto [min, max] = ranges[kAngleNames[a]].numbers<2>();
+    limits.min[a] = min / kDegreesPerRadian;
+    limits.max[a] = max / kDegreesPerRadian;
   }
   return limits;
 }
 
-PoseFile read_header(const json& header, const std::string& where) {
-  if (fields::text_at(header, "format", where) != "telemime-pose") {
-    fail(where, "\"format\" is not \"telemime-pose\"");
-  }
-  fields::integer_at(header, "version", 1, kVersion, where);
+PoseFile read_header(const JsonField& header) {
+  header["format"].equals("telemime-pose");
+  header["version"].integer(1, kVersion);
   PoseFile file;
-  file.camera = fields::camera(fields::member(header, "camera", where), where + ": \"camera\"");
-  file.fps = fields::number_at(header, "fps", where);
-  if (!(file.fps > 0.0)) {
-    fail(where, "\"fps\" must be greater than 0");
+  file.camera = read_camera(header["camera"]);
+  file.fps = header["fps"].positive();
+  if (header.has("shape")) {
+    file.shape = read_shape(header["shape"]);
   }
-  if (header.contains("shape")) {
-    file.shape = read_shape(header.at("shape"), where + ": \"shape\"");
+  if (header.has("limits")) {
+    file.limits = read_limits(header["limits"]);
   }
-  if (header.contains("limits")) {
-    file.limits = read_limits(header.at("limits"), where + ": \"limits\"");
-  }
-  file.header = header;
+  file.header = header.value();
   return file;
 }
 
-void read_pixels(const json& object, const std::string& where, MotionFrame& frame) {
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    const json& pixel = fields::member(object, std::string(kJointNames[j]), where);
-    if (!pixel.is_array() || pixel.size() != 2) {
-      fail(where, "a pixel must be [u, v]");
-    }
-    frame.pixels[j] = {fields::number(pixel[0], where), fields::number(pixel[1], where)};
-  }
-}
-
-PoseSpread read_spread(const json& object, const std::string& where) {
+PoseSpread read_spread(const JsonField& object) {
   constexpr double kSquareMillimetres = kMillimetresPerMetre * kMillimetresPerMetre;
   PoseSpread spread;
-  const json& covariance = fields::member(object, "covariance", where);
+  const JsonField covariance = object["covariance"];
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    const json& six = fields::member(covariance, std::string(kJointNames[j]), where);
-    if (!six.is_array() || six.size() != 6) {
-      fail(where, "a covariance must be [xx, xy, xz, yy, yz, zz]");
-    }
-    std::array<double, 6> c{};
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      c[i] = fields::number(six[i], where) / kSquareMillimetres;
-    }
-    spread.covariance[j] << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+    const auto [xx, xy, xz, yy, yz, zz] = covariance[kJointNames[j]].numbers<6>();
+    spread.covariance[j] << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    spread.covariance[j] /= kSquareMillimetres;
   }
-  spread.second_mode = fields::number_at(object, "second_mode", where);
-  spread.effective_particles = fields::number_at(object, "effective_particles", where);
+  spread.second_mode = object["second_mode"].number();
+  spread.effective_particles = object["effective_particles"].number();
   return spread;
 }
 
-MotionFrame read_frame(const json& object, const Camera& camera, const std::string& where) {
+MotionFrame read_frame(const JsonField& line, const Camera& camera) {
   MotionFrame frame;
-  frame.frame = fields::integer_at(object, "frame", 0, INT64_MAX, where);
-  frame.time = fields::number_at(object, "time", where);
-  const std::string state = fields::text_at(object, "state", where);
+  frame.frame = line["frame"].integer(0, INT64_MAX);
+  frame.time = line["time"].number();
+  const std::string state = line["state"].text();
   if (state != "tracking" && state != "lost") {
-    fail(where, "\"state\" must be \"tracking\" or \"lost\"");
+    line["state"].fail("must be \"tracking\" or \"lost\"");
   }
   frame.state = state == "tracking" ? TrackState::tracking : TrackState::lost;
-  const json& joints = fields::member(object, "joints", where);
+  const JsonField joints = line["joints"];
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    frame.joints.at[j] = metres(fields::member(joints, std::string(kJointNames[j]), where), where);
+    frame.joints.at[j] = metres(joints[kJointNames[j]]);
     frame.pixels[j] =
         frame.joints.at[j].z() > 0.0 ? camera.project(frame.joints.at[j]) : Eigen::Vector2d::Zero();
   }
-  if (object.contains("angles")) {
+  if (line.has("angles")) {
+    const JsonField angles = line["angles"];
     for (std::size_t a = 0; a < kAngleCount; ++a) {
-      frame.pose.angles[a] =
-          fields::number_at(object.at("angles"), std::string(kAngleNames[a]), where) / kDegreesPerRadian;
+      frame.pose.angles[a] = angles[kAngleNames[a]].number() / kDegreesPerRadian;
     }
   }
-  frame.pose.root = object.contains("root") ? metres(object.at("root"), where) : frame.joints[Joint::root];
-  if (object.contains("pixels")) {
-    read_pixels(object.at("pixels"), where, frame);
+  frame.pose.root = line.has("root") ? metres(line["root"]) : frame.joints[Joint::root];
+  if (line.has("pixels")) {
+    const JsonField pixels = line["pixels"];
+    for (std::size_t j = 0; j < kJointCount; ++j) {
+      const auto [u, v] = pixels[kJointNames[j]].numbers<2>();
+      frame.pixels[j] = {u, v};
+    }
   }
-  if (object.contains("score")) {
-    frame.region_score = fields::number_at(object.at("score"), "F", where);
-    frame.contour_score = fields::number_at(object.at("score"), "D_C", where);
+  if (line.has("score")) {
+    frame.region_score = line["score"]["F"].number();
+    frame.contour_score = line["score"]["D_C"].number();
   }
-  if (object.contains("evaluations")) {
-    frame.evaluations = static_cast<int>(fields::integer_at(object, "evaluations", 0, INT32_MAX, where));
+  if (line.has("evaluations")) {
+    frame.evaluations = static_cast<int>(line["evaluations"].integer(0, INT32_MAX));
   }
-  if (object.contains("spread")) {
-    frame.spread = read_spread(object.at("spread"), where + ": \"spread\"");
+  if (line.has("spread")) {
+    frame.spread = read_spread(line["spread"]);
   }
-  if (object.contains("ms")) {
-    for (const auto& [stage, time] : object.at("ms").items()) {
-      frame.stage_ms.emplace_back(stage, fields::number(time, where + ": \"ms\""));
+  if (line.has("ms")) {
+    const JsonField stages = line["ms"];
+    for (const auto& [stage, time] : stages.value().items()) {
+      frame.stage_ms.emplace_back(stage, stages[stage].number());
     }
   }
   return frame;
@@ -163,27 +141,26 @@ PoseFile parse_pose_jsonl(std::string_view text, const std::string& name) {
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) {
       continue;
     }
-    const std::string where = name + ", line " + std::to_string(line_number);
-    const std::optional<json> object = fields::parse(line, where);
+    const JsonSource source = source_of(name + ", line " + std::to_string(line_number));
+    const bool last = text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+    const auto object = has_header && last ? parse_if_json(line, source) : parse_json(line, source);
     if (!object) {
-      if (has_header && text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-        file.complaint = where + " is cut off; it was left out";
-        return file;
-      }
-      fail(where, "not JSON");
+      file.complaint = source.name + " is cut off; it was left out";
+      return file;
     }
+    const JsonField field(*object, source);
     if (!has_header) {
-      file = read_header(*object, where);
+      file = read_header(field);
       has_header = true;
       continue;
     }
-    file.frames.push_back(read_frame(*object, file.camera, where));
+    file.frames.push_back(read_frame(field, file.camera));
     if (file.frames.size() > 1 && file.frames.back().frame <= file.frames[file.frames.size() - 2].frame) {
-      fail(where, "the frame numbers must increase");
+      field["frame"].fail("must be greater than in the line before");
     }
   }
   if (!has_header) {
-    fail(name, "the file is empty");
+    throw Error(ErrorKind::input, name + " is empty", source_of(name).remedy);
   }
   return file;
 }
