@@ -7,6 +7,7 @@
 
 #include "telemime/body/rotations.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
@@ -21,52 +22,35 @@ constexpr double kStandardUnit = 1e5;
 // shoulder flexion (x), abduct (z), twisting (y); wrist flexion (z), pivot (x), twisting (y). Greta's player
 // multiplies Rz Ry Rx everywhere. VREng draws the trunk from the sacroiliac joint and the neck from vc4, as
 // Rx Rz Ry, and both arm joints as Rz Rx Ry.
-constexpr std::array<BapProfile, 4> kProfiles = {{
-    {"iso",
-     "3.1",
-     kBapCount,
-     kStandardUnit,
-     &Bap::visage,
-     {{122, 121, 120}, kZyx},
-     {{50, 49, 48}, kZyx},
-     {{32, 36, 34}, kXzy},
-     {{33, 37, 35}, kXzy},
-     {{44, 46, 42}, kZxy},
-     {{45, 47, 43}, kZxy}},
-    {"greta",
-     "2.1",
-     295,
-     kStandardUnit,
-     &Bap::greta,
-     {{122, 121, 120}, kZyx},
-     {{50, 49, 48}, kZyx},
-     {{32, 36, 34}, kZyx},
-     {{33, 37, 35}, kZyx},
-     {{44, 46, 42}, kZyx},
-     {{45, 47, 43}, kZyx}},
-    {"vreng-3.1",
-     "3.1",
-     kBapCount,
-     kStandardUnit,
-     &Bap::visage,
-     {{1, 2, 3}, kXzy},
-     {{62, 61, 60}, kXzy},
-     {{32, 36, 34}, kZxy},
-     {{33, 37, 35}, kZxy},
-     {{44, 46, 42}, kZxy},
-     {{45, 47, 43}, kZxy}},
-    {"vreng-3.2",
-     "3.2",
-     kBapCount,
-     kStandardUnit / std::numbers::pi,
-     &Bap::visage,
-     {{1, 2, 3}, kXzy},
-     {{62, 61, 60}, kXzy},
-     {{32, 36, 34}, kZxy},
-     {{33, 37, 35}, kZxy},
-     {{44, 46, 42}, kZxy},
-     {{45, 47, 43}, kZxy}},
-}};
+constexpr std::array<BapProfile, 4> kProfiles = [] {
+  const BapProfile iso = {.name = "iso",
+                          .version = "3.1",
+                          .mask_length = kBapCount,
+                          .units_per_radian = kStandardUnit,
+                          .sign = &Bap::visage,
+                          .trunk = {{122, 121, 120}, kZyx},
+                          .neck = {{50, 49, 48}, kZyx},
+                          .l_shoulder = {{32, 36, 34}, kXzy},
+                          .r_shoulder = {{33, 37, 35}, kXzy},
+                          .l_wrist = {{44, 46, 42}, kZxy},
+                          .r_wrist = {{45, 47, 43}, kZxy}};
+  BapProfile greta = iso;
+  greta.name = "greta";
+  greta.version = "2.1";
+  greta.mask_length = 295;
+  greta.sign = &Bap::greta;
+  greta.l_shoulder.order = greta.r_shoulder.order = greta.l_wrist.order = greta.r_wrist.order = kZyx;
+  BapProfile vreng = iso;
+  vreng.name = "vreng-3.1";
+  vreng.trunk = {{1, 2, 3}, kXzy};
+  vreng.neck = {{62, 61, 60}, kXzy};
+  vreng.l_shoulder.order = vreng.r_shoulder.order = kZxy;
+  BapProfile vreng_in_half_turns = vreng;
+  vreng_in_half_turns.name = "vreng-3.2";
+  vreng_in_half_turns.version = "3.2";
+  vreng_in_half_turns.units_per_radian = kStandardUnit / std::numbers::pi;
+  return std::array<BapProfile, 4>{iso, greta, vreng, vreng_in_half_turns};
+}();
 
 constexpr std::array<int, 2> kElbowIds = {38, 39};
 constexpr std::array<Angle, 2> kElbows = {Angle::l_elbow_flexion, Angle::r_elbow_flexion};
@@ -126,15 +110,13 @@ std::span<const BapProfile> bap_profiles() {
 }
 
 const BapProfile& bap_profile(std::string_view name) {
-  std::string names;
   for (const BapProfile& profile : kProfiles) {
     if (profile.name == name || (name == "visage" && profile.name == "iso")) {
       return profile;
     }
-    names += (names.empty() ? "" : ", ") + std::string(profile.name);
   }
   throw Error(ErrorKind::usage, "there is no BAP profile \"" + std::string(name) + "\"",
-              "use one of " + names);
+              "use one of " + joined(kProfiles, &BapProfile::name));
 }
 
 std::array<int, kAngleCount> bap_ids(const BapProfile& profile) {
