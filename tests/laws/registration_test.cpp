@@ -277,68 +277,67 @@ TEST(Registration, LostForearmIsBackInAThirdOfASecond) {
   EXPECT_LT(back_without, back - cases / 4) << "the cases are too easy to show anything";
 }
 
-TEST(Registration, ATrunkIsHalfAsBentOnlyWhereThatFits) {
-  const Model model = make_model(Shape{});
-  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  const JointLimits limits = anatomical_limits();
-  const auto backend = make_scalar_backend();
+class ProposalTest : public ::testing::Test {
+ protected:
+  PreparedFrame frame_of(const Pose& truth) const {
+    return prepare(observe(model_, truth, camera_), camera_);
+  }
+  Objective objective(const PreparedFrame& frame) const { return {*backend_, frame, model_, limits_}; }
+
+  const Model model_ = make_model(Shape{});
+  const Camera camera_ = camera_from_field_of_view(160, 120, 60.0);
+  const JointLimits limits_ = anatomical_limits();
+  const std::unique_ptr<Backend> backend_ = make_scalar_backend();
+  const RegistrationConfig config_{};
+};
+
+TEST_F(ProposalTest, ATrunkIsHalfAsBentOnlyWhereThatFits) {
   const Pose upright = gestures()[0];
   Pose bent = upright;
   bent[Angle::root_roll] += 14 * kDegree;
-  bent.root += forward_kinematics(model.body, upright).joints[Joint::neck] -
-               forward_kinematics(model.body, bent).joints[Joint::neck];
+  bent.root += forward_kinematics(model_.body, upright).joints[Joint::neck] -
+               forward_kinematics(model_.body, bent).joints[Joint::neck];
   for (const Side side : {Side::left, Side::right}) {
-    bent = with_wrist(model.body, bent, side, arm_target(model.body, upright, side), limits);
+    bent = with_wrist(model_.body, bent, side, arm_target(model_.body, upright, side), limits_);
   }
   const auto proposed = [&](const Pose& truth, const Pose& start) {
-    const PreparedFrame frame = prepare(observe(model, truth, camera), camera);
-    Objective objective(*backend, frame, model, limits);
-    const RegistrationConfig config;
-    return propose_upright(objective, start, config.region, config.simplex_factor, 0);
+    const PreparedFrame frame = frame_of(truth);
+    Objective search = objective(frame);
+    return propose_upright(search, start, config_.region, config_.simplex_factor, 0);
   };
   EXPECT_EQ(proposed(bent, bent).vector(), bent.vector());
   const Pose back = proposed(upright, bent);
   EXPECT_NEAR(back[Angle::root_roll], 0.5 * bent[Angle::root_roll], 1e-9);
-  const JointPositions before = forward_kinematics(model.body, bent).joints;
-  const JointPositions after = forward_kinematics(model.body, back).joints;
+  const JointPositions before = forward_kinematics(model_.body, bent).joints;
+  const JointPositions after = forward_kinematics(model_.body, back).joints;
   for (const Joint j : {Joint::neck, Joint::l_wrist, Joint::r_wrist}) {
     EXPECT_LT((before[j] - after[j]).norm(), 0.02) << kJointNames[static_cast<std::size_t>(j)];
   }
 }
 
-TEST(Registration, ATrunkIsTriedUprightWithinItsEvaluations) {
+TEST_F(ProposalTest, ATrunkIsTriedUprightWithinItsEvaluations) {
   Pose bent = gestures()[0];
   bent[Angle::root_torsion] += 20 * kDegree;
-  const Model model = make_model(Shape{});
-  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  const JointLimits limits = anatomical_limits();
-  const auto backend = make_scalar_backend();
-  const PreparedFrame frame = prepare(observe(model, gestures()[0], camera), camera);
-  const RegistrationConfig config;
+  const PreparedFrame frame = frame_of(gestures()[0]);
   for (const int evaluations : {0, 1, 7, 20, 60, 200}) {
-    Objective objective(*backend, frame, model, limits);
-    const Pose found = propose_upright(objective, bent, config.region, config.simplex_factor, evaluations);
-    EXPECT_LE(objective.evaluations(), evaluations + 2) << evaluations;
+    Objective search = objective(frame);
+    const Pose found = propose_upright(search, bent, config_.region, config_.simplex_factor, evaluations);
+    EXPECT_LE(search.evaluations(), evaluations + 2) << evaluations;
     EXPECT_NEAR(found[Angle::root_torsion], 10 * kDegree, 1e-9) << evaluations;
   }
 }
 
-TEST(Registration, OneArmAtATimeTakesBothInTurn) {
-  const Model model = make_model(Shape{});
-  const Camera camera = camera_from_field_of_view(160, 120, 60.0);
-  const JointLimits limits = anatomical_limits();
-  const auto backend = make_scalar_backend();
-  const PreparedFrame frame = prepare(observe(model, gestures()[1], camera), camera);
+TEST_F(ProposalTest, OneArmAtATimeTakesBothInTurn) {
+  const PreparedFrame frame = frame_of(gestures()[1]);
   const Pose start = gestures()[0];
-  const RegistrationConfig config;
   int left = 0;
   int right = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const auto proposed = [&] {
-      Objective objective(*backend, frame, model, limits);
+      Objective search = objective(frame);
       Random random(seed);
-      const Pose pose = propose_arms(objective, start, config.region, config.proposals, false, 1.5, random);
-      EXPECT_LE(objective.evaluations(), config.proposals.evaluations() + 1);
+      const Pose pose = propose_arms(search, start, config_.region, config_.proposals, false, 1.5, random);
+      EXPECT_LE(search.evaluations(), config_.proposals.evaluations() + 1);
       return pose;
     };
     const Pose pose = proposed();

@@ -18,8 +18,7 @@ TEST(LookAhead, FitsTheShapeAndChoosesTheStart) {
   config.calibration.refine.rounds = 1;
   config.calibration.refine.pose_iterations = 20;
   config.calibration.refine.shapes = 10;
-  TrackingRun run = quick_run(config);
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run(config);
   support::ListSource source(clip().person);
   std::int64_t asked = 0;
   const LookAhead ahead = look_ahead(
@@ -56,15 +55,13 @@ TEST(LookAhead, UsesLaterOutlineWithoutAFace) {
   }
   Config config = quick_config();
   config.calibration.worst_region = 1.0;
-  TrackingRun run = quick_run(config);
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run(config);
   support::ListSource source(frames);
   const LookAhead ahead = look_ahead({.next = [&] { return source.next(); }}, run);
   ASSERT_TRUE(ahead.person);
   EXPECT_GT(ahead.person->start.frame, 0);
   // It would be the first frame, but it has no face.
-  TrackingRun scout = quick_run(config);
-  scout.scene.features.learn_background(clip().background);
+  TrackingRun scout = learned_run(config);
   for (const Frame& frame : frames) {
     const FrameRecord seen = track_frame(frame, scout);
     EXPECT_EQ(seen.estimate.motion.state, TrackState::tracking) << frame.index;
@@ -111,8 +108,7 @@ TEST(LookAhead, PortraitKeepsAverageArms) {
 }
 
 TEST(LookAhead, FindsNoPersonInAnEmptyScene) {
-  TrackingRun run = quick_run(quick_config());
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run();
   support::ListSource empty({clip().background.begin(), clip().background.begin() + 3});
   std::size_t settled = 0;
   const LookAhead ahead =
@@ -122,8 +118,7 @@ TEST(LookAhead, FindsNoPersonInAnEmptyScene) {
 }
 
 TEST(LookAhead, StopsOnRequest) {
-  TrackingRun run = quick_run(quick_config());
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run();
   support::ListSource person(clip().person);
   const LookAhead ahead = look_ahead(
       {.next = [&] { return person.next(); }, .go_on = [](const FrameRecord&) { return false; }}, run);

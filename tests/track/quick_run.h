@@ -28,4 +28,11 @@ inline TrackingRun quick_run(const Config& config) {
   return make_tracking_run(config, clip().camera);
 }
 
+/// A run that knows the background.
+inline TrackingRun learned_run(const Config& config = quick_config()) {
+  TrackingRun run = quick_run(config);
+  run.scene.features.learn_background(clip().background);
+  return run;
+}
+
 }  // namespace telemime

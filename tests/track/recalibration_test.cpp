@@ -12,8 +12,7 @@ namespace telemime {
 namespace {
 
 TEST(Recalibration, RestartsWithThePerson) {
-  TrackingRun run = quick_run(quick_config());
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run();
   track_frame(clip().person[0], run);
   ASSERT_TRUE(run.state.person);
   forget_person(run);
@@ -27,8 +26,7 @@ TEST(Recalibration, RestartsWithThePerson) {
 TEST(Recalibration, KeepsNoOldParticle) {
   Config config = quick_config();
   config.look_back = true;  // the candidates are the modes of the filter
-  TrackingRun run = quick_run(config);
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run(config);
   std::size_t most = 0;
   for (const Frame& frame : clip().person) {
     const FrameRecord seen = track_frame(frame, run);
@@ -68,13 +66,11 @@ TEST(Recalibration, LearnsColoursOfTheNewPerson) {
   const auto clothes = [](const TrackingRun& run) {
     return run.scene.features.calibration().colours.clothes.front().mean;
   };
-  TrackingRun expected = quick_run(quick_config());
-  expected.scene.features.learn_background(clip().background);
+  TrackingRun expected = learned_run();
   track_frame(frames.front(), expected);
   ASSERT_TRUE(expected.state.person);
 
-  TrackingRun run = quick_run(quick_config());
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run();
   track_frame(clip().person.front(), run);
   ASSERT_GT((clothes(run) - clothes(expected)).norm(), 0.3F) << "they differ";
   forget_person(run);

@@ -15,8 +15,7 @@ namespace telemime {
 namespace {
 
 std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& frames) {
-  TrackingRun run = quick_run(config);
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run(config);
   std::vector<MotionFrame> motion;
   for (const Frame& frame : frames) {
     motion.push_back(track_frame(frame, run).estimate.motion);
@@ -108,8 +107,7 @@ TEST(Tracker, EffortIsAShareOfTheSearch) {
     const auto evaluations = [&](double effort) {
       Config config = quick_config();
       config.tracking.method = method;
-      TrackingRun run = quick_run(config);
-      run.scene.features.learn_background(clip().background);
+      TrackingRun run = learned_run(config);
       track_frame(clip().person[0], run);
       const FrameFeatures features = extract(clip().person[1], colour_request(run.state), run.scene);
       return estimate(features, run.tracker, run.state, effort).motion.evaluations;
@@ -204,8 +202,7 @@ TEST(Tracker, SameSeedGivesSameMotion) {
 
 TEST(Tracker, LosesAndFindsThePerson) {
   const auto frames = coming_and_going(8);
-  TrackingRun run = quick_run(quick_config());
-  run.scene.features.learn_background(clip().background);
+  TrackingRun run = learned_run();
   std::vector<FrameEstimate> results;
   for (const Frame& frame : frames) {
     results.push_back(track_frame(frame, run).estimate);
@@ -240,8 +237,7 @@ TEST(Tracker, BlackFramesAreNotTracked) {
 }
 
 TEST(Tracker, UsesCalibrationOfAnotherRun) {
-  TrackingRun first = quick_run(quick_config());
-  first.scene.features.learn_background(clip().background);
+  TrackingRun first = learned_run();
   track_frame(clip().person.front(), first);
   ASSERT_TRUE(first.state.person);
   TrackingRun second = quick_run(quick_config());
@@ -253,10 +249,8 @@ TEST(Tracker, UsesCalibrationOfAnotherRun) {
 }
 
 TEST(Tracker, ParallelStagesEqualSequentialOnes) {
-  TrackingRun in_turn = quick_run(quick_config());
-  in_turn.scene.features.learn_background(clip().background);
-  TrackingRun beside = quick_run(quick_config());
-  beside.scene.features.learn_background(clip().background);
+  TrackingRun in_turn = learned_run();
+  TrackingRun beside = learned_run();
   std::array<FrameFeatures, 2> seen;
   const std::vector<Frame>& frames = clip().person;
   seen[0] = extract(frames.front(), colour_request(beside.state), beside.scene);
@@ -285,8 +279,7 @@ TEST(Tracker, ParallelStagesEqualSequentialOnes) {
 }
 
 TEST(Tracker, StartsWithKnownPerson) {
-  TrackingRun first = quick_run(quick_config());
-  first.scene.features.learn_background(clip().background);
+  TrackingRun first = learned_run();
   const FrameRecord start = track_frame(clip().person.front(), first);
   ASSERT_TRUE(first.state.person);
   KnownStart known = {.person = *first.state.person,
@@ -294,8 +287,7 @@ TEST(Tracker, StartsWithKnownPerson) {
                       .pose = start.estimate.motion.pose};
   known.person.shape[Segment::l_forearm].length *= 1.02;
 
-  TrackingRun second = quick_run(quick_config());
-  second.scene.features.learn_background(clip().background);
+  TrackingRun second = learned_run();
   second.state.known = known;
   const FrameRecord taken = track_frame(clip().person.front(), second);
   EXPECT_EQ(taken.estimate.motion.state, TrackState::tracking);
@@ -306,8 +298,7 @@ TEST(Tracker, StartsWithKnownPerson) {
 }
 
 TEST(Tracker, TracksKnownPersonBeforeFittedFrame) {
-  TrackingRun first = quick_run(quick_config());
-  first.scene.features.learn_background(clip().background);
+  TrackingRun first = learned_run();
   const FrameRecord start = track_frame(clip().person.front(), first);
   ASSERT_TRUE(first.state.person);
   KnownStart known = {
@@ -315,8 +306,7 @@ TEST(Tracker, TracksKnownPersonBeforeFittedFrame) {
   known.person.shape[Segment::l_forearm].length *= 1.02;
   const auto forearm_at_first = [&](std::int64_t since) {
     known.since = since;
-    TrackingRun second = quick_run(quick_config());
-    second.scene.features.learn_background(clip().background);
+    TrackingRun second = learned_run();
     second.state.known = known;
     EXPECT_EQ(track_frame(clip().person.front(), second).estimate.motion.state, TrackState::tracking);
     return second.state.person->shape[Segment::l_forearm].length;
@@ -326,8 +316,7 @@ TEST(Tracker, TracksKnownPersonBeforeFittedFrame) {
 }
 
 TEST(Tracker, KeepsSceneOfAnotherTrackerUnchanged) {
-  TrackingRun first = quick_run(quick_config());
-  first.scene.features.learn_background(clip().background);
+  TrackingRun first = learned_run();
   const cv::Mat before = first.scene.features.calibration().background.mean.l.clone();
   TrackingRun second = quick_run(quick_config());
   second.scene.features.set_calibration(first.scene.features.calibration());
