@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The pages of the program: that of `telemime live`, and that of meetings when these are built. telemime_page(TARGET) builds
-# web/ and meeting/web/ with npm, in a copy in the build tree, and adds the files to TARGET (telemime/live/page_table.h).
+# web/ and meeting/web/ with npm, in a copy in the build tree, and adds the files to TARGET (telemime/live/live_files.h).
 
 set(TELEMIME_WEB AUTO CACHE STRING "Build the page of `telemime live` into the program: ON, OFF, or AUTO, if there is npm")
 find_program(TELEMIME_NPM npm DOC "Node's package manager, for the page")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DFOLDER=dist -DTABLE=x.cpp -P page_table.cmake: all files of FOLDER as a source file that defines page_table()
-# of telemime/live/page_table.h. The assembler takes the bytes in as they are: compilers are slow with long arrays.
+# of telemime/live/live_files.h. The assembler takes the bytes in as they are: compilers are slow with long arrays.
 cmake_minimum_required(VERSION 3.22)
 file(GLOB_RECURSE files RELATIVE "${FOLDER}" "${FOLDER}/*")
 list(SORT files)
@@ -28,6 +28,6 @@ foreach(file IN LISTS files)
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE "${TABLE}"
-     "// Made by cmake/page_table.cmake.\n#include \"telemime/live/page_table.h\"\n\n${bytes}\n"
+     "// Made by cmake/page_table.cmake.\n#include \"telemime/live/live_files.h\"\n\n${bytes}\n"
      "namespace telemime {\n\nstd::span<const PageFile> page_table() {\n  static const PageFile table[] = {\n${rows}  };\n"
      "  return table;\n}\n\n}  // namespace telemime\n")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "config_command.h"
+#include "commands.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_command.h"
+#include "commands.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -19,9 +19,7 @@
 #include "open_page.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
-#include "telemime/capture/loop.h"
-#include "telemime/capture/paced.h"
-#include "telemime/capture/shown_url.h"
+#include "telemime/capture/playback.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
 #include "track_options.h"

@@ -3,21 +3,15 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
 
-#include "avatar_command.h"
-#include "calibrate_command.h"
 #include "cli/exit_codes.h"
-#include "config_command.h"
-#include "evaluate_command.h"
-#include "live_command.h"
+#include "commands.h"
 #include "telemime/capture/prepare_opencv.h"
-#include "track_command.h"
 
 #ifdef TELEMIME_MEETING
 #include "meeting/commands/commands.h"

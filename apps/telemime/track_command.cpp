@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "track_command.h"
+#include "commands.h"
 
 #include <csignal>
 #include <iostream>
@@ -8,7 +8,7 @@
 
 #include "cli/exit_codes.h"
 #include "cli/progress_bar.h"
-#include "telemime/capture/shown_url.h"
+#include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
 #include "telemime/offline/track_file.h"
 #include "track_options.h"

@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "live/session_events.h"
-#include "telemime/capture/paced.h"
+#include "telemime/capture/playback.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/offline/track_file.h"
 #include "telemime/outputs/all.h"

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 #include "telemime/streaming/testing_web_socket.h"
@@ -35,6 +37,27 @@ Json receive(SocketClient& page, const std::string& type, const Wanted& wanted) 
 
 inline Json receive(SocketClient& page, const std::string& type) {
   return receive(page, type, [](const Json&) { return true; });
+}
+
+/// The words of the next message about an error.
+inline std::string receive_error(SocketClient& page) {
+  return receive(page, "message", [](const Json& j) { return j.at("level") == "error"; })
+      .at("words")
+      .get<std::string>();
+}
+
+/// A page at a port where a program is about to listen; null when it never does.
+inline std::unique_ptr<SocketClient> connect_when_ready(std::uint16_t port) {
+  std::unique_ptr<SocketClient> page;
+  comes_true([&] {
+    try {
+      page = std::make_unique<SocketClient>(port);
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  });
+  return page;
 }
 
 }  // namespace telemime::live_testing

@@ -9,7 +9,7 @@
 
 #include "live/page.h"
 #include "live/scripted_source.h"
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/live/live_program.h"
 #include "telemime/outputs/all.h"
 #include "telemime/streaming/testing_web_socket.h"
@@ -18,11 +18,11 @@ namespace telemime {
 namespace {
 
 using live_testing::camera_of;
-using live_testing::empty_room;
 using live_testing::person;
+using live_testing::person_scene;
 using live_testing::quick_request;
 using live_testing::receive;
-using live_testing::ScriptedScene;
+using live_testing::receive_error;
 using Json = nlohmann::json;
 
 class Program : public ::testing::Test {
@@ -36,10 +36,8 @@ class Program : public ::testing::Test {
     options.version = "1.2.3";
     return options;
   }
-  static std::shared_ptr<ScriptedScene> person_frames() {
-    auto scene = std::make_shared<ScriptedScene>();
-    scene->show(person());
-    return scene;
+  std::unique_ptr<LiveProgram> start() const {
+    return std::make_unique<LiveProgram>(options(), camera_of(person_scene()), LiveProgram::Message());
   }
 
   ScratchFolder folder_;
@@ -54,8 +52,8 @@ std::string get(std::uint16_t port, const std::string& path, int status) {
 }
 
 TEST_F(Program, PageGetsPersonAndImages) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   const Json hello = receive(page, "hello");
   EXPECT_EQ(hello.at("version"), "1.2.3");
   EXPECT_EQ(hello.at("camera").at("width"), person().front().image.cols);
@@ -78,28 +76,28 @@ TEST_F(Program, PageGetsPersonAndImages) {
 }
 
 TEST_F(Program, LatePageGetsTheBody) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient first(program.port());
+  const auto program = start();
+  SocketClient first(program->port());
   receive(first, "pose");
-  SocketClient later(program.port());
+  SocketClient later(program->port());
   EXPECT_EQ(Json::parse(later.heard()).at("type"), "hello");
   EXPECT_EQ(Json::parse(later.heard()).at("type"), "body");
   EXPECT_EQ(Json::parse(later.heard()).at("type"), "status");
 }
 
 TEST_F(Program, LatencyIsWhatPagesReport) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   const Json pose = receive(page, "pose");
   page.say(Json{{"type", "drawn"}, {"frame", pose.at("frame")}, {"stamp", pose.at("stamp")}}.dump());
   const Json status = receive(page, "status", [](const Json& j) { return !j.at("latency").is_null(); });
   EXPECT_GT(status.at("latency").at("median").get<double>(), 0.0);
-  EXPECT_TRUE(program.report().latency);
+  EXPECT_TRUE(program->report().latency);
 }
 
 TEST_F(Program, RecordsAndServesTheFiles) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   page.say(R"({"type":"record","on":true})");
   receive(page, "status",
           [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 10; });
@@ -109,67 +107,60 @@ TEST_F(Program, RecordsAndServesTheFiles) {
   EXPECT_EQ(recording.at("number"), 1);
   ASSERT_EQ(recording.at("files").size(), kOutputFormats.size());
   for (const Json& file : recording.at("files")) {
-    const std::string bytes = get(program.port(), "/recordings/1/" + file.at("name").get<std::string>(), 200);
+    const std::string bytes =
+        get(program->port(), "/recordings/1/" + file.at("name").get<std::string>(), 200);
     EXPECT_EQ(bytes.size(), file.at("bytes").get<std::size_t>()) << file.at("name");
     EXPECT_GT(bytes.size(), 100U);
   }
-  get(program.port(), "/recordings/1/nothing.bvh", 404);
-  get(program.port(), "/recordings/2/motion.bvh", 404);
-  get(program.port(), "/recordings/1/../../live.json", 400);
+  get(program->port(), "/recordings/1/nothing.bvh", 404);
+  get(program->port(), "/recordings/2/motion.bvh", 404);
+  get(program->port(), "/recordings/1/../../live.json", 400);
   page.say(R"({"type":"forget","recording":1})");
   receive(page, "status", [](const Json& j) { return j.at("recordings").empty(); });
-  get(program.port(), "/recordings/1/motion.bvh", 404);
+  get(program->port(), "/recordings/1/motion.bvh", 404);
 }
 
 TEST_F(Program, EachLookIsAnAvatar) {
   for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
     std::ofstream(folder_.file(name)) << "glTF " << name;
   }
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   const Json hello = receive(page, "hello");
   EXPECT_EQ(hello.at("looks"), Json({"plain", "robot"}));
   for (const std::string name : {"plain.vrm", "robot.vrm", "robot-light.vrm"}) {
-    EXPECT_EQ(get(program.port(), "/avatars/" + name, 200), "glTF " + name);
+    EXPECT_EQ(get(program->port(), "/avatars/" + name, 200), "glTF " + name);
   }
-  get(program.port(), "/avatars/nobody.vrm", 404);
+  get(program->port(), "/avatars/nobody.vrm", 404);
 }
 
 TEST_F(Program, OutputsAreAddedAndRemoved) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
   receive(page, "status", [](const Json& j) {
     return j.at("outputs").size() == 1 && j.at("outputs").at(0).at("url") == "vmc://localhost:39539";
   });
   page.say(R"({"type":"output","add":"vmc://localhost:39539"})");
-  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; })
-                    .at("words")
-                    .get<std::string>()
-                    .find("already") == std::string::npos,
-            false);
+  EXPECT_NE(receive_error(page).find("already"), std::string::npos);
   page.say(R"({"type":"output","add":"carrier-pigeon://coop"})");
-  receive(page, "message", [](const Json& j) { return j.at("level") == "error"; });
+  EXPECT_NE(receive_error(page), "");
   page.say(R"({"type":"output","remove":"vmc://localhost:39539"})");
   receive(page, "status", [](const Json& j) { return j.at("outputs").empty(); });
 }
 
 TEST_F(Program, AnswersInvalidMessages) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   page.say("{{{");
-  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; })
-                .at("words")
-                .get<std::string>()
-                .empty(),
-            false);
+  EXPECT_NE(receive_error(page), "");
   page.say(R"({"type":"ping","id":7})");
   EXPECT_EQ(receive(page, "pong").at("id"), 7);
 }
 
 TEST_F(Program, HiddenPageGetsNoImages) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   std::optional<SocketClient::Frame> seen;
   while ((seen = page.message()) && seen->opcode != SocketClient::binary) {
   }
@@ -209,8 +200,8 @@ std::vector<std::uint32_t> next_images(SocketClient& page) {
 }
 
 TEST_F(Program, PageGetsImagesInTheirOrder) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
-  SocketClient page(program.port());
+  const auto program = start();
+  SocketClient page(program->port());
   receive(page, "pose");
   const std::vector<std::uint32_t> frames = next_images(page);
   EXPECT_GT(frames.size(), 5U);
@@ -218,21 +209,18 @@ TEST_F(Program, PageGetsImagesInTheirOrder) {
 }
 
 TEST_F(Program, PortInUseIsAnError) {
-  const LiveProgram program(options(), camera_of(person_frames()), {});
+  const auto program = start();
   LiveRequest second = options();
-  second.web.port = program.port();
-  try {
-    const LiveProgram refused(second, camera_of(person_frames()), {});
-    FAIL() << "two programs at one port";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find(std::to_string(program.port())), std::string::npos) << e.what();
-  }
+  second.web.port = program->port();
+  const std::string message =
+      error_of(ErrorKind::output, [&] { LiveProgram(second, camera_of(person_scene()), {}); });
+  EXPECT_NE(message.find(std::to_string(program->port())), std::string::npos) << message;
 }
 
 TEST_F(Program, InvalidOutputIsAnErrorAtStart) {
   LiveRequest wrong = options();
   wrong.send = {"vmc://"};
-  EXPECT_THROW(LiveProgram(wrong, camera_of(person_frames()), {}), Error);
+  EXPECT_THROW(LiveProgram(wrong, camera_of(person_scene()), {}), Error);
 }
 
 }  // namespace

@@ -78,6 +78,12 @@ std::unique_ptr<Source> camera_of(std::shared_ptr<ScriptedScene> scene) {
   return std::make_unique<SceneCamera>(std::move(scene));
 }
 
+std::shared_ptr<ScriptedScene> person_scene() {
+  auto scene = std::make_shared<ScriptedScene>();
+  scene->show(person());
+  return scene;
+}
+
 TrackRequest quick_request(const ScratchFolder& folder) {
   TrackRequest request;
   request.background = folder.file("room");
@@ -96,6 +102,18 @@ const std::vector<Frame>& person() {
 
 const std::vector<Frame>& empty_room() {
   return clip().background;
+}
+
+std::vector<Frame> person_repeated(int times) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < times; ++i) {
+    frames.insert(frames.end(), person().begin(), person().end());
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].index = static_cast<std::int64_t>(i);
+    frames[i].time = static_cast<double>(i) / support::kClipFps;
+  }
+  return frames;
 }
 
 }  // namespace telemime::live_testing

@@ -38,11 +38,16 @@ class ScriptedScene {
 /// A camera that delivers the scene, at most one image per millisecond. `scene` must have frames.
 std::unique_ptr<Source> camera_of(std::shared_ptr<ScriptedScene> scene);
 
+/// A scene with the synthetic person.
+std::shared_ptr<ScriptedScene> person_scene();
+
 /// A request for a quick tracker (few pixels, few evaluations) with the background as a folder of images.
 TrackRequest quick_request(const ScratchFolder& folder);
 
 /// The synthetic person and the empty scene, rendered once.
 const std::vector<Frame>& person();
 const std::vector<Frame>& empty_room();
+/// The person, repeated; indices and times increase as in a file.
+std::vector<Frame> person_repeated(int times);
 
 }  // namespace telemime::live_testing

@@ -15,26 +15,15 @@ namespace {
 using live_testing::camera_of;
 using live_testing::empty_room;
 using live_testing::person;
+using live_testing::person_repeated;
 using live_testing::quick_request;
 using live_testing::ScriptedScene;
 using live_testing::SessionEvents;
 
-std::vector<Frame> several_times(int times) {
-  std::vector<Frame> frames;
-  for (int i = 0; i < times; ++i) {
-    frames.insert(frames.end(), person().begin(), person().end());
-  }
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].index = static_cast<std::int64_t>(i);
-    frames[i].time = static_cast<double>(i) / 25.0;
-  }
-  return frames;
-}
-
 TEST(LiveSession, EqualsTrackerWithoutDroppedFrames) {
   const ScratchFolder folder;
   const TrackRequest request = quick_request(folder);
-  const std::vector<Frame> frames = several_times(3);
+  const std::vector<Frame> frames = person_repeated(3);
   SessionEvents events;
   {
     LiveSession session(request, true, std::make_unique<support::ListSource>(frames), events.hooks());
@@ -67,46 +56,50 @@ TEST(LiveSession, EqualsTrackerWithoutDroppedFrames) {
   EXPECT_EQ(events.pictures, static_cast<int>(frames.size()));
 }
 
-TEST(LiveSession, GuidesFromEmptySceneToTracking) {
-  const ScratchFolder folder;
-  TrackRequest request = quick_request(folder);
-  request.background.clear();
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(empty_room());
-  SessionEvents events;
-  LiveSession session(request, true, camera_of(scene), events.hooks());
-  ASSERT_TRUE(events.wait([&] { return events.pictures > 3; }))
+class LiveSessionGuide : public ::testing::Test {
+ protected:
+  LiveSessionGuide() {
+    request_.background.clear();
+    scene_->show(empty_room());
+  }
+  bool reaches(const LiveSession& session, LivePhase phase) {
+    return events_.wait([&] { return session.state().phase == phase; });
+  }
+
+  ScratchFolder folder_;
+  TrackRequest request_ = quick_request(folder_);
+  std::shared_ptr<ScriptedScene> scene_ = std::make_shared<ScriptedScene>();
+  SessionEvents events_;
+};
+
+TEST_F(LiveSessionGuide, LeadsFromEmptySceneToTracking) {
+  LiveSession session(request_, true, camera_of(scene_), events_.hooks());
+  ASSERT_TRUE(events_.wait([&] { return events_.pictures > 3; }))
       << "images are reported before anything is learned";
   EXPECT_EQ(session.state().phase, LivePhase::empty_room);
   session.guide(GuideStep::empty);
-  ASSERT_TRUE(events.wait([&] { return events.messages.find("the empty room, from") != std::string::npos; }));
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
-  scene->show(person());
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }))
-      << session.state().words;
-  EXPECT_EQ(events.persons, 1);
+  ASSERT_TRUE(
+      events_.wait([&] { return events_.messages.find("the empty room, from") != std::string::npos; }));
+  ASSERT_TRUE(reaches(session, LivePhase::person));
+  scene_->show(person());
+  ASSERT_TRUE(reaches(session, LivePhase::tracking)) << session.state().words;
+  EXPECT_EQ(events_.persons, 1);
   session.recalibrate();
-  ASSERT_TRUE(events.wait([&] { return events.persons == 2; }));
-  scene->show(empty_room());
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::lost; }));
+  ASSERT_TRUE(events_.wait([&] { return events_.persons == 2; }));
+  scene_->show(empty_room());
+  ASSERT_TRUE(reaches(session, LivePhase::lost));
   session.guide(GuideStep::again);
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::empty_room; }));
+  ASSERT_TRUE(reaches(session, LivePhase::empty_room));
   EXPECT_TRUE(session.state().room_empty) << "the image was reported empty the last time";
   session.guide(GuideStep::skip);
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
+  ASSERT_TRUE(reaches(session, LivePhase::person));
   EXPECT_FALSE(session.state().room_empty);
 }
 
-TEST(LiveSession, LearnsFromFirstFramesWithoutGuide) {
-  const ScratchFolder folder;
-  TrackRequest request = quick_request(folder);
-  request.background.clear();
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(empty_room());
-  SessionEvents events;
-  const LiveSession session(request, false, camera_of(scene), events.hooks());
-  EXPECT_TRUE(events.wait([&] { return session.state().phase == LivePhase::person; }));
-  EXPECT_NE(events.messages.find("background: "), std::string::npos);
+TEST_F(LiveSessionGuide, WithoutItTheFirstFramesAreLearned) {
+  const LiveSession session(request_, false, camera_of(scene_), events_.hooks());
+  EXPECT_TRUE(reaches(session, LivePhase::person));
+  EXPECT_NE(events_.messages.find("background: "), std::string::npos);
 }
 
 }  // namespace

@@ -20,51 +20,51 @@ namespace {
 
 using live_testing::camera_of;
 using live_testing::person;
+using live_testing::person_repeated;
+using live_testing::person_scene;
 using live_testing::quick_request;
 using live_testing::ScriptedScene;
 using live_testing::SessionEvents;
 
-TEST(LiveThreads, StopsWhileTheCameraIsSilent) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(person());
-  SessionEvents events;
+class LiveThreads : public ::testing::Test {
+ protected:
+  bool reaches(const LiveSession& session, LivePhase phase) {
+    return events_.wait([&] { return session.state().phase == phase; });
+  }
+
+  const ScratchFolder folder_;
+  const std::shared_ptr<ScriptedScene> scene_ = person_scene();
+  SessionEvents events_;
+};
+
+TEST_F(LiveThreads, StopsWhileTheCameraIsSilent) {
   {
-    const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
-    ASSERT_TRUE(events.wait([&] { return events.pictures > 0; }));
-    scene->show({});
-    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::stopped; }));
-    scene->show(person());
-    ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }))
-        << "it continues by itself";
-    scene->show({});
+    const LiveSession session(quick_request(folder_), true, camera_of(scene_), events_.hooks());
+    ASSERT_TRUE(events_.wait([&] { return events_.pictures > 0; }));
+    scene_->show({});
+    ASSERT_TRUE(reaches(session, LivePhase::stopped));
+    scene_->show(person());
+    ASSERT_TRUE(reaches(session, LivePhase::tracking)) << "it continues by itself";
+    scene_->show({});
   }
 }
 
-TEST(LiveThreads, ReportsTheEndOfTheCamera) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(person());
-  SessionEvents events;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
-  ASSERT_TRUE(events.wait([&] { return !events.motion.empty(); }));
-  scene->end();
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
+TEST_F(LiveThreads, ReportsTheEndOfTheCamera) {
+  const LiveSession session(quick_request(folder_), true, camera_of(scene_), events_.hooks());
+  ASSERT_TRUE(events_.wait([&] { return !events_.motion.empty(); }));
+  scene_->end();
+  ASSERT_TRUE(reaches(session, LivePhase::ended));
   EXPECT_EQ(session.state().words, "the cable is out");
 }
 
-TEST(LiveThreads, PhaseIsOpeningUntilFirstFrame) {
+TEST_F(LiveThreads, PhaseIsOpeningUntilFirstFrame) {
   EXPECT_EQ(LiveState().phase, LivePhase::opening) << "before a session exists";
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(person());
-  scene->show({});
-  SessionEvents events;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks());
+  scene_->show({});
+  const LiveSession session(quick_request(folder_), true, camera_of(scene_), events_.hooks());
   EXPECT_EQ(session.state().phase, LivePhase::opening);
   EXPECT_NE(session.state().words, "");
-  scene->show(person());
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::tracking; }));
+  scene_->show(person());
+  ASSERT_TRUE(reaches(session, LivePhase::tracking));
 }
 
 // Delivers all its frames and then nothing until it is stopped, like a camera that is gone.
@@ -101,35 +101,26 @@ class ThenGone final : public Source {
   bool stopped_ = false;
 };
 
-TEST(LiveThreads, FailedSearchWithoutCameraEndsTheRun) {
-  const ScratchFolder folder;
-  std::vector<Frame> frames;
-  for (int i = 0; i < 4; ++i) {
-    frames.insert(frames.end(), person().begin(), person().end());
-  }
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].index = static_cast<std::int64_t>(i);
-    frames[i].time = static_cast<double>(i) / 25.0;
-  }
+TEST_F(LiveThreads, FailedSearchWithoutCameraEndsTheRun) {
+  std::vector<Frame> frames = person_repeated(4);
   const std::int64_t last = frames.back().index;
-  SessionEvents events;
-  LiveHooks hooks = events.hooks();
+  LiveHooks hooks = events_.hooks();
   std::atomic<bool> fail = false;
   std::atomic<bool> failed = false;
   hooks.motion = [&, record_motion = hooks.motion](const MotionFrame& frame, double taken) {
     record_motion(frame, taken);
     if (frame.frame == last) {  // also called when the person is reported lost
-      events.wait([&] { return fail.load(); });
+      events_.wait([&] { return fail.load(); });
       failed = true;
       throw std::runtime_error("the search has failed");
     }
   };
-  const LiveSession session(quick_request(folder), true, std::make_unique<ThenGone>(std::move(frames)),
+  const LiveSession session(quick_request(folder_), true, std::make_unique<ThenGone>(std::move(frames)),
                             std::move(hooks));
   // The image side waits for a frame while the search side works on the last one.
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::stopped; }));
+  ASSERT_TRUE(reaches(session, LivePhase::stopped));
   fail = true;
-  ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
+  ASSERT_TRUE(reaches(session, LivePhase::ended));
   EXPECT_TRUE(failed);
   EXPECT_EQ(session.state().words, "the search has failed");
 }
@@ -155,20 +146,16 @@ class OddStamps final : public Source {
   std::unique_ptr<Source> camera_;
 };
 
-TEST(LiveThreads, ToleratesOddTimeStamps) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(person());
-  SessionEvents events;
+TEST_F(LiveThreads, ToleratesOddTimeStamps) {
   std::atomic<int> looks = 0;
   const Clock clock = {[&looks] { return 1000.0 + 0.001 * looks++; }, [](double) {}};
-  LiveSession session(quick_request(folder), true, std::make_unique<OddStamps>(camera_of(scene)),
-                      events.hooks(), clock);
-  ASSERT_TRUE(events.wait([&] { return events.motion.size() > 30; }));
+  LiveSession session(quick_request(folder_), true, std::make_unique<OddStamps>(camera_of(scene_)),
+                      events_.hooks(), clock);
+  ASSERT_TRUE(events_.wait([&] { return events_.motion.size() > 30; }));
   const LiveRates rates = session.state().rates;
   session.stop();
   double last = 1000.0;
-  for (const double taken : events.taken) {
+  for (const double taken : events_.taken) {
     EXPECT_GE(taken, last);
     EXPECT_LE(taken, clock.now());
     last = taken;
@@ -178,20 +165,16 @@ TEST(LiveThreads, ToleratesOddTimeStamps) {
   EXPECT_GE(rates.ms.wait, 0.0);
   EXPECT_GT(rates.ms.total, 0.0);
   EXPECT_LT(rates.ms.total_p95, 1e4);
-  EXPECT_EQ(events.motion.front().state, TrackState::tracking);
+  EXPECT_EQ(events_.motion.front().state, TrackState::tracking);
 }
 
-TEST(LiveThreads, MeasuresSilenceByItsOwnClock) {
-  const ScratchFolder folder;
-  const auto scene = std::make_shared<ScriptedScene>();
-  scene->show(person());
-  SessionEvents events;
+TEST_F(LiveThreads, MeasuresSilenceByItsOwnClock) {
   std::atomic<double> now = 0.0;
-  const LiveSession session(quick_request(folder), true, camera_of(scene), events.hooks(),
+  const LiveSession session(quick_request(folder_), true, camera_of(scene_), events_.hooks(),
                             {[&now] { return now.load(); }, [](double) {}});
-  ASSERT_TRUE(events.wait([&] { return events.motion.size() > 2; }));
-  scene->show({});
-  ASSERT_TRUE(events.wait([&] {
+  ASSERT_TRUE(events_.wait([&] { return events_.motion.size() > 2; }));
+  scene_->show({});
+  ASSERT_TRUE(events_.wait([&] {
     now = now + 3.0;
     return session.state().phase == LivePhase::stopped;
   }));

@@ -98,15 +98,8 @@ TEST_F(LiveCommand, EndsAfterFileIfNoPageIsOpen) {
 TEST_F(LiveCommand, StaysAfterFileWhilePageIsOpen) {
   const std::uint16_t port = testing_receivers::free_port();
   e2e::Program program(once(e2e::person_clip(), port));
-  std::unique_ptr<SocketClient> page;
-  ASSERT_TRUE(comes_true([&] {
-    try {
-      page = std::make_unique<SocketClient>(port);
-    } catch (const std::runtime_error&) {
-      return false;
-    }
-    return true;
-  }));
+  std::unique_ptr<SocketClient> page = live_testing::connect_when_ready(port);
+  ASSERT_TRUE(page);
   for (int i = 0; i < 10; ++i) {  // for 5 s: longer than a page needs to reconnect
     live_testing::receive(*page, "status", [](const auto& status) { return status.at("phase") == "ended"; });
   }

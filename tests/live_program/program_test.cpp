@@ -16,7 +16,7 @@ namespace {
 using live_testing::camera_of;
 using live_testing::empty_room;
 using live_testing::Json;
-using live_testing::person;
+using live_testing::person_scene;
 using live_testing::quick_request;
 using live_testing::receive;
 using live_testing::ScriptedScene;
@@ -49,11 +49,7 @@ class LiveRun : public ::testing::Test {
     ASSERT_TRUE(comes_true([&] { return program.report().state.rates.frames >= before + frames; }));
   }
 
-  std::shared_ptr<ScriptedScene> scene_ = [] {
-    auto scene = std::make_shared<ScriptedScene>();
-    scene->show(person());
-    return scene;
-  }();
+  std::shared_ptr<ScriptedScene> scene_ = person_scene();
   ScratchFolder folder_;
   std::mutex mutex_;
   std::string infos_;
@@ -118,15 +114,8 @@ TEST_F(LiveRun, EarlyPageGetsStatusThenHello) {
   auto program = std::async(std::launch::async, [&] {
     return std::make_unique<LiveProgram>(request, std::move(camera), LiveProgram::Message());
   });
-  std::unique_ptr<SocketClient> page;
-  ASSERT_TRUE(comes_true([&] {
-    try {
-      page = std::make_unique<SocketClient>(request.web.port);
-    } catch (const std::runtime_error&) {
-      return false;
-    }
-    return true;
-  }));
+  std::unique_ptr<SocketClient> page = live_testing::connect_when_ready(request.web.port);
+  ASSERT_TRUE(page);
   const Json first = Json::parse(page->heard());
   EXPECT_EQ(first.at("type"), "status");
   EXPECT_EQ(first.at("phase"), "opening");
@@ -160,8 +149,7 @@ TEST_F(LiveRun, NextRunListsAndResumesOutputs) {
     page.say(add);
     receive(page, "status", is("sending"));
   }
-  scene_ = std::make_shared<ScriptedScene>();
-  scene_->show(person());
+  scene_ = person_scene();
   while (receiver.receive(0)) {
   }
   {
@@ -177,8 +165,7 @@ TEST_F(LiveRun, NextRunListsAndResumesOutputs) {
     page.say(Json{{"type", "output"}, {"off", url}}.dump());
     receive(page, "status", is("off"));
   }
-  scene_ = std::make_shared<ScriptedScene>();
-  scene_->show(person());
+  scene_ = person_scene();
   while (receiver.receive(0)) {
   }
   LiveRequest resumed = options();
@@ -197,8 +184,7 @@ TEST_F(LiveRun, PermanentCameraFailureHasAMessage) {
   receive(page, "pose");
   EXPECT_FALSE(program.report().failure);
   scene_->end();
-  EXPECT_EQ(receive(page, "message", [](const Json& j) { return j.at("level") == "error"; }).at("words"),
-            "the cable is out");
+  EXPECT_EQ(live_testing::receive_error(page), "the cable is out");
   ASSERT_TRUE(program.report().failure);
   EXPECT_TRUE(program.report().failure->input);
   EXPECT_EQ(program.report().failure->words, "the cable is out");

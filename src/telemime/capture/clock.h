@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <thread>
 
 namespace telemime {
 
@@ -12,6 +14,13 @@ struct Clock {
 };
 
 /// The monotonic clock of the computer; all copies in a program show the same time.
-Clock monotonic_clock();
+inline Clock monotonic_clock() {
+  using Steady = std::chrono::steady_clock;
+  return {[] { return std::chrono::duration<double>(Steady::now().time_since_epoch()).count(); },
+          [](double seconds) {
+            std::this_thread::sleep_until(Steady::time_point(
+                std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(seconds))));
+          }};
+}
 
 }  // namespace telemime

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <regex>
 #include <system_error>
 #include <utility>
 
-#include "telemime/capture/file_check.h"
-#include "telemime/capture/natural_order.h"
+#include "telemime/capture/input_kind.h"
 #include "telemime/capture/picture.h"
 
 namespace telemime {
@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr double images_per_second = 25.0;
 
+/// Runs of digits compare as numbers: "frame2" is before "frame10".
 bool by_name(const fs::path& a, const fs::path& b) {
-  return natural_less(a.filename().native(), b.filename().native());
+  return ::strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
 }
 
 /// The plain files of a folder whose name passes `wanted`, in natural order.

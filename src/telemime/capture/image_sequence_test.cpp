@@ -7,6 +7,7 @@
 
 #include "telemime/capture/prepare_opencv.h"
 #include "telemime/capture/testing.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -37,13 +38,22 @@ class ImageSequenceTest : public ::testing::Test {
 };
 
 TEST_F(ImageSequenceTest, ReadsAFolderInNaturalOrder) {
-  for (const int number : {10, 2, 1, 9}) {
-    write_numbered("frame" + std::to_string(number) + ".png", number);
+  const char* const sorted[] = {"02.png",
+                                "1.png",
+                                "a.png",
+                                "frame2.png",
+                                "frame9.png",
+                                "frame10.png",
+                                "frame10b.png",
+                                "z99999999999999999999.png",
+                                "z100000000000000000000.png"};
+  for (int number = 8; number >= 0; --number) {
+    write_numbered(sorted[number], number);
   }
   testing::write_bytes(scratch_.file("readme.txt"), "not an image");
   const std::unique_ptr<Source> source = open_source(scratch_.file(""));
-  EXPECT_EQ(source->info().frames, 4);
-  EXPECT_EQ(numbers(*source), (std::vector<int>{1, 2, 9, 10}));
+  EXPECT_EQ(source->info().frames, 9);
+  EXPECT_EQ(numbers(*source), (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_EQ(source->complaint(), "");
 }
 
@@ -104,7 +114,7 @@ TEST_F(ImageSequenceTest, ConvertsImagesToTheFirstSize) {
 
 TEST_F(ImageSequenceTest, StatesTheCauseOfFailures) {
   const auto refusal = [](const std::string& input) {
-    return testing::input_error([&] { open_source(input); });
+    return error_of(ErrorKind::input, [&] { open_source(input); });
   };
   EXPECT_NE(refusal(scratch_.file("")).find("no image in the folder"), std::string::npos);
   EXPECT_NE(refusal(scratch_.file("*.png")).find("no file fits"), std::string::npos);

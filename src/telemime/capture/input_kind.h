@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "telemime/core/errors.h"
+
 namespace telemime {
 
 /// Kind of an input that the user named.
@@ -28,5 +30,21 @@ std::string without_file_scheme(const std::string& input);
 
 /// Whether the name has the extension of an image that OpenCV reads (.png, .JPG, ...).
 bool has_image_extension(const std::string& name);
+
+/// The URL of a stream without secrets, for display, files and pages: without "user:password@", and without
+/// the query or the path from the first "name=value" on, where many cameras expect their passwords. Other
+/// text is returned unchanged.
+std::string shown_url(const std::string& url);
+
+/// An Error(input) of the form "cannot read 'x' as a video file: <cause>", for all kinds of input.
+Error cannot_read(const std::string& input, InputKind kind, const std::string& cause,
+                  const std::string& remedy);
+
+/// Throws Error(input) if the file is missing, not a regular file, not readable by this user, or empty.
+void require_readable_file(const std::string& path, InputKind kind);
+
+/// Whether the file begins like plain text (UTF-8 without control characters). FFmpeg would render some text
+/// files as videos and follow the links in others.
+bool looks_like_text(const std::string& path);
 
 }  // namespace telemime

@@ -30,11 +30,11 @@ LiveOptions quick() {
   return options;
 }
 
-struct Told {
+struct Reports {
   std::function<void(const SourceNews&)> listener() {
     return [this](const SourceNews& news) { all.push_back(news); };
   }
-  bool heard(Kind kind, const std::string& words) const {
+  bool contain(Kind kind, const std::string& words) const {
     return std::any_of(all.begin(), all.end(), [&](const SourceNews& n) {
       return n.kind == kind && n.words.find(words) != std::string::npos;
     });
@@ -52,40 +52,31 @@ TEST(LiveAttended, RetriesAMissingCameraForEver) {
       return {};
     }
     // The first connection delivers one image, the last one many.
-    return {[begun, left = opening == 0 ? 1 : 1000000]() mutable {
-              if (left == 0) {
-                begun.wait();
-              }
-              return left-- > 0;
-            },
-            whole_picture,
-            {},
-            25.0};
+    return testing::device_of(opening == 0 ? 1 : 1000000, [begun] {
+      begun.wait();
+      return false;
+    });
   };
-  Told told;
+  Reports reports;
   const auto source = live_source("0", open, quick());
-  source->attend(told.listener());
+  source->attend(reports.listener());
   attended.set_value();
   EXPECT_EQ(source->next()->index, 0);
   ASSERT_TRUE(source->next());
   EXPECT_EQ(openings, kAttempts + 1);
-  EXPECT_TRUE(told.heard(Kind::worse, "stopped"));
-  EXPECT_TRUE(told.heard(Kind::better, "is back"));
+  EXPECT_TRUE(reports.contain(Kind::worse, "stopped"));
+  EXPECT_TRUE(reports.contain(Kind::better, "is back"));
 }
 
 TEST(LiveAttended, PausesAreNeverLongerThanRequested) {
   std::atomic<int> openings = 0;
-  const auto open = [&openings] {
-    return openings++ % 2 == 1
-               ? LiveDevice{}
-               : LiveDevice{[left = 1]() mutable { return left-- > 0; }, whole_picture, {}, 25.0};
-  };
+  const auto open = [&openings] { return openings++ % 2 == 1 ? LiveDevice{} : testing::device_of(1); };
   LiveOptions options = quick();
   options.pauses = {1e6};
   options.longest_pause = 0.0;
-  Told told;
+  Reports reports;
   const auto source = live_source("0", open, options);
-  source->attend(told.listener());
+  source->attend(reports.listener());
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(source->next());
   }
@@ -93,10 +84,7 @@ TEST(LiveAttended, PausesAreNeverLongerThanRequested) {
 
 TEST(LiveAttended, StopsDuringALongPause) {
   std::atomic<int> openings = 0;
-  const auto open = [&openings] {
-    return openings++ > 0 ? LiveDevice{}
-                          : LiveDevice{[left = 1]() mutable { return left-- > 0; }, whole_picture, {}, 25.0};
-  };
+  const auto open = [&openings] { return openings++ > 0 ? LiveDevice{} : testing::device_of(1); };
   LiveOptions options = quick();
   options.pauses = {1e6};
   options.longest_pause = 1e6;
@@ -131,21 +119,15 @@ struct Hanging {
 TEST(LiveAttended, HangingDeviceDelaysNobody) {
   const auto hanging = std::make_shared<Hanging>();
   const auto open = [hanging] {
-    return LiveDevice{[hanging, left = 1]() mutable {
-                        if (left-- > 0) {
-                          return true;
-                        }
-                        std::unique_lock lock(hanging->mutex);
-                        hanging->hangs = true;
-                        hanging->changed.notify_all();
-                        hanging->changed.wait(lock, [&] { return hanging->let_go; });
-                        hanging->gone = true;
-                        hanging->changed.notify_all();
-                        return false;
-                      },
-                      whole_picture,
-                      {},
-                      25.0};
+    return testing::device_of(1, [hanging] {
+      std::unique_lock lock(hanging->mutex);
+      hanging->hangs = true;
+      hanging->changed.notify_all();
+      hanging->changed.wait(lock, [&] { return hanging->let_go; });
+      hanging->gone = true;
+      hanging->changed.notify_all();
+      return false;
+    });
   };
   LiveOptions options = quick();
   options.farewell = 0.01;
@@ -167,28 +149,23 @@ TEST(LiveAttended, HangingDeviceDelaysNobody) {
 TEST(LiveAttended, ReportsSilenceAndItsEnd) {
   std::promise<void> go_on;
   const auto open = [waited = go_on.get_future().share()] {
-    return LiveDevice{[waited, count = 0]() mutable {
-                        if (++count > 1) {
-                          waited.wait();
-                        }
-                        return true;
-                      },
-                      whole_picture,
-                      {},
-                      25.0};
+    return testing::device_of(1, [waited] {
+      waited.wait();
+      return true;
+    });
   };
-  Told told;
+  Reports reports;
   const auto source = live_source("0", open, quick());
   source->attend([&](const SourceNews& news) {
-    told.all.push_back(news);
+    reports.all.push_back(news);
     if (news.kind == Kind::gone) {
       go_on.set_value();
     }
   });
   EXPECT_TRUE(source->next());
   EXPECT_TRUE(source->next());
-  EXPECT_TRUE(told.heard(Kind::gone, "no images"));
-  EXPECT_TRUE(told.heard(Kind::better, "is back"));
+  EXPECT_TRUE(reports.contain(Kind::gone, "no images"));
+  EXPECT_TRUE(reports.contain(Kind::better, "is back"));
 }
 
 TEST(LiveAttended, ReportsDamageAndSizes) {
@@ -210,17 +187,17 @@ TEST(LiveAttended, ReportsDamageAndSizes) {
                       {},
                       25.0};
   };
-  Told told;
+  Reports reports;
   const auto source = live_source("0", open, quick());
-  source->attend(told.listener());
+  source->attend(reports.listener());
   attended.set_value();
-  while (reads < 10 || told.all.size() < 2) {
+  while (reads < 10 || reports.all.size() < 2) {
     const auto frame = source->next();
     ASSERT_TRUE(frame);
     EXPECT_EQ(frame->image.size(), cv::Size(64, 48));
   }
-  EXPECT_TRUE(told.heard(Kind::worse, "damaged"));
-  EXPECT_TRUE(told.heard(Kind::worse, "64x36"));
+  EXPECT_TRUE(reports.contain(Kind::worse, "damaged"));
+  EXPECT_TRUE(reports.contain(Kind::worse, "64x36"));
 }
 
 // Frame::taken of the images after the first, if the driver gives these stamps and the clock advances by one

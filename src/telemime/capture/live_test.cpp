@@ -193,17 +193,6 @@ TEST(Live, DropsDamagedImages) {
   EXPECT_NE(source->complaint().find("damaged"), std::string::npos);
 }
 
-/// Delivers this number of images, then calls `end`.
-LiveDevice gives(int pictures, std::function<bool()> end) {
-  return {[pictures, end = std::move(end)]() mutable { return pictures-- > 0 || end(); },
-          [](cv::Mat& picture) {
-            picture = testing::numbered_picture(1);
-            return true;
-          },
-          {},
-          25.0};
-}
-
 /// The index of the last frame.
 std::int64_t last_of(Source& source) {
   std::int64_t last = -1;
@@ -219,11 +208,11 @@ TEST(Live, ReopensADriverThatThrows) {
   const auto open = [&]() -> LiveDevice {
     switch (openings++) {
       case 0:
-        return gives(1, complain);
+        return testing::device_of(1, complain);
       case 1:
         CV_Error(cv::Error::StsError, "cannot be opened");
       case 2:
-        return gives(1, [] { return false; });
+        return testing::device_of(1, [] { return false; });
       default:
         return {};
     }
@@ -235,7 +224,9 @@ TEST(Live, ReopensADriverThatThrows) {
 }
 
 TEST(Live, OtherFailuresEndWithAMessage) {
-  const auto open = [] { return gives(3, []() -> bool { throw std::runtime_error("no driver any more"); }); };
+  const auto open = [] {
+    return testing::device_of(3, []() -> bool { throw std::runtime_error("no driver any more"); });
+  };
   const auto source = live_source("0", open, with_pauses({0.0, 0.0, 0.0}));
   ASSERT_TRUE(source);
   EXPECT_EQ(last_of(*source), 2);
@@ -248,7 +239,7 @@ TEST(Live, HangingDeviceIsAskedOnce) {
   options.clock = {[&] { return now.load(); }, [](double) {}};
   int grabs = 0;
   const auto open = [&] {
-    return gives(0, [&] {
+    return testing::device_of(0, [&] {
       now = now + 9.0;
       ++grabs;
       return false;

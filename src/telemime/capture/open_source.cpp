@@ -7,11 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "telemime/capture/file_check.h"
 #include "telemime/capture/image_sequence.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
-#include "telemime/capture/shown_url.h"
 #include "telemime/capture/source.h"
 #include "telemime/capture/stream.h"
 #include "telemime/capture/video_file.h"

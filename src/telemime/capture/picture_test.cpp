@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "telemime/capture/testing.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -67,7 +68,7 @@ TEST(UsableFps, ReplacesUnusableFrameRatesWithANote) {
 TEST(RequireUsableSize, RefusesImagesTooSmallForAPerson) {
   EXPECT_NO_THROW(require_usable_size({16, 16}, "x"));
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(640, 15), cv::Size(3, 480), cv::Size(0, 0)}) {
-    EXPECT_NE(testing::input_error([&] { require_usable_size(size, "x.png"); }).find("x.png"),
+    EXPECT_NE(error_of(ErrorKind::input, [&] { require_usable_size(size, "x.png"); }).find("x.png"),
               std::string::npos);
   }
 }

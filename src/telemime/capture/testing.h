@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
+#include <utility>
 
-#include "telemime/core/errors.h"
+#include "telemime/capture/live.h"
 #include "telemime/core/scratch_folder.h"
 
 namespace telemime::testing {
@@ -37,20 +39,21 @@ inline void write_clip(const std::string& file, int frames, double fps = 20.0) {
   }
 }
 
+/// A device that delivers this number of images, then calls `end`.
+inline LiveDevice device_of(
+    int pictures, std::function<bool()> end = [] { return false; }) {
+  return {[pictures, end = std::move(end)]() mutable { return pictures-- > 0 || end(); },
+          [](cv::Mat& picture) {
+            picture = numbered_picture(1);
+            return true;
+          },
+          {},
+          25.0};
+}
+
 inline void cut_to(const std::string& file, double fraction) {
   std::filesystem::resize_file(
       file, static_cast<std::uintmax_t>(fraction * static_cast<double>(std::filesystem::file_size(file))));
-}
-
-/// The message of the Error(input) that `action` throws; empty when it throws none.
-template <typename Action>
-std::string input_error(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.kind() == ErrorKind::input ? error.what() : std::string();
-  }
-  return {};
 }
 
 }  // namespace telemime::testing

@@ -6,7 +6,7 @@
 #include <opencv2/videoio/registry.hpp>
 #include <utility>
 
-#include "telemime/capture/file_check.h"
+#include "telemime/capture/input_kind.h"
 #include "telemime/capture/picture.h"
 
 namespace telemime {

@@ -8,21 +8,12 @@
 #include <functional>
 
 #include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string message_of(ErrorKind kind, const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind);
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 mode_t mode_of(const fs::path& file) {
   struct stat about {};
@@ -50,7 +41,7 @@ TEST(Files, AnErrorLeavesTheOldFile) {
   for (const auto& write : {std::function([&] { write_whole_file(inner, "x"); }),
                             std::function([&] { write_private_file(inner, "x"); }),
                             std::function([&] { write_whole_file(inner + "/none/a", "x"); })}) {
-    EXPECT_NE(message_of(ErrorKind::output, write).find("cannot write " + inner), std::string::npos);
+    EXPECT_NE(error_of(ErrorKind::output, write).find("cannot write " + inner), std::string::npos);
   }
   EXPECT_TRUE(fs::is_directory(inner));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
@@ -58,10 +49,10 @@ TEST(Files, AnErrorLeavesTheOldFile) {
 
 TEST(Files, ThatCannotBeReadAreNamed) {
   const ScratchFolder folder;
-  EXPECT_NE(message_of(ErrorKind::config, [&] { read_text_file(folder.path(), ErrorKind::config); })
+  EXPECT_NE(error_of(ErrorKind::config, [&] { read_text_file(folder.path(), ErrorKind::config); })
                 .find(folder.path().string() + " is a folder"),
             std::string::npos);
-  EXPECT_NE(message_of(ErrorKind::input, [&] { read_text_file(folder.file("none")); }).find("No such file"),
+  EXPECT_NE(error_of(ErrorKind::input, [&] { read_text_file(folder.file("none")); }).find("No such file"),
             std::string::npos);
   EXPECT_THROW(read_small_file(folder.path(), 100), std::runtime_error);
   EXPECT_THROW(read_small_file("/dev/zero", 100), std::runtime_error);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/core/json_field.h"
+#include "telemime/core/testing_errors.h"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +12,10 @@ namespace {
 const JsonSource kSource{.name = "a.json", .kind = ErrorKind::config, .remedy = "Mend it.", .deepest = 3};
 
 std::string refusal(const std::string& text, const std::function<void(const JsonField&)>& read) {
-  try {
+  return error_of(kSource.kind, [&] {
     const nlohmann::json json = parse_json(text, kSource);
     read(JsonField(json, kSource));
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::config);
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(JsonField, ReadsValuesThatFit) {

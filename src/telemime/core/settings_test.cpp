@@ -8,7 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -37,14 +37,10 @@ SettingTable settings_of(Oven& o) {
 
 std::string refusal(const SettingValues& values) {
   Oven oven;
-  try {
+  return error_of(ErrorKind::config, [&] {
     assign(settings_of(oven), values);
     check_settings(oven);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::config);
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(Settings, JsonAndBackIsTheSame) {

@@ -3,20 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/random.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
 
 std::string refusal(std::string_view text) {
-  try {
-    parse_command(text);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::usage);
-    return e.what();
-  }
-  return {};
+  return error_of(ErrorKind::usage, [&] { parse_command(text); });
 }
 
 TEST(Commands, AreRead) {

@@ -2,10 +2,10 @@
 #include "telemime/live/live_files.h"
 
 #include <charconv>
-#include <string_view>
+#include <memory>
 #include <utility>
 
-#include "telemime/live/page_files.h"
+#include "telemime/streaming/web_path.h"
 
 namespace telemime {
 namespace {
@@ -26,6 +26,26 @@ std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) 
 }
 
 }  // namespace
+
+bool has_hash(std::string_view path) {
+  constexpr std::size_t hash_length = 8;
+  constexpr std::string_view folder = "/assets/";
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  const std::string_view stem = name.substr(0, name.rfind('.'));
+  return path.starts_with(folder) && stem.size() > hash_length + 1 && stem.size() < name.size() &&
+         stem[stem.size() - hash_length - 1] == '-';
+}
+
+std::optional<WebContent> page_file(std::string_view path) {
+  const std::string_view wanted = path == "/" ? "/index.html" : path;
+  for (const PageFile& file : page_table()) {
+    if (file.path == wanted) {
+      return WebContent{std::make_shared<const std::string>(file.bytes), web_type(wanted), "",
+                        has_hash(wanted)};
+    }
+  }
+  return std::nullopt;
+}
 
 std::optional<WebContent> live_file(const std::string& path, const AvatarFolder& avatars,
                                     const Recorder& recorder) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_messages.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -26,6 +27,12 @@ std::string dump(const Json& json) {
 
 double tenths(double value) {
   return std::round(10.0 * value) / 10.0;
+}
+
+std::string_view to_string(LivePhase phase) {
+  constexpr std::array<std::string_view, 8> kNames = {"opening",  "empty_room", "background", "person",
+                                                      "tracking", "lost",       "stopped",    "ended"};
+  return kNames[static_cast<std::size_t>(phase)];
 }
 
 std::string_view to_string(SenderState state) {
@@ -95,7 +102,7 @@ std::string status_message(const LiveStatus& status) {
     recordings.push_back(recorded(r));
   }
   Json message = {{"type", "status"},
-                  {"phase", telemime::to_string(status.state.phase)},
+                  {"phase", to_string(status.state.phase)},
                   {"words", status.state.words},
                   {"room_empty", status.state.room_empty},
                   {"fps", {{"input", tenths(rates.input)}, {"tracked", tenths(rates.tracked)}}},

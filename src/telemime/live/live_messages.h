@@ -8,7 +8,7 @@
 
 #include "telemime/core/camera.h"
 #include "telemime/live/live_session.h"
-#include "telemime/live/message_level.h"
+#include "telemime/live/live_state.h"
 #include "telemime/live/recorder.h"
 #include "telemime/streaming/sender.h"
 

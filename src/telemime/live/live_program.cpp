@@ -13,13 +13,11 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
-#include "telemime/live/guide_timeout.h"
 #include "telemime/live/live_answers.h"
 #include "telemime/live/live_files.h"
 #include "telemime/live/live_messages.h"
-#include "telemime/live/processor_time.h"
+#include "telemime/live/live_monitors.h"
 #include "telemime/live/saved_outputs.h"
-#include "telemime/live/sender_state_reporter.h"
 #include "telemime/streaming/pose_message.h"
 #include "telemime/streaming/url.h"
 
@@ -40,13 +38,13 @@ struct LiveProgram::State {
       : options(asked),
         console(std::move(message)),
         recorder(asked.recordings, asked.request.output_options,
-                 [this](MessageLevel level, const std::string& words) { tell(level, words); }),
+                 [this](MessageLevel level, const std::string& words) { notify(level, words); }),
         answers(
             recorder, senders, clock,
             {[this](std::uint64_t client, int topic, bool on) { server->set_topic(client, topic, on); },
-             [this] { tell_status(); }, [this](std::uint64_t client) { return server->from_here(client); },
-             [this](const std::string& url) { kept.keep(url); },
-             [this](const std::string& url) { kept.forget(url); }}) {
+             [this] { send_status(); }, [this](std::uint64_t client) { return server->from_here(client); },
+             [this](const std::string& url) { saved_outputs.keep(url); },
+             [this](const std::string& url) { saved_outputs.forget(url); }}) {
     try {
       begin(std::move(source));
     } catch (...) {
@@ -61,13 +59,15 @@ struct LiveProgram::State {
     for (const std::string& url : options.send) {
       senders.add(url);
     }
-    kept.offer(options.resume_outputs);
+    saved_outputs.offer(options.resume_outputs);
     serve();
     LiveHooks hooks;
-    hooks.picture = [this](const Frame& frame) { show(frame); };
-    hooks.person = [this](const StreamHeader& header) { meet(header); };
-    hooks.motion = [this](const MotionFrame& frame, double taken) { hand_out(frame, taken); };
-    hooks.message = [this](MessageLevel level, const std::string& words) { hear(level, words); };
+    hooks.picture = [this](const Frame& frame) { keep_picture(frame); };
+    hooks.person = [this](const StreamHeader& header) { on_person(header); };
+    hooks.motion = [this](const MotionFrame& frame, double taken) { on_motion(frame, taken); };
+    hooks.message = [this](MessageLevel level, const std::string& words) {
+      on_session_message(level, words);
+    };
     const SourceInfo info = source->info();
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
@@ -76,10 +76,10 @@ struct LiveProgram::State {
     }
     ready = session.get();
     answers.begin(*session);
-    for (const std::string& text : greeting()) {  // to pages that came while there was little to say
+    for (const std::string& text : first_messages()) {  // to pages that came while there was little to say
       server->send_text(kWords, shared(text));
     }
-    painter = std::thread([this] { paint(); });
+    picture_thread = std::thread([this] { send_pictures(); });
     ticker = std::thread([this] { tick(); });
   }
 
@@ -90,7 +90,7 @@ struct LiveProgram::State {
       stop = true;
     }
     changed.notify_all();
-    for (std::thread* const thread : {&ticker, &painter}) {
+    for (std::thread* const thread : {&ticker, &picture_thread}) {
       if (thread->joinable()) {
         thread->join();
       }
@@ -104,13 +104,13 @@ struct LiveProgram::State {
     if (server) {
       server->stop();
     }
-    kept.save();
+    saved_outputs.save();
   }
 
   void serve() {
     WebHandlers handlers;
     handlers.get = [this](const std::string& path) { return live_file(path, avatars, recorder); };
-    handlers.opened = [this](std::uint64_t) { return greeting(); };
+    handlers.opened = [this](std::uint64_t) { return first_messages(); };
     handlers.text = [this](std::uint64_t client, std::string_view text) {
       return serving ? answers(client, text) : std::nullopt;
     };
@@ -118,7 +118,7 @@ struct LiveProgram::State {
     serving = true;
   }
 
-  void tell(MessageLevel level, const std::string& words) {
+  void notify(MessageLevel level, const std::string& words) {
     if (console) {
       console(level, words);
     }
@@ -127,18 +127,18 @@ struct LiveProgram::State {
     }
   }
 
-  // What the session says. It says an error when it ends by one.
-  void hear(MessageLevel level, const std::string& words) {
+  // Messages of the session. Its first error is the reason for its end.
+  void on_session_message(MessageLevel level, const std::string& words) {
     if (level == MessageLevel::error) {
       const std::lock_guard lock(mutex);
       if (session_error.empty()) {  // what fails later may fail of it
         session_error = words;
       }
     }
-    tell(level, words);
+    notify(level, words);
   }
 
-  std::vector<std::string> greeting() {
+  std::vector<std::string> first_messages() {
     std::vector<std::string> messages;
     {
       const std::lock_guard lock(mutex);
@@ -150,15 +150,15 @@ struct LiveProgram::State {
     }
     messages.push_back(status());
     if (const LiveSession* const running = ready) {
-      for (const std::string& words : running->state().warnings) {  // told before this page was open
+      for (const std::string& words : running->state().warnings) {  // reported before this page was open
         messages.push_back(words_message(MessageLevel::warning, words));
       }
     }
     return messages;
   }
 
-  // The image side: only leaves the picture for the painter.
-  void show(const Frame& frame) {
+  // The image side: only leaves the picture for the picture_thread.
+  void keep_picture(const Frame& frame) {
     if (!server->wanted(kPicture)) {
       return;
     }
@@ -169,7 +169,7 @@ struct LiveProgram::State {
     changed.notify_all();
   }
 
-  void paint() {
+  void send_pictures() {
     while (true) {
       Frame frame;
       {
@@ -187,24 +187,24 @@ struct LiveProgram::State {
     }
   }
 
-  // What fails beside the tracking (memory is short, say) must not end it; told once.
+  // A failure beside the tracking (out of memory, for example) must not end it; reported once.
   template <typename Work>
   void attempt(const Work& work) {
     try {
       work();
     } catch (const std::exception& e) {
-      if (!complained.exchange(true) && console) {
-        console(MessageLevel::error, std::string("the page is not told all: ") + e.what());
+      if (!failure_reported.exchange(true) && console) {
+        console(MessageLevel::error, std::string("the page does not get everything: ") + e.what());
       }
     }
   }
 
-  void meet(const StreamHeader& header) {
-    spoken = std::make_unique<PoseMessages>(header);
-    const std::string text = spoken->body();
+  void on_person(const StreamHeader& header) {
+    pose_messages = std::make_unique<PoseMessages>(header);
+    const std::string text = pose_messages->body();
     {
       const std::lock_guard lock(mutex);
-      body = text;  // first: a page that connects now gets it with its greeting or as the message
+      body = text;  // first: a page that connects now gets it with its first messages or as this message
     }
     server->send_text(kWords, shared(text));
     senders.person(header);
@@ -212,12 +212,12 @@ struct LiveProgram::State {
     give_heap_back();  // what the scene and the person were learned from
   }
 
-  void hand_out(const MotionFrame& frame, double taken) {
+  void on_motion(const MotionFrame& frame, double taken) {
     if (server->wanted(kPose)) {
-      server->send_text(kPose, shared(spoken->pose(frame, kMs * taken)));
+      server->send_text(kPose, shared(pose_messages->pose(frame, kMs * taken)));
       ++poses;
     } else {
-      spoken->pass(frame);
+      pose_messages->pass(frame);
     }
     senders.send(frame, kMs * taken);
     recorder.write(frame);
@@ -241,14 +241,14 @@ struct LiveProgram::State {
     return status_message(now);
   }
 
-  void tell_status() {
+  void send_status() {
     if (server->clients() > 0) {
       server->send_text(kStatus, shared(status()));
     }
   }
 
   void tick() {
-    bool told_end = false;
+    bool end_reported = false;
     while (true) {
       {
         std::unique_lock lock(mutex);
@@ -259,20 +259,20 @@ struct LiveProgram::State {
       }
       attempt([&] {
         const LiveState now = session->state();
-        wait_for_page(now.phase);
-        if (now.phase == LivePhase::ended && !told_end) {
-          tell_end(now.words);
-          told_end = true;
+        check_guide(now.phase);
+        if (now.phase == LivePhase::ended && !end_reported) {
+          report_end(now.words);
+          end_reported = true;
         }
       });
-      attempt([this] { kept.save(); });
-      attempt([this] { tell_outputs(); });
-      attempt([this] { tell_status(); });
+      attempt([this] { saved_outputs.save(); });
+      attempt([this] { report_sender_states(); });
+      attempt([this] { send_status(); });
     }
   }
 
   // Pages show the list of outputs; the console reports changes.
-  void tell_outputs() {
+  void report_sender_states() {
     for (const SenderStateReporter::Report& report : sender_states.update(senders.status())) {
       if (console) {
         console(report.level, report.text);
@@ -280,29 +280,29 @@ struct LiveProgram::State {
     }
   }
 
-  // The empty room is asked for by a page.
-  void wait_for_page(LivePhase phase) {
+  // A page asks the user for the empty room.
+  void check_guide(LivePhase phase) {
     switch (guide_timeout.update(phase == LivePhase::empty_room, server->clients(), clock.now())) {
       case GuideTimeout::Step::none:
         break;
       case GuideTimeout::Step::ask:
-        tell(MessageLevel::warning,
-             "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
-                 "\n  Without a page the start goes on by itself after " +
-                 std::to_string(std::lround(guide_timeout.seconds())) + " s; --no-guide does not wait.");
+        notify(MessageLevel::warning,
+               "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
+                   "\n  Without a page the start goes on by itself after " +
+                   std::to_string(std::lround(guide_timeout.seconds())) + " s; --no-guide does not wait.");
         break;
       case GuideTimeout::Step::skip:
-        tell(MessageLevel::warning,
-             "no page is open to guide the start: going on without a picture of the empty room");
+        notify(MessageLevel::warning,
+               "no page is open to guide the start: going on without a picture of the empty room");
         session->guide(GuideStep::skip);
         break;
     }
   }
 
-  void tell_end(const std::string& words) {
+  void report_end(const std::string& words) {
     const std::optional<LiveFailure> why = failure();
-    if (why ? why->input : !words.empty()) {  // what failed inside was told when it did
-      tell(why ? MessageLevel::error : MessageLevel::warning, words);
+    if (why ? why->input : !words.empty()) {  // internal failures were reported when they happened
+      notify(why ? MessageLevel::error : MessageLevel::warning, words);
     }
   }
 
@@ -327,18 +327,18 @@ struct LiveProgram::State {
   double cpu_at_start = processor_seconds();
   std::atomic<bool> serving = false;  // the server is there
   SenderList senders{options.sender_kinds};
-  SavedOutputs kept{options.settings, senders,
-                    [this](MessageLevel level, const std::string& words) { tell(level, words); }};
+  SavedOutputs saved_outputs{options.settings, senders,
+                             [this](MessageLevel level, const std::string& words) { notify(level, words); }};
   Recorder recorder;
   AvatarFolder avatars{options.avatars};
   LiveAnswers answers;
   std::atomic<const LiveSession*> ready = nullptr;
   std::atomic<std::int64_t> poses = 0;
   std::atomic<std::int64_t> pictures = 0;
-  std::unique_ptr<PoseMessages> spoken;           // of the search side
+  std::unique_ptr<PoseMessages> pose_messages;    // of the search side
   GuideTimeout guide_timeout{options.page_wait};  // of the ticker
   SenderStateReporter sender_states;              // of the ticker
-  std::atomic<bool> complained = false;
+  std::atomic<bool> failure_reported = false;
 
   mutable std::mutex mutex;  // of what follows
   std::condition_variable changed;
@@ -351,7 +351,7 @@ struct LiveProgram::State {
 
   std::unique_ptr<WebServer> server;
   std::unique_ptr<LiveSession> session;
-  std::thread painter;
+  std::thread picture_thread;
   std::thread ticker;
 };
 

@@ -8,9 +8,9 @@
 #include <thread>
 #include <utility>
 
+#include "telemime/live/background_frames.h"
 #include "telemime/live/frame_exchange.h"
 #include "telemime/live/pace.h"
-#include "telemime/live/room_pictures.h"
 #include "telemime/tracker/message_deduplicator.h"
 #include "telemime/tracker/scene.h"
 #include "telemime/tracker/set_up.h"
@@ -23,7 +23,7 @@ constexpr double kStopped = 2.0;  // s without a picture
 constexpr double kMs = 1000.0;    // of a second
 
 // What the user asked for since the last frame.
-struct Wishes {
+struct UserRequests {
   std::optional<GuideStep> guide;
   bool recalibrate = false;
 };
@@ -48,12 +48,12 @@ struct LiveSession::State {
     phase = scene_known ? LivePhase::person : guide ? LivePhase::empty_room : LivePhase::background;
     exchange.set_calibrated(run->state.calibrated());
     for (const std::string& words : messages) {
-      say(words);
+      report(words);
     }
-    source->attend([this](const SourceNews& news) { hear(news); });
+    source->attend([this](const SourceNews& news) { on_source_news(news); });
   }
 
-  void say(const std::string& words, MessageLevel level = MessageLevel::info) const {
+  void report(const std::string& words, MessageLevel level = MessageLevel::info) const {
     if (hooks.message) {
       hooks.message(level, words);
     }
@@ -70,8 +70,8 @@ struct LiveSession::State {
     return phase;
   }
 
-  // The next picture; nothing at the end, or when all is to stop.
-  std::optional<Frame> take() {
+  // The next frame; nothing at the end of the input, or when the session stops.
+  std::optional<Frame> next_frame() {
     {
       const std::lock_guard lock(mutex);
       waiting_since = clock.now();
@@ -93,8 +93,8 @@ struct LiveSession::State {
     return frame;
   }
 
-  // From within take().
-  void hear(const SourceNews& news) {
+  // Called from within next_frame().
+  void on_source_news(const SourceNews& news) {
     using Change = SourceNews::Kind;
     {
       const std::lock_guard lock(mutex);
@@ -104,7 +104,7 @@ struct LiveSession::State {
         camera_warnings[news.matter] = news.words;
       }
     }
-    say(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
+    report(news.words, news.kind == Change::better ? MessageLevel::info : MessageLevel::warning);
     if (news.kind == Change::gone) {
       {
         const std::lock_guard lock(mutex);
@@ -112,9 +112,9 @@ struct LiveSession::State {
         person_warnings.clear();
       }
       if (exchange.wait_for_search()) {
-        leave_person();
+        report_lost();
         const std::lock_guard lock(mutex);
-        statistics.clear();  // what comes before and after says nothing of each other
+        statistics.clear();  // times across the gap mean nothing
       }
     }
   }
@@ -124,36 +124,36 @@ struct LiveSession::State {
     source->stop();
   }
 
-  // The image side's thread.
-  void see() {
+  // The function of the image thread.
+  void run_image_side() {
     guarded([this] {
       bool more = true;
       while (more && !exchange.stopping()) {
-        follow_wishes();
+        apply_requests();
         const LivePhase now = current();
-        more = now == LivePhase::empty_room   ? take().has_value()
+        more = now == LivePhase::empty_room   ? next_frame().has_value()
                : now == LivePhase::background ? learn_background()
-                                              : look();
+                                              : extract_next();
       }
     });
     exchange.wait_for_search();
     if (!exchange.stopping()) {
-      guarded([this] { leave_person(); });  // what failed before may fail again
+      guarded([this] { report_lost(); });  // what failed before may fail again
       enter(LivePhase::ended, failure.empty() ? source->complaint() : failure);
     }
     exchange.finish();
   }
 
-  void follow_wishes() {
-    Wishes asked;
+  void apply_requests() {
+    UserRequests asked;
     {
       const std::lock_guard lock(mutex);
-      asked = std::exchange(wishes, {});
+      asked = std::exchange(requests, {});
     }
     if (asked.guide == GuideStep::empty || asked.guide == GuideStep::skip) {
       {
         const std::lock_guard lock(mutex);
-        empty_promised = asked.guide == GuideStep::empty;
+        scene_is_empty = asked.guide == GuideStep::empty;
       }
       if (current() == LivePhase::empty_room) {
         enter(LivePhase::background, "");
@@ -161,7 +161,7 @@ struct LiveSession::State {
     }
     if ((asked.recalibrate || asked.guide == GuideStep::again) && exchange.wait_for_search()) {
       forget_person(*run);
-      leave_person();
+      report_lost();
       exchange.set_calibrated(false);
       reported.forget();
       {
@@ -176,8 +176,8 @@ struct LiveSession::State {
     }
   }
 
-  // Receivers are told that the person is gone; while the search has nothing to do.
-  void leave_person() {
+  // Reports the person as lost. Only while the search is idle.
+  void report_lost() {
     if (last_motion && hooks.motion) {
       last_motion->state = TrackState::lost;
       hooks.motion(*last_motion, last_taken);
@@ -187,35 +187,35 @@ struct LiveSession::State {
 
   // False at the end of the input.
   bool learn_background() {
-    const std::vector<Frame> frames = room_pictures([this] { return take(); });
+    const std::vector<Frame> frames = background_frames([this] { return next_frame(); });
     if (frames.empty() || exchange.stopping()) {
       return false;
     }
-    if (empty_promised) {
+    if (scene_is_empty) {
       run->scene.features.learn_background(frames);
-      say("background: the empty room, from " + std::to_string(frames.size()) + " pictures");
+      report("background: the empty room, from " + std::to_string(frames.size()) + " pictures");
     } else {
-      say("background: " + run->scene.features.bootstrap(frames).sentence);
+      report("background: " + run->scene.features.bootstrap(frames).sentence);
     }
     const std::lock_guard lock(mutex);
     phase = LivePhase::person;
     reason.clear();
-    statistics.clear();  // what was not looked at in the meantime was not dropped
+    statistics.clear();  // frames of that time were not dropped
     return true;
   }
 
-  // The next frame's features, and over to the search; false at the end.
-  bool look() {
+  // Passes the features of the next frame to the search; false at the end of the input.
+  bool extract_next() {
     LiveSlot* const slot = exchange.free_slot();
     if (slot == nullptr) {
       return false;
     }
     const bool calibrated = exchange.calibrated();
-    const std::optional<Frame> frame = take();
+    const std::optional<Frame> frame = next_frame();
     if (!frame) {
       return false;
     }
-    slot->times = {frame->index, frame->taken, clock.now(), 0.0, 0.0, 0.0};
+    slot->times = {.index = frame->index, .taken = frame->taken, .begun = clock.now()};
     // Until a person is calibrated the search is idle here, and its state may be read.
     const ColourRequest colours = calibrated ? ColourRequest::keep : colour_request(run->state);
     slot->record.frame = *frame;
@@ -225,11 +225,11 @@ struct LiveSession::State {
     return true;
   }
 
-  // The search side's thread.
-  void search() {
+  // The function of the search thread.
+  void run_search_side() {
     const bool well = guarded([this] {
       while (LiveSlot* const slot = exchange.take()) {
-        decide(*slot);
+        estimate_pose(*slot);
         exchange.done(run->state.calibrated());
       }
     });
@@ -239,12 +239,12 @@ struct LiveSession::State {
     }
   }
 
-  void decide(LiveSlot& slot) {
+  void estimate_pose(LiveSlot& slot) {
     slot.times.searched = clock.now();
     const bool was_calibrated = exchange.calibrated() && smoother != nullptr;
     const double effort = request.keep_pace ? pace.effort() : 1.0;
     const FrameEstimate result = estimate(slot.record.features, run->tracker, run->state, effort);
-    learn_pace(slot.times);
+    update_pace(slot.times);
     const bool calibrated = run->state.calibrated();
     if (calibrated && !was_calibrated) {
       const StreamHeader header = header_of(source->info(), *run);
@@ -259,7 +259,7 @@ struct LiveSession::State {
     }
     for (const std::string& words : slot.record.features.warnings) {
       if (reported.first_time(words)) {
-        say(words, MessageLevel::warning);
+        report(words, MessageLevel::warning);
       }
     }
     if (calibrated && hooks.motion) {
@@ -276,8 +276,8 @@ struct LiveSession::State {
                                                         : LivePhase::person;
   }
 
-  // Only frames of a person who is followed: to find one takes longer, and seldom.
-  void learn_pace(const FrameTimes& times) {
+  // Counts only frames of a tracked person: finding one takes longer, but happens seldom.
+  void update_pace(const FrameTimes& times) {
     const auto frames = static_cast<double>(times.index - followed.index);
     if (last_motion && last_motion->state == TrackState::tracking && frames > 0.0) {
       pace.searched(kMs * (clock.now() - times.searched), kMs * (times.taken - followed.taken) / frames);
@@ -292,7 +292,7 @@ struct LiveSession::State {
       work();
       return true;
     } catch (const std::exception& e) {
-      say(e.what(), MessageLevel::error);
+      report(e.what(), MessageLevel::error);
       const std::lock_guard lock(mutex);
       failure = failure.empty() ? e.what() : failure;
       return false;
@@ -313,14 +313,14 @@ struct LiveSession::State {
   std::unique_ptr<Smoother> smoother;      // of the search side
   MessageDeduplicator reported;            // of the search thread
 
-  mutable std::mutex mutex;  // of what follows
-  Wishes wishes;
-  bool empty_promised = false;  // changed by the image side alone: the user says that the room is empty
-  bool opened = false;          // a picture has come
+  mutable std::mutex mutex;  // guards what follows
+  UserRequests requests;
+  bool scene_is_empty = false;  // the user said so; changed by the image thread alone
+  bool opened = false;          // the first frame has arrived
   LivePhase phase = LivePhase::person;
   std::string reason;  // why nobody is tracked, for the user
   std::string failure;
-  std::optional<double> waiting_since;  // for a picture, s of the clock
+  std::optional<double> waiting_since;  // for a frame, s of the clock
   std::string camera_words;             // why there is none
   std::map<SourceNews::Matter, std::string> camera_warnings;
   std::vector<std::string> person_warnings;
@@ -334,8 +334,8 @@ LiveSession::LiveSession(const TrackRequest& request, bool guided, std::unique_p
                          LiveHooks hooks, Clock clock)
     : state_(
           std::make_unique<State>(request, guided, std::move(source), std::move(hooks), std::move(clock))) {
-  state_->search_side = std::thread([s = state_.get()] { s->search(); });
-  state_->image_side = std::thread([s = state_.get()] { s->see(); });
+  state_->search_side = std::thread([s = state_.get()] { s->run_search_side(); });
+  state_->image_side = std::thread([s = state_.get()] { s->run_image_side(); });
 }
 
 LiveSession::~LiveSession() {
@@ -352,18 +352,18 @@ void LiveSession::stop() {
 
 void LiveSession::guide(GuideStep step) {
   const std::lock_guard lock(state_->mutex);
-  state_->wishes.guide = step;
+  state_->requests.guide = step;
 }
 
 void LiveSession::recalibrate() {
   const std::lock_guard lock(state_->mutex);
-  state_->wishes.recalibrate = true;
+  state_->requests.recalibrate = true;
 }
 
 LiveState LiveSession::state() const {
   const double now = state_->clock.now();
   const std::lock_guard lock(state_->mutex);
-  LiveState state{state_->phase, state_->reason, state_->statistics.rates(now), state_->empty_promised, {}};
+  LiveState state{state_->phase, state_->reason, state_->statistics.rates(now), state_->scene_is_empty, {}};
   if (state.phase == LivePhase::ended) {
     return state;
   }

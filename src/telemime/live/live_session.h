@@ -4,13 +4,10 @@
 #include <functional>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "telemime/capture/clock.h"
 #include "telemime/capture/source.h"
-#include "telemime/live/live_phase.h"
-#include "telemime/live/live_statistics.h"
-#include "telemime/live/message_level.h"
+#include "telemime/live/live_state.h"
 #include "telemime/outputs/encoder.h"
 #include "telemime/tracker/track_request.h"
 
@@ -26,18 +23,6 @@ struct LiveHooks {
   std::function<void(const StreamHeader&)> person;  ///< a person was calibrated: their frames follow
   std::function<void(const MotionFrame&, double taken)> motion;   ///< smoothed
   std::function<void(MessageLevel, const std::string&)> message;  ///< messages for the user
-};
-
-/// As long as there is no session yet: `opening`.
-struct LiveState {
-  LivePhase phase = LivePhase::opening;
-  std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
-  LiveRates rates;
-  /// In the phase `background`: the user said that the room is empty. Otherwise the background is learned
-  /// around the person.
-  bool room_empty = false;
-  /// Warnings of LiveHooks::message that still apply, about the camera and the person.
-  std::vector<std::string> warnings;
 };
 
 /// Tracks a live source in two threads (thesis 3.2, figure 3-2): features of one frame beside the search of

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <thread>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -20,13 +20,7 @@ class Settings : public ::testing::Test {
  protected:
   void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
   std::string refusal() const {
-    try {
-      load_settings(file_);
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::config);
-      return e.what();
-    }
-    return "";
+    return error_of(ErrorKind::config, [&] { load_settings(file_); });
   }
 
   ScratchFolder folder_;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/live/message_level.h"
+#include "telemime/live/live_state.h"
 #include "telemime/outputs/all.h"
 
 namespace telemime {

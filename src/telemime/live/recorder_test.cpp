@@ -9,11 +9,12 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
-#include <iterator>
+#include <functional>
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "telemime/core/files.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/outputs/readers/jsonl.h"
 #include "telemime/outputs/testing_motion.h"
@@ -37,6 +38,18 @@ class Records : public ::testing::Test {
                                             : errors_) += words + "\n";
         },
         most_frames, formats);
+  }
+  // A recorder that has begun to record a person.
+  std::unique_ptr<Recorder> started(std::int64_t most_frames = kMostRecordedFrames) {
+    auto r = recorder(most_frames);
+    r->person(header_);
+    r->start();
+    return r;
+  }
+  // Stops it and waits until this number of recordings has ended.
+  bool stops(Recorder& recorder, std::size_t recordings) {
+    recorder.stop();
+    return comes_true([&] { return recorder.ended().size() == recordings; });
   }
   std::string errors() {
     const std::lock_guard lock(mutex_);
@@ -62,13 +75,9 @@ class Records : public ::testing::Test {
     };
     EXPECT_TRUE(comes_true([&] { return frames() > written_ || !errors().empty(); }));
   }
-  static std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
   // How many keys the animation in a GLB file has.
   static std::size_t keys(const fs::path& file) {
-    const std::string bytes = text_of(file);
+    const std::string bytes = read_text_file(file);
     EXPECT_EQ(bytes.substr(0, 4), "glTF");
     std::uint32_t length = 0;
     std::copy_n(bytes.begin() + 12, sizeof length, reinterpret_cast<char*>(&length));
@@ -87,12 +96,9 @@ class Records : public ::testing::Test {
 };
 
 TEST_F(Records, EveryFormatFromStartToStop) {
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
+  const auto r = started();
   write(*r, 50);
-  r->stop();
-  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 1; }));
+  ASSERT_TRUE(stops(*r, 1));
   const Recording recording = r->ended().front();
   EXPECT_EQ(recording.frames, 50);
   EXPECT_EQ(recording.files.size(), kOutputFormats.size());
@@ -108,12 +114,9 @@ TEST_F(Records, EveryFormatFromStartToStop) {
 }
 
 TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
-  const auto r = recorder(40);
-  r->person(header_);
-  r->start();
+  const auto r = started(40);
   write(*r, 100);
-  r->stop();
-  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 3; }));
+  ASSERT_TRUE(stops(*r, 3));
   EXPECT_EQ(r->ended()[0].frames, 40);
   EXPECT_EQ(r->ended()[1].frames, 40);
   EXPECT_EQ(r->ended()[2].frames, 20);
@@ -123,9 +126,7 @@ TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
 }
 
 TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
+  const auto r = started();
   for (const double time : {0.0, 8.0, 100'000.0, 100'000.04}) {
     const auto index = static_cast<std::int64_t>(std::lround(time * header_.fps));
     r->write(testing_motion::frame_of(header_.body, header_.camera, Pose{}, index, header_.fps));
@@ -140,14 +141,11 @@ TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
 }
 
 TEST_F(Records, AnotherBodyGoesOnInTheNext) {
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
+  const auto r = started();
   write(*r, 20);
   r->person(header_);
   write(*r, 10);
-  r->stop();
-  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 2; }));
+  ASSERT_TRUE(stops(*r, 2));
   EXPECT_EQ(r->ended()[0].frames, 20);
   EXPECT_EQ(r->ended()[1].frames, 10);
   const std::lock_guard lock(mutex_);
@@ -174,13 +172,12 @@ TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {
   for (std::size_t time = 1; time <= 2; ++time) {
     r->start();
     write(*r, 5);
-    r->stop();
-    ASSERT_TRUE(comes_true([&] { return r->ended().size() == time; }));
+    ASSERT_TRUE(stops(*r, time));
     EXPECT_FALSE(r->current());
     const Recording recording = r->ended().back();
     EXPECT_EQ(recording.files.size(), 2U);
     EXPECT_EQ(keys(recording.folder / "motion.glb"), 5U);
-    EXPECT_EQ(text_of(recording.folder / "motion.odd").substr(0, 11), "head\nframe\n");
+    EXPECT_EQ(read_text_file(recording.folder / "motion.odd").substr(0, 11), "head\nframe\n");
   }
   EXPECT_NE(errors().find("motion.odd is incomplete"), std::string::npos) << errors();
 }
@@ -188,37 +185,29 @@ TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {
 TEST_F(Records, FoldersOfOthersAreLeftAlone) {
   fs::create_directories(folder_.path() / "r" / "recording-1");
   std::ofstream(folder_.path() / "r" / "recording-2") << "a file";
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
+  const auto r = started();
   write(*r, 2);
-  r->stop();
-  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 1; }));
+  ASSERT_TRUE(stops(*r, 1));
   EXPECT_EQ(r->ended().front().folder.filename(), "recording-3");
   EXPECT_TRUE(fs::is_empty(folder_.path() / "r" / "recording-1"));
 }
 
-TEST_F(Records, AFolderThatCannotBeMadeIsAnErrorInWords) {
-  std::ofstream(folder_.path() / "r") << "a file";
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
-  write(*r, 1);
-  ASSERT_TRUE(comes_true([&] { return !errors().empty(); }));
-  EXPECT_NE(errors().find("--recordings"), std::string::npos) << errors();
-  EXPECT_FALSE(r->current());
-}
-
-// As behind a folder that may not be entered: even whether it is there cannot be said.
-TEST_F(Records, AFolderThatCannotBeLookedIntoIsAnErrorInWords) {
-  fs::create_symlink(folder_.path() / "r", folder_.path() / "r");
-  const auto r = recorder();
-  r->person(header_);
-  r->start();
-  write(*r, 1);
-  ASSERT_TRUE(comes_true([&] { return !errors().empty(); }));
-  EXPECT_NE(errors().find("--recordings"), std::string::npos) << errors();
-  EXPECT_FALSE(r->current());
+TEST_F(Records, AFolderThatCannotBeUsedIsAnError) {
+  const fs::path folder = folder_.path() / "r";
+  const std::function<void()> obstacles[] = {
+      [&] { std::ofstream(folder) << "a file"; },
+      // As behind a folder that may not be entered: even its existence is unknown.
+      [&] { fs::create_symlink(folder, folder); }};
+  for (const auto& make_obstacle : obstacles) {
+    errors_.clear();
+    fs::remove(folder);
+    make_obstacle();
+    const auto r = started();
+    write(*r, 1);
+    ASSERT_TRUE(comes_true([&] { return !errors().empty(); }));
+    EXPECT_NE(errors().find("--recordings"), std::string::npos) << errors();
+    EXPECT_FALSE(r->current());
+  }
 }
 
 // A limit to the size of files stands for the full disk: the system refuses to write in the same way.
@@ -252,8 +241,7 @@ TEST_F(Records, AFullDiskIsAnErrorInWordsAndWhatWasWrittenIsKept) {
 
   r->start();  // there is room again
   write(*r, 30);
-  r->stop();
-  ASSERT_TRUE(comes_true([&] { return r->ended().size() == 2; }));
+  ASSERT_TRUE(stops(*r, 2));
   EXPECT_GT(r->ended()[1].frames, 0);
 }
 

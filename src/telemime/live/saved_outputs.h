@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/live/message_level.h"
+#include "telemime/live/live_state.h"
 #include "telemime/live/sender_list.h"
 
 namespace telemime {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/testing_receivers.h"
 
@@ -17,12 +17,7 @@ std::string vmc(const UdpReceiver& receiver) {
 }
 
 std::string refusal(SenderList& list, const std::string& url) {
-  try {
-    list.add(url);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return error_of(ErrorKind::usage, [&] { list.add(url); });
 }
 
 TEST(SenderList, EquivalentUrlsAreOneOutput) {

@@ -12,6 +12,7 @@
 #include "telemime/core/files.h"
 
 namespace telemime {
+
 void prepare_outputs(const TrackRequest& request) {
   for (const std::string& name : request.formats) {
     output_format(name);  // throws for one that there is not

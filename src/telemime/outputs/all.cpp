@@ -2,19 +2,18 @@
 #include "telemime/outputs/all.h"
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 
 const OutputFormat& output_format(std::string_view name) {
-  std::string names;
   for (const OutputFormat& format : kOutputFormats) {
     if (format.name == name) {
       return format;
     }
-    names += (names.empty() ? "" : ", ") + std::string(format.name);
   }
   throw Error(ErrorKind::usage, "there is no output format \"" + std::string(name) + "\"",
-              "use one of " + names);
+              "use one of " + joined(kOutputFormats, &OutputFormat::name));
 }
 
 }  // namespace telemime

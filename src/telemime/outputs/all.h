@@ -7,15 +7,38 @@
 #include <string_view>
 
 #include "telemime/outputs/encoder.h"
-#include "telemime/outputs/encoders/bap.h"
-#include "telemime/outputs/encoders/bvh.h"
-#include "telemime/outputs/encoders/csv.h"
-#include "telemime/outputs/encoders/glb.h"
-#include "telemime/outputs/encoders/jsonl.h"
-#include "telemime/outputs/encoders/trc.h"
-#include "telemime/outputs/encoders/vrma.h"
 
 namespace telemime {
+
+/// pose.jsonl: one JSON object per line, the first describes the stream (docs/formats.md). Millimetres,
+/// degrees, camera frame.
+std::unique_ptr<Encoder> make_jsonl_encoder();
+
+/// pose.csv: one line per frame for spreadsheets, after a line with the names of the columns
+/// (docs/formats.md). Millimetres, degrees, camera frame.
+std::unique_ptr<Encoder> make_csv_encoder();
+
+/// motion.bvh: Biovision hierarchy, y up, facing +z, centimetres, T-pose at rest (bvh/skeleton.h).
+std::unique_ptr<Encoder> make_bvh_encoder();
+
+/// motion.bap: the 20 angles as body animation parameters of MPEG-4, for the player that the profile names
+/// (bap/profile.h). Throws Error(usage) for an unknown profile.
+std::unique_ptr<Encoder> make_bap_encoder(std::string_view profile);
+
+/// motion.glb: glTF 2.0 animation of a mannequin, metres, y up. motion.vrma: the bones only, named for VRM
+/// (VRMC_vrm_animation 1.0). Both are the skeleton of humanoid.h in its T-pose and an animation of it, as a
+/// binary glTF file.
+///
+/// A track of glTF must be contiguous, so keys cannot be appended one by one. Until `end`, all keys are
+/// appended again whenever their number has doubled, and the patch makes the head of the file refer to them.
+/// The file of a run that is killed is therefore valid and has at least half of the motion. Unused parts make
+/// the file two to three times as large; the keys stay in memory, 230 bytes each.
+std::unique_ptr<Encoder> make_glb_encoder();
+std::unique_ptr<Encoder> make_vrma_encoder();
+
+/// motion.trc: the joints as markers for OpenSim and others in OpenSim's layout: a tab after each cell, mm, y
+/// up (a joint at x, y, z of the camera frame is at x, -y, -z). The cells of a lost frame are empty.
+std::unique_ptr<Encoder> make_trc_encoder();
 
 /// Options of the output files.
 struct OutputOptions {

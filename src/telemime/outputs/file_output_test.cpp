@@ -9,11 +9,11 @@
 
 #include <csignal>
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/files.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/bap/reader.h"
 #include "telemime/outputs/bvh/bvh.h"
@@ -25,31 +25,11 @@ namespace {
 
 class FileOutputTest : public testing::Test {
  protected:
-  FileOutputTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("telemime_outputs_" + std::to_string(::getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~FileOutputTest() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-
   const StreamHeader header_ = testing_motion::header();
   const std::vector<MotionFrame> frames_ = testing_motion::gesture(header_, 10);
-  std::filesystem::path folder_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
 };
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::output);
-    return error.what();
-  }
-  return "nothing was thrown";
-}
 
 TEST_F(FileOutputTest, WritesWhatTheEncoderMakes) {
   for (const OutputFormat& format : kOutputFormats) {
@@ -86,14 +66,15 @@ TEST_F(FileOutputTest, AFileIsValidAfterEveryFrame) {
 
 TEST_F(FileOutputTest, AFullDiskIsNamed) {
   const std::string message =
-      message_of([&] { FileOutput output("/dev/full", make_jsonl_encoder(), header_); });
+      error_of(ErrorKind::output, [&] { FileOutput output("/dev/full", make_jsonl_encoder(), header_); });
   EXPECT_NE(message.find("/dev/full"), std::string::npos) << message;
   EXPECT_NE(message.find("No space left"), std::string::npos) << message;
 }
 
 TEST_F(FileOutputTest, AFolderThatIsNotThereIsNamed) {
   const std::string file = folder_ / "missing" / "pose.jsonl";
-  const std::string message = message_of([&] { FileOutput output(file, make_jsonl_encoder(), header_); });
+  const std::string message =
+      error_of(ErrorKind::output, [&] { FileOutput output(file, make_jsonl_encoder(), header_); });
   EXPECT_NE(message.find(file), std::string::npos) << message;
   EXPECT_NE(message.find("No such file"), std::string::npos) << message;
 }
@@ -109,7 +90,7 @@ TEST_F(FileOutputTest, AFrameThatDoesNotFitIsTakenBack) {
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
   output.write(frames_[0]);
   output.write(frames_[1]);
-  const std::string message = message_of([&] { output.write(frames_[2]); });
+  const std::string message = error_of(ErrorKind::output, [&] { output.write(frames_[2]); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(message.find("pose.jsonl"), std::string::npos) << message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/streaming/bap_tcp.h"
+#include "telemime/streaming/all.h"
 
 #include <array>
 #include <boost/asio/buffer.hpp>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "telemime/core/errors.h"
-#include "telemime/outputs/encoders/bap.h"
+#include "telemime/outputs/all.h"
 #include "telemime/streaming/send_queue.h"
 #include "telemime/streaming/tcp.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/streaming/bap_tcp.h"
+#include "telemime/streaming/all.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "telemime/outputs/encoders/bap.h"
+#include "telemime/outputs/all.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/send_queue.h"
 #include "telemime/streaming/sender.h"

@@ -5,20 +5,14 @@
 
 #include <algorithm>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/streaming/all.h"
 
 namespace telemime {
 namespace {
 
 std::string refusal(const std::string& url) {
-  try {
-    make_sender(url);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    return error.what();
-  }
-  return "nothing was refused";
+  return error_of(ErrorKind::usage, [&] { make_sender(url); });
 }
 
 // Options stand before the secret of a room's link.

@@ -1,40 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
+#include <netdb.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdint>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <thread>
+#include <utility>
 
+#include "telemime/streaming/testing_receivers.h"
 #include "telemime/streaming/web_server.h"
 
 namespace telemime {
 
-/// True as soon as `done` is; false when that takes longer than any test should.
-inline bool comes_true(const std::function<bool()>& done) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!done()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
+using testing_receivers::comes_true;
 
 struct WebReply {
   int status = 0;
@@ -53,8 +41,15 @@ struct WebReply {
 class RawClient {
  public:
   explicit RawClient(std::uint16_t port, const char* address = "127.0.0.1", int receive_buffer = 0) {
-    const bool v6 = std::string_view(address).find(':') != std::string_view::npos;
-    fd_ = ::socket(v6 ? AF_INET6 : AF_INET, SOCK_STREAM, 0);
+    addrinfo hints{};
+    hints.ai_flags = AI_NUMERICHOST;
+    hints.ai_socktype = SOCK_STREAM;
+    addrinfo* found = nullptr;
+    if (::getaddrinfo(address, std::to_string(port).c_str(), &hints, &found) != 0) {
+      throw std::runtime_error("no address");
+    }
+    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, ::freeaddrinfo);
+    fd_ = ::socket(found->ai_family, SOCK_STREAM, 0);
     if (receive_buffer > 0) {
       ::setsockopt(fd_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     }
@@ -63,17 +58,7 @@ class RawClient {
     const timeval limit{60, 0};
     ::setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     ::setsockopt(fd_, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-    sockaddr_in6 six{};
-    six.sin6_family = AF_INET6;
-    six.sin6_port = htons(port);
-    sockaddr_in four{};
-    four.sin_family = AF_INET;
-    four.sin_port = htons(port);
-    ::inet_pton(v6 ? AF_INET6 : AF_INET, address,
-                v6 ? static_cast<void*>(&six.sin6_addr) : static_cast<void*>(&four.sin_addr));
-    const int result = v6 ? ::connect(fd_, reinterpret_cast<sockaddr*>(&six), sizeof six)
-                          : ::connect(fd_, reinterpret_cast<sockaddr*>(&four), sizeof four);
-    if (result != 0) {
+    if (::connect(fd_, found->ai_addr, found->ai_addrlen) != 0) {
       ::close(fd_);
       throw std::runtime_error("no connection");
     }
@@ -151,11 +136,21 @@ inline std::string request_text(std::uint16_t port, const std::string& target,
          "\r\n";
 }
 
+/// The answer to these exact bytes; status 0 when there is none.
+inline WebReply reply_to(std::uint16_t port, const std::string& bytes, bool head = false) {
+  RawClient client(port);
+  client.send(bytes);
+  return client.reply(head);
+}
+
 inline WebReply ask(std::uint16_t port, const std::string& target, const std::string& headers = "",
                     const std::string& method = "GET") {
-  RawClient client(port);
-  client.send(request_text(port, target, headers, method));
-  return client.reply(method == "HEAD");
+  return reply_to(port, request_text(port, target, headers, method), method == "HEAD");
+}
+
+/// Bytes as the server sends them.
+inline WebBytes shared(std::string bytes) {
+  return std::make_shared<const std::string>(std::move(bytes));
 }
 
 /// A server for a test: any free port, and answers to "/" alone unless told otherwise.
@@ -165,7 +160,7 @@ inline WebHandlers small_page() {
     if (path != "/") {
       return std::nullopt;
     }
-    return WebContent{std::make_shared<const std::string>("<p>here</p>"), "text/html", "", false};
+    return WebContent{shared("<p>here</p>"), "text/html", "", false};
   };
   return handlers;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/streaming/vmc.h"
+#include "telemime/streaming/all.h"
 
 #include <gtest/gtest.h>
 

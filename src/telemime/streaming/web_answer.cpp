@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "telemime/streaming/web_file.h"
 #include "telemime/streaming/web_path.h"
 
 namespace telemime {
@@ -35,8 +36,7 @@ std::string content_policy(std::string_view host) {
   return policy + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
-template <typename Message>
-void set_guards(Message& message, const std::string& policy) {
+void set_guards(WebResponse& message, const std::string& policy) {
   message.set("Content-Security-Policy", policy);
   message.set("X-Content-Type-Options", "nosniff");
   message.set("X-Frame-Options", "DENY");
@@ -57,18 +57,17 @@ std::string plain_name(std::string name) {
   return name;
 }
 
-/// What is asked for of a file, by its headers. `message` is that of the whole.
-void set_file(WebAnswer& answer, WebFile file, const WebRequest& request) {
-  auto& message = answer.message;
-  WebRange range{WebRange::Kind::whole, 0, file.size()};
+/// Answers with the part of the file that the headers ask for.
+void set_file(WebResponse& message, WebFile file, const WebRequest& request) {
+  WebRange range{WebRange::Kind::whole, 0, file.size};
   const std::string_view condition = view(request[http::field::if_range]);
-  if (!answer.head && request.count(http::field::range) == 1 &&
-      (condition.empty() || condition == file.tag())) {
-    range = web_range(view(request[http::field::range]), file.size());
+  if (request.method() != http::verb::head && request.count(http::field::range) == 1 &&
+      (condition.empty() || condition == file.tag)) {
+    range = web_range(view(request[http::field::range]), file.size);
   }
-  const std::string size = std::to_string(file.size());
+  const std::string size = std::to_string(file.size);
   message.set(http::field::accept_ranges, "bytes");
-  message.set(http::field::etag, file.tag());
+  message.set(http::field::etag, file.tag);
   if (range.kind == WebRange::Kind::part) {
     message.result(http::status::partial_content);
     message.set(http::field::content_range, "bytes " + std::to_string(range.first) + "-" +
@@ -78,25 +77,42 @@ void set_file(WebAnswer& answer, WebFile file, const WebRequest& request) {
     message.set(http::field::content_range, "bytes */" + size);
   }
   message.content_length(range.size);
-  answer.first = range.first;
-  answer.left = answer.head ? 0 : range.size;
-  answer.file = std::make_shared<WebFile>(std::move(file));
+  boost::system::error_code error;
+  file.file.seek(range.first, error);
+  message.body() = {nullptr, std::move(file.file), error ? 0 : range.size};
 }
 
-void set_bytes(WebAnswer& answer, WebBytes bytes) {
-  answer.bytes = std::move(bytes);
-  answer.message.content_length(answer.bytes->size());
-  if (!answer.head) {
-    answer.message.body() = {answer.bytes->data(), answer.bytes->size()};
-  }
+void set_bytes(WebResponse& message, WebBytes bytes) {
+  message.content_length(bytes ? bytes->size() : 0);
+  message.body().bytes = std::move(bytes);
 }
 
 }  // namespace
 
-WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers) {
-  WebAnswer answer;
-  answer.head = request.method() == http::verb::head;
-  auto& message = answer.message;
+WebBody::writer::Part WebBody::writer::get(boost::system::error_code& error) {
+  // What is read at a time: between two parts other connections have their turn.
+  constexpr std::size_t kLongestPart = 128 * 1024;
+  error = {};
+  if (body_.bytes && !body_.bytes->empty()) {
+    return {{boost::asio::buffer(*body_.bytes), false}};
+  }
+  if (body_.left == 0) {
+    return boost::none;
+  }
+  part_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kLongestPart, body_.left)));
+  const std::size_t count = body_.file.read(part_.data(), part_.size(), error);
+  if (count == 0 && !error) {
+    error = http::error::partial_message;  // the file was cut short: the end of the connection shows it
+  }
+  if (error) {
+    return boost::none;
+  }
+  body_.left -= count;
+  return {{boost::asio::buffer(part_.data(), count), body_.left > 0}};
+}
+
+WebResponse web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers) {
+  WebResponse message;
   message.result(content.status);
   message.version(request.version());
   message.keep_alive(request.keep_alive());
@@ -109,23 +125,19 @@ WebAnswer web_content(WebContent content, const WebRequest& request, const WebHa
     message.set(http::field::content_disposition,
                 "attachment; filename=\"" + plain_name(std::move(content.file_name)) + "\"");
   }
-  if (!content.file.empty()) {
-    std::optional<WebFile> file = WebFile::open(content.file);
-    if (!file) {
-      return web_refusal(http::status::not_found, "This file is no longer there.");
-    }
-    set_file(answer, std::move(*file), request);
-  } else if (content.later) {
-    answer.later = std::move(content.later);
+  if (content.file.empty()) {
+    set_bytes(message, std::move(content.bytes));
+  } else if (std::optional<WebFile> file = open_web_file(content.file)) {
+    set_file(message, std::move(*file), request);
   } else {
-    set_bytes(answer, content.bytes ? std::move(content.bytes) : std::make_shared<const std::string>());
+    return web_refusal(http::status::not_found, "This file is no longer there.");
   }
-  return answer;
+  return message;
 }
 
 namespace {
 
-WebAnswer ask_handler(const WebRequest& request, const std::string& path, const WebHandlers& handlers) {
+WebResponse ask_handler(const WebRequest& request, const std::string& path, const WebHandlers& handlers) {
   std::optional<WebContent> content;
   try {
     content = handlers.get ? handlers.get(path) : std::nullopt;
@@ -141,7 +153,8 @@ WebAnswer ask_handler(const WebRequest& request, const std::string& path, const 
 
 /// Why the request may come from another web site, or from a page that goes by a false name; nothing when
 /// not.
-std::optional<WebAnswer> stranger(const WebRequest& request, const WebNames& names, std::string_view local) {
+std::optional<WebResponse> stranger(const WebRequest& request, const WebNames& names,
+                                    std::string_view local) {
   if (request.count(http::field::host) != 1) {
     return web_refusal(http::status::bad_request, "The request must have one Host header.");
   }
@@ -167,36 +180,16 @@ std::optional<WebAnswer> stranger(const WebRequest& request, const WebNames& nam
 
 }  // namespace
 
-void WebAnswer::finish(WebBytes made) {
-  later = nullptr;
-  if (made) {
-    set_bytes(*this, std::move(made));
-    return;
-  }
-  refuse(http::status::internal_server_error, "The program could not make this.");
-}
-
-void WebAnswer::refuse(http::status status, const std::string& words) {
-  const bool without_body = head;
-  *this = web_refusal(status, words);
-  if (without_body) {
-    message.body() = {};
-  }
-}
-
-WebAnswer web_refusal(http::status status, const std::string& words) {
-  WebAnswer answer;
-  answer.bytes = std::make_shared<const std::string>(words + "\n");
-  auto& message = answer.message;
+WebResponse web_refusal(http::status status, const std::string& words) {
+  WebResponse message;
   message.result(status);
   message.version(11);
   message.keep_alive(false);
   set_guards(message, content_policy({}));
   message.set(http::field::content_type, "text/plain; charset=utf-8");
   message.set(http::field::cache_control, "no-store");
-  message.content_length(answer.bytes->size());
-  message.body() = {answer.bytes->data(), answer.bytes->size()};
-  return answer;
+  set_bytes(message, std::make_shared<const std::string>(words + "\n"));
+  return message;
 }
 
 bool web_post(const WebRequest& request, const WebNames& names, std::string_view local,
@@ -215,15 +208,15 @@ bool web_post(const WebRequest& request, const WebNames& names, std::string_view
   return true;
 }
 
-WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
-                     const WebHandlers& handlers) {
-  if (std::optional<WebAnswer> refusal = stranger(request, names, local)) {
-    return std::move(*refusal);
+std::optional<WebResponse> web_answer(const WebRequest& request, bool has_body, const WebNames& names,
+                                      std::string_view local, const WebHandlers& handlers) {
+  if (std::optional<WebResponse> refusal = stranger(request, names, local)) {
+    return refusal;
   }
   const bool head = request.method() == http::verb::head;
   if (!head && request.method() != http::verb::get) {
-    WebAnswer refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are answered.");
-    refusal.message.set(http::field::allow, "GET, HEAD");
+    WebResponse refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are answered.");
+    refusal.set(http::field::allow, "GET, HEAD");
     return refusal;
   }
   if (has_body) {
@@ -236,21 +229,22 @@ WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& n
   if (!path) {
     return web_refusal(http::status::bad_request, "The address is malformed.");
   }
-  WebAnswer answer;
-  answer.upgrade = *path == socket_path && boost::beast::websocket::is_upgrade(request);
-  if (answer.upgrade) {
+  if (*path != socket_path) {
+    WebResponse answer = ask_handler(request, *path, handlers);
+    if (head) {
+      answer.body() = {};  // the headers stay
+    }
     return answer;
   }
-  if (*path == socket_path) {
-    answer = web_refusal(http::status::upgrade_required, "This address is for WebSockets.");
-    answer.message.set(http::field::upgrade, "websocket");
-  } else {
-    answer = ask_handler(request, *path, handlers);
+  if (boost::beast::websocket::is_upgrade(request)) {
+    return std::nullopt;
   }
+  WebResponse refusal = web_refusal(http::status::upgrade_required, "This address is for WebSockets.");
+  refusal.set(http::field::upgrade, "websocket");
   if (head) {
-    answer.message.body() = {};
+    refusal.body() = {};
   }
-  return answer;
+  return refusal;
 }
 
 }  // namespace telemime

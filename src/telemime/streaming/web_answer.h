@@ -1,45 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/core/file_posix.hpp>
 #include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/error.hpp>
 #include <boost/beast/http/message.hpp>
-#include <boost/beast/http/span_body.hpp>
+#include <boost/optional/optional.hpp>
 #include <cstdint>
-#include <functional>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "telemime/streaming/web_file.h"
 #include "telemime/streaming/web_origin.h"
 #include "telemime/streaming/web_server.h"
 
 namespace telemime {
 
-using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+/// The body of an answer, for Beast: bytes, or a part of a file, which is read while it is sent.
+struct WebBody {
+  struct value_type {
+    WebBytes bytes;                 ///< may be null
+    boost::beast::file_posix file;  ///< from its position on
+    std::uint64_t left = 0;         ///< bytes of the file
+  };
 
-/// What to do about a request.
-struct WebAnswer {
-  bool upgrade = false;  ///< it is a WebSocket; the rest is empty
-  boost::beast::http::response<boost::beast::http::span_body<const char>> message;
-  WebBytes bytes;                 ///< what message.body() looks at
-  std::shared_ptr<WebFile> file;  ///< what follows the message, from `first` on, `left` bytes
-  std::uint64_t first = 0;
-  std::uint64_t left = 0;
-  /// Not empty: first this, then finish().
-  std::function<void(std::function<void(WebBytes)>)> later;
-  /// Puts the bytes in that were waited for; none become a refusal.
-  void finish(WebBytes made);
-  /// Becomes web_refusal() instead, without bytes where none are to be sent.
-  void refuse(boost::beast::http::status status, const std::string& words);
+  class writer {
+   public:
+    using const_buffers_type = boost::asio::const_buffer;
+    using Part = boost::optional<std::pair<const_buffers_type, bool>>;
 
-  bool head = false;  ///< no bytes are to be sent
+    template <bool is_request, class Fields>
+    writer(boost::beast::http::header<is_request, Fields>& /*header*/, value_type& body) : body_(body) {}
+    void init(boost::system::error_code& error) { error = {}; }
+    Part get(boost::system::error_code& error);
+
+   private:
+    value_type& body_;
+    std::vector<char> part_;  ///< of the file
+  };
 };
 
-/// Decides about anything but a POST that is taken. `request` is a whole header; `has_body` says whether
-/// something follows it, which is always refused. `local` is the address at which the connection came in.
-WebAnswer web_answer(const WebRequest& request, bool has_body, const WebNames& names, std::string_view local,
-                     const WebHandlers& handlers);
+using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
+using WebResponse = boost::beast::http::response<WebBody>;
+
+/// Answers anything but a POST that is taken; nothing when the request asks for a WebSocket. `request` is a
+/// whole header; `has_body` says whether something follows it, which is always refused. `local` is the
+/// address at which the connection came in.
+std::optional<WebResponse> web_answer(const WebRequest& request, bool has_body, const WebNames& names,
+                                      std::string_view local, const WebHandlers& handlers);
 
 /// Whether the request is a POST that handlers.post is to be asked about, once its body was read. `post`
 /// gets path and headers. False: web_answer() knows.
@@ -47,9 +58,9 @@ bool web_post(const WebRequest& request, const WebNames& names, std::string_view
               const WebHandlers& handlers, WebPost& post);
 
 /// What stands in `content`, for that request.
-WebAnswer web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers);
+WebResponse web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers);
 
 /// A plain text answer with a status; then the connection is closed.
-WebAnswer web_refusal(boost::beast::http::status status, const std::string& words);
+WebResponse web_refusal(boost::beast::http::status status, const std::string& words);
 
 }  // namespace telemime

@@ -12,13 +12,6 @@
 namespace telemime {
 namespace {
 
-/// The status that these exact bytes are answered with; 0 when there is no answer.
-int status_of(std::uint16_t port, const std::string& bytes) {
-  RawClient client(port);
-  client.send(bytes);
-  return client.reply().status;
-}
-
 /// A server that answers every path, and remembers them.
 class Attack : public ::testing::Test {
  protected:
@@ -26,14 +19,13 @@ class Attack : public ::testing::Test {
     WebHandlers handlers;
     handlers.get = [&asked](const std::string&) {
       ++asked;
-      return std::optional<WebContent>(
-          WebContent{std::make_shared<const std::string>("secret"), "text/plain", "", false});
+      return std::optional<WebContent>(WebContent{shared("secret"), "text/plain", "", false});
     };
     handlers.text = [](std::uint64_t, std::string_view) { return std::optional<std::string>("secret"); };
     return handlers;
   }
   int with_headers(const std::string& headers, const std::string& target = "/") const {
-    return status_of(server_.port(), "GET " + target + " HTTP/1.1\r\n" + headers + "\r\n");
+    return reply_to(server_.port(), "GET " + target + " HTTP/1.1\r\n" + headers + "\r\n").status;
   }
   std::string here() const { return "localhost:" + std::to_string(server_.port()); }
   std::string host() const { return "Host: " + here() + "\r\n"; }
@@ -68,7 +60,7 @@ TEST_F(Attack, OtherHostsAreRefused) {
   EXPECT_EQ(with_headers(""), 400);
   EXPECT_EQ(with_headers(host() + "Host: evil.com\r\n"), 400);
   EXPECT_EQ(with_headers("Host: evil.com\r\n" + host()), 400);
-  EXPECT_EQ(status_of(server_.port(), "GET / HTTP/1.0\r\n\r\n"), 400);
+  EXPECT_EQ(reply_to(server_.port(), "GET / HTTP/1.0\r\n\r\n").status, 400);
   EXPECT_EQ(with_headers("Host: evil.com\r\nX-Forwarded-Host: " + here() + "\r\n"), 403);
   EXPECT_EQ(asked_, 0);
 }
@@ -159,7 +151,8 @@ TEST_F(Attack, AWebSocketIsOnlyThere) {
   EXPECT_EQ(plain.status, 426);
   EXPECT_EQ(plain.header("Upgrade"), "websocket");
   // What comes with the request cannot have been a WebSocket's.
-  EXPECT_EQ(status_of(server_.port(), request_text(server_.port(), "/ws", upgrade_headers) + "more"), 400);
+  EXPECT_EQ(reply_to(server_.port(), request_text(server_.port(), "/ws", upgrade_headers) + "more").status,
+            400);
 }
 
 TEST(SlowAttack, ClientsThatDawdleAreClosed) {
@@ -191,9 +184,9 @@ TEST(SlowAttack, WhoDoesNotReadAnAnswerIsClosed) {
   std::weak_ptr<const std::string> content;
   WebHandlers handlers;
   handlers.get = [&](const std::string&) {
-    const auto huge = std::make_shared<const std::string>(50'000'000, 'x');
+    const auto huge = shared(std::string(50'000'000, 'x'));
     content = huge;
-    return std::optional<WebContent>(WebContent{huge, "text/plain", "", false});
+    return std::optional(WebContent{huge, "text/plain", "", false});
   };
   const WebServer server(options, handlers);
   RawClient client(server.port(), "127.0.0.1", 4096);

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "telemime/streaming/web_stream.h"
+
 namespace telemime {
 namespace {
 
@@ -19,18 +21,6 @@ using boost::system::error_code;
 constexpr std::size_t piece = 64 * 1024;
 // The system's own queue would hold seconds of old pictures for a slow client.
 constexpr int kernel_buffer = 256 * 1024;
-
-bool came_over_loopback(const boost::asio::ip::tcp::socket& socket) {
-  error_code error;
-  const boost::asio::ip::address address = socket.remote_endpoint(error).address();
-  if (error) {
-    return false;
-  }
-  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
-    return make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).is_loopback();
-  }
-  return address.is_loopback();
-}
 
 }  // namespace
 
@@ -63,7 +53,7 @@ void WebClient::start(const WebRequest& request) {
 
 void WebClient::opened() {
   const std::optional<std::uint64_t> id =
-      hub_->join(shared_from_this(), came_over_loopback(beast::get_lowest_layer(stream_).socket()));
+      hub_->join(shared_from_this(), remote_address(beast::get_lowest_layer(stream_).socket()).is_loopback());
   if (!id) {
     close(Code::try_again_later, "Too many pages are open. Close one.");
     return;

@@ -13,10 +13,6 @@
 namespace telemime {
 namespace {
 
-std::shared_ptr<const std::string> shared(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
 WebHandlers echo() {
   WebHandlers handlers = small_page();
   handlers.text = [](std::uint64_t, std::string_view text) { return "you: " + std::string(text); };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/streaming/web_connection.h"
 
-#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/read.hpp>
@@ -20,28 +19,6 @@ using boost::system::error_code;
 // All programs of localhost share their cookies, so that headers can be long.
 constexpr std::size_t longest_header = 32 * 1024;
 constexpr std::chrono::seconds linger_time{2};
-// Of a file: what is read at a time, between which others have their turn.
-constexpr std::size_t longest_part = 128 * 1024;
-
-std::string address_of(const boost::asio::ip::tcp::endpoint& endpoint) {
-  const boost::asio::ip::address address = endpoint.address();
-  if (address.is_v6() && address.to_v6().is_v4_mapped()) {
-    return make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).to_string();
-  }
-  return address.to_string();
-}
-
-std::string local_address(const boost::asio::ip::tcp::socket& socket) {
-  error_code error;
-  const boost::asio::ip::tcp::endpoint endpoint = socket.local_endpoint(error);
-  return error ? std::string() : address_of(endpoint);
-}
-
-std::string remote_address(const boost::asio::ip::tcp::socket& socket) {
-  error_code error;
-  const boost::asio::ip::tcp::endpoint endpoint = socket.remote_endpoint(error);
-  return error ? std::string() : address_of(endpoint);
-}
 
 }  // namespace
 
@@ -51,7 +28,7 @@ WebConnection::WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> 
       ticket_(std::move(ticket)),
       stream_(std::move(socket), hub_->tls()),
       patience_(stream_.get_executor()),
-      local_(local_address(stream_.socket())),
+      local_(local_address(stream_.socket()).to_string()),
       buffer_(2 * longest_header) {
   error_code ignored;
   stream_.socket().set_option(boost::asio::ip::tcp::no_delay(true), ignored);
@@ -93,12 +70,12 @@ void WebConnection::answer(error_code error) {
              !error && web_post(parser_->get(), hub_->names(), local_, hub_->handlers(), post)) {
     read_body(std::move(post));
   } else if (!error) {
-    WebAnswer found =
+    std::optional<WebResponse> found =
         web_answer(parser_->get(), !parser_->is_done(), hub_->names(), local_, hub_->handlers());
-    if (found.upgrade) {
-      upgrade();
+    if (found) {
+      respond(std::move(*found));
     } else {
-      respond(std::move(found));
+      upgrade();
     }
   }
 }
@@ -119,8 +96,18 @@ void WebConnection::read_body(WebPost post) {
 }
 
 void WebConnection::ask(WebPost post) {
-  post.address = remote_address(stream_.socket());
-  hold();
+  post.address = remote_address(stream_.socket()).to_string();
+  // Nothing else keeps this connection alive until the answer or the end of patience. The hub lets go of it
+  // once, so that only the first of the two counts.
+  hub_->hold(shared_from_this());
+  stream_.expires_never();
+  patience_.expires_after(hub_->options().stalled_after);
+  patience_.async_wait([weak = weak_from_this()](error_code cancelled) {
+    const std::shared_ptr<WebConnection> self = weak.lock();
+    if (!cancelled && self && self->hub_->let_go(self)) {
+      self->respond(web_refusal(http::status::service_unavailable, "This takes too long. Try again later."));
+    }
+  });
   const auto ready = [door = hub_->door(), weak = weak_from_this()](const WebContent& content) {
     door->post([weak, content] {
       if (const std::shared_ptr<WebConnection> self = weak.lock()) {
@@ -139,6 +126,13 @@ void WebConnection::ask(WebPost post) {
   }
 }
 
+void WebConnection::put_content(WebContent content) {
+  if (hub_->let_go(shared_from_this())) {
+    patience_.cancel();
+    respond(web_content(std::move(content), WebRequest(body_->get().base()), hub_->handlers()));
+  }
+}
+
 void WebConnection::upgrade() {
   if (stream_.secure()) {
     respond(web_refusal(http::status::not_found, "There are no WebSockets here."));
@@ -152,124 +146,35 @@ void WebConnection::upgrade() {
   client->start(parser_->get());
 }
 
-void WebConnection::respond(WebAnswer answer) {
+void WebConnection::respond(WebResponse answer) {
   answer_ = std::move(answer);
-  if (answer_.later) {
-    wait();
-  } else {
-    write();
+  if (hub_->crowded()) {
+    answer_.keep_alive(false);
   }
+  serializer_.emplace(answer_);
+  write();
 }
 
-void WebConnection::hold() {
-  // Nobody else keeps this connection while nothing is under way. The hub knows by it, too, whether the
-  // answer or the end of patience was first.
-  hub_->hold(shared_from_this());
-  stream_.expires_never();
-  patience_.expires_after(hub_->options().stalled_after);
-  patience_.async_wait([weak = weak_from_this()](error_code cancelled) {
-    const std::shared_ptr<WebConnection> self = weak.lock();
-    if (!cancelled && self && self->hub_->let_go(self)) {
-      self->answer_.refuse(http::status::service_unavailable, "This takes too long. Try again later.");
+void WebConnection::write() {
+  // Restarted for each part: a slow reader has not stalled.
+  stream_.expires_after(hub_->options().stalled_after);
+  http::async_write_some(stream_, *serializer_, [self = shared_from_this()](error_code error, std::size_t) {
+    if (error) {
+      return;
+    }
+    if (self->serializer_->is_done()) {
+      self->sent();
+    } else {
       self->write();
     }
   });
 }
 
-void WebConnection::put_bytes(WebBytes bytes) {
-  if (hub_->let_go(shared_from_this())) {
-    patience_.cancel();
-    answer_.finish(std::move(bytes));
-    write();
-  }
-}
-
-void WebConnection::put_content(WebContent content) {
-  if (hub_->let_go(shared_from_this())) {
-    patience_.cancel();
-    answer_ = web_content(std::move(content), WebRequest(body_->get().base()), hub_->handlers());
-    write();
-  }
-}
-
-void WebConnection::wait() {
-  hold();
-  const auto ready = [door = hub_->door(), weak = weak_from_this()](const WebBytes& bytes) {
-    door->post([weak, bytes] {
-      if (const std::shared_ptr<WebConnection> self = weak.lock()) {
-        self->put_bytes(bytes);
-      }
-    });
-  };
-  try {
-    std::exchange(answer_.later, nullptr)(ready);
-  } catch (...) {
-    ready(nullptr);
-  }
-}
-
-void WebConnection::write() {
-  if (hub_->crowded()) {
-    answer_.message.keep_alive(false);
-  }
-  serializer_.emplace(answer_.message);
-  write_some();
-}
-
-void WebConnection::write_some() {
-  stream_.expires_after(
-      hub_->options().stalled_after);  // restarted for each part: a slow reader has not stalled
-  http::async_write_some(stream_, *serializer_, [self = shared_from_this()](error_code error, std::size_t) {
-    if (error) {
-      return;
-    }
-    if (!self->serializer_->is_done()) {
-      self->write_some();
-    } else {
-      self->send_file();
-    }
-  });
-}
-
-void WebConnection::send_file() {
-  if (answer_.left == 0) {
-    sent();
-    return;
-  }
-  part_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(longest_part, answer_.left)));
-  part_.resize(answer_.file->read(answer_.first, part_));
-  part_sent_ = 0;
-  if (part_.empty()) {
-    stream_.close();  // the file was cut short, or the disk fails: not what was promised, and the end says so
-    return;
-  }
-  answer_.first += part_.size();
-  answer_.left -= part_.size();
-  send_part();
-}
-
-void WebConnection::send_part() {
-  stream_.expires_after(hub_->options().stalled_after);
-  stream_.async_write_some(boost::asio::buffer(part_.data() + part_sent_, part_.size() - part_sent_),
-                           [self = shared_from_this()](error_code error, std::size_t count) {
-                             if (error) {
-                               return;
-                             }
-                             self->part_sent_ += count;
-                             if (self->part_sent_ < self->part_.size()) {
-                               self->send_part();
-                             } else {
-                               self->send_file();
-                             }
-                           });
-}
-
 void WebConnection::sent() {
-  const bool again = answer_.message.keep_alive();
+  const bool again = answer_.keep_alive();
   serializer_.reset();
   body_.reset();
-  answer_ = {};  // a file is closed, big bytes are let go
-  part_ = {};
+  answer_ = {};  // closes a file and frees bytes
   if (again) {
     read();
     return;

@@ -7,11 +7,9 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/string_body.hpp>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "telemime/streaming/web_answer.h"
 #include "telemime/streaming/web_hub.h"
@@ -33,17 +31,11 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   void read();
   void read_body(WebPost post);
   void ask(WebPost post);
-  void put_bytes(WebBytes bytes);
   void put_content(WebContent content);
-  void hold();
   void answer(boost::system::error_code error);
   void upgrade();
-  void respond(WebAnswer answer);
-  void wait();
+  void respond(WebResponse answer);
   void write();
-  void write_some();
-  void send_file();
-  void send_part();
   void sent();
   void linger();
 
@@ -55,11 +47,8 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> body_;  ///< of a POST
-  WebAnswer answer_;
-  std::optional<boost::beast::http::response_serializer<boost::beast::http::span_body<const char>>>
-      serializer_;
-  std::vector<char> part_;     ///< of the file
-  std::size_t part_sent_ = 0;  ///< bytes of it
+  WebResponse answer_;
+  std::optional<boost::beast::http::response_serializer<WebBody>> serializer_;  ///< of the answer
   std::array<char, 4096> rest_{};
 };
 

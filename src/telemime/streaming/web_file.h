@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <boost/beast/core/file_posix.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
 namespace telemime {
 
-/// A file that is being sent: it stays open, and what is sent is the file of that moment, also when it is
-/// deleted meanwhile.
-class WebFile {
- public:
-  /// Nothing when it is no plain file, or cannot be read.
-  static std::optional<WebFile> open(const std::filesystem::path& path);
-  WebFile(WebFile&& other) noexcept;
-  WebFile& operator=(WebFile&& other) noexcept;
-  WebFile(const WebFile&) = delete;
-  WebFile& operator=(const WebFile&) = delete;
-  ~WebFile();
-
-  std::uint64_t size() const { return size_; }  ///< bytes
-  /// An entity tag with its quotes: another one when the file has changed.
-  const std::string& tag() const { return tag_; }
-  /// Reads from that byte on; how many bytes it was, 0 at the end or when the disk fails.
-  std::size_t read(std::uint64_t offset, std::span<char> into) const;
-
- private:
-  WebFile(int descriptor, std::uint64_t size, std::string tag);
-
-  int descriptor_ = -1;
-  std::uint64_t size_ = 0;
-  std::string tag_;
+/// A file to send. It stays open: the content is that of this moment, also when the file is deleted.
+struct WebFile {
+  boost::beast::file_posix file;
+  std::uint64_t size = 0;  ///< bytes
+  std::string tag;         ///< an entity tag with its quotes, which changes when the file does
 };
+
+/// Returns nothing when this is not a plain file or it cannot be read.
+std::optional<WebFile> open_web_file(const std::filesystem::path& path);
 
 /// Which part of a file a client asks for.
 struct WebRange {

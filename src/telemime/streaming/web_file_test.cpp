@@ -8,7 +8,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <future>
 
 #include "telemime/core/scratch_folder.h"
 #include "telemime/streaming/testing_web.h"
@@ -171,77 +170,6 @@ TEST_F(Download, ABigFileIsNeverInMemoryAndOthersAreServedMeanwhile) {
   rusage after{};
   ::getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 500'000) << "kB";
-}
-
-TEST(WebLater, TheAnswerComesWhenItIsReadyAndNobodyWaitsForIt) {
-  std::mutex mutex;
-  std::vector<std::function<void(WebBytes)>> waiting;
-  WebHandlers handlers;
-  handlers.get = [&](const std::string& path) {
-    WebContent content{std::make_shared<const std::string>("at once"), "text/plain", "", false};
-    if (path == "/later") {
-      content.later = [&](std::function<void(WebBytes)> ready) {
-        const std::lock_guard lock(mutex);
-        waiting.push_back(std::move(ready));
-      };
-    } else if (path == "/throws") {
-      content.later = [](const std::function<void(WebBytes)>&) { throw std::runtime_error("cannot"); };
-    }
-    return std::optional(content);
-  };
-  std::optional<WebServer> server(std::in_place, any_port(), handlers);
-  const std::uint16_t port = server->port();
-  const auto asked = [&](std::size_t count) {
-    return comes_true([&] {
-      const std::lock_guard lock(mutex);
-      return waiting.size() == count;
-    });
-  };
-  RawClient first(port);
-  first.send(request_text(port, "/later") + request_text(port, "/now"));
-  ASSERT_TRUE(asked(1));
-  EXPECT_EQ(ask(port, "/now").body, "at once") << "others are not held up";
-  waiting[0](std::make_shared<const std::string>("made"));
-  EXPECT_EQ(first.reply().body, "made");
-  EXPECT_EQ(first.reply().body, "at once") << "what was asked behind it";
-
-  RawClient second(port);
-  second.send(request_text(port, "/later"));
-  ASSERT_TRUE(asked(2));
-  waiting[1](nullptr);
-  EXPECT_EQ(second.reply().status, 500);
-  EXPECT_EQ(ask(port, "/throws").status, 500);
-
-  RawClient head(port);
-  head.send(request_text(port, "/later", "", "HEAD"));
-  ASSERT_TRUE(asked(3));
-  waiting[2](std::make_shared<const std::string>("made"));
-  EXPECT_EQ(head.reply(/*head=*/true).header("Content-Length"), "4");
-
-  RawClient last(port);
-  last.send(request_text(port, "/later"));
-  ASSERT_TRUE(asked(4));
-  server.reset();
-  EXPECT_EQ(last.rest(), "");
-  waiting[3](std::make_shared<const std::string>("too late"));  // and nothing happens
-}
-
-TEST(WebLater, WhatIsNeverReadyIsRefusedAfterAWhile) {
-  std::promise<std::function<void(WebBytes)>> asked;
-  WebHandlers handlers;
-  handlers.get = [&](const std::string& path) {
-    WebContent content{std::make_shared<const std::string>("at once"), "text/plain", "", false};
-    if (path == "/never") {
-      content.later = [&](std::function<void(WebBytes)> ready) { asked.set_value(std::move(ready)); };
-    }
-    return std::optional(content);
-  };
-  WebServerOptions options = any_port();
-  options.stalled_after = std::chrono::milliseconds(100);
-  const WebServer server(options, handlers);
-  EXPECT_EQ(ask(server.port(), "/never").status, 503);
-  asked.get_future().get()(std::make_shared<const std::string>("too late"));  // and nothing happens
-  EXPECT_EQ(ask(server.port(), "/now").body, "at once");
 }
 
 TEST(WebTopics, WhatNobodyGetsIsNotWanted) {

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <atomic>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -13,9 +16,9 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "telemime/streaming/web_door.h"
 #include "telemime/streaming/web_origin.h"
 #include "telemime/streaming/web_queue.h"
 #include "telemime/streaming/web_server.h"
@@ -23,6 +26,29 @@
 namespace telemime {
 
 class WebClient;
+
+/// Hands work of other threads to the server's thread, as long as there is one.
+class WebDoor {
+ public:
+  explicit WebDoor(boost::asio::io_context& io) : io_(&io) {}
+
+  /// From any thread, at any time.
+  void post(std::function<void()> work) {
+    const std::lock_guard lock(mutex_);
+    if (io_ != nullptr) {
+      boost::asio::post(*io_, std::move(work));
+    }
+  }
+  /// The server ends: what is posted from now on is forgotten.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    io_ = nullptr;
+  }
+
+ private:
+  std::mutex mutex_;
+  boost::asio::io_context* io_;
+};
 
 /// What the connections of one server share. Unless said otherwise, for the server's thread only.
 class WebHub {

@@ -14,8 +14,7 @@ WebHandlers echo() {
   WebHandlers handlers = small_page();
   handlers.post = [](const WebPost& post, const std::function<void(WebContent)>& answer) {
     WebContent content;
-    content.bytes = std::make_shared<const std::string>(post.path + "|" + post.type + "|" + post.address +
-                                                        "|" + post.body);
+    content.bytes = shared(post.path + "|" + post.type + "|" + post.address + "|" + post.body);
     content.type = "text/plain";
     content.status = 201;
     answer(content);
@@ -62,11 +61,7 @@ TEST(WebPost, WhatIsTooLongIsRefused) {
   WebServerOptions options = any_port();
   options.most_posted = 10;
   const WebServer server(options, echo());
-  const auto status = [&](const std::string& text) {
-    RawClient client(server.port());
-    client.send(text);
-    return client.reply().status;
-  };
+  const auto status = [&](const std::string& text) { return reply_to(server.port(), text).status; };
   EXPECT_EQ(status(post_text(server.port(), "0123456789")), 201);
   EXPECT_EQ(status(post_text(server.port(), "0123456789a")), 413);
   EXPECT_EQ(status(request_text(server.port(), "/", "Content-Length: 99999999999\r\n", "POST")), 413);
@@ -85,9 +80,7 @@ TEST(WebPost, OfOtherWebSitesIsRefused) {
   WebServer server(any_port(), handlers);
   for (const char* const header : {"Origin: http://evil.example\r\n", "Origin: null\r\n", "Origin: \r\n",
                                    "Sec-Fetch-Site: cross-site\r\n", "Host: evil.example\r\n"}) {
-    RawClient client(server.port());
-    client.send(post_text(server.port(), "x", header));
-    const int status = client.reply().status;
+    const int status = reply_to(server.port(), post_text(server.port(), "x", header)).status;
     EXPECT_TRUE(status == 403 || status == 400) << header << status;
   }
   server.stop();
@@ -109,14 +102,15 @@ TEST(WebPost, ItsAnswerMayComeLaterFromElsewhere) {
   {
     const WebServer server(any_port(), handlers);
     RawClient client(server.port());
-    client.send(post_text(server.port(), "x"));
+    client.send(post_text(server.port(), "x") + request_text(server.port(), "/"));
     late = asked.get_future().get();
     EXPECT_EQ(ask(server.port(), "/").status, 200) << "nobody waits for it";
     WebContent content;
-    content.bytes = std::make_shared<const std::string>("at last");
+    content.bytes = shared("at last");
     content.type = "text/plain";
     late(content);
     EXPECT_EQ(client.reply().body, "at last");
+    EXPECT_EQ(client.reply().body, "<p>here</p>") << "what was requested behind it";
     late(content);  // a second time: nobody waits
   }
   late({});  // the server is gone
@@ -128,9 +122,7 @@ TEST(WebPost, WhoWaitsTooLongIsTold) {
   WebHandlers handlers = small_page();
   handlers.post = [](const WebPost&, const std::function<void(WebContent)>&) {};
   const WebServer server(options, handlers);
-  RawClient client(server.port());
-  client.send(post_text(server.port(), "x"));
-  EXPECT_EQ(client.reply().status, 503);
+  EXPECT_EQ(reply_to(server.port(), post_text(server.port(), "x")).status, 503);
 }
 
 TEST(WebPost, AHandlerThatThrowsIsAnErrorOfTheServer) {
@@ -139,9 +131,7 @@ TEST(WebPost, AHandlerThatThrowsIsAnErrorOfTheServer) {
     throw std::runtime_error("secret");
   };
   const WebServer server(any_port(), handlers);
-  RawClient client(server.port());
-  client.send(post_text(server.port(), "x"));
-  const WebReply reply = client.reply();
+  const WebReply reply = reply_to(server.port(), post_text(server.port(), "x"));
   EXPECT_EQ(reply.status, 500);
   EXPECT_EQ(reply.body.find("secret"), std::string::npos);
 }

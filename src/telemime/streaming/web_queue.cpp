@@ -5,14 +5,6 @@
 #include <utility>
 
 namespace telemime {
-namespace {
-
-int place_of(const WebMessage& message) {
-  return message.place != 0 ? message.place : message.topic;
-}
-
-}  // namespace
-
 bool WebQueue::push(WebMessage message) {
   if (message.topic == 0) {
     if (important_.size() >= most_important_) {
@@ -24,9 +16,8 @@ bool WebQueue::push(WebMessage message) {
   if (off_.contains(message.topic)) {
     return true;
   }
-  const auto waiting = std::find_if(newest_.begin(), newest_.end(), [&](const WebMessage& other) {
-    return place_of(other) == place_of(message);
-  });
+  const auto waiting = std::find_if(newest_.begin(), newest_.end(),
+                                    [&](const WebMessage& other) { return other.topic == message.topic; });
   if (waiting == newest_.end()) {
     newest_.push_back(std::move(message));
   } else {

@@ -15,11 +15,10 @@ struct WebMessage {
   int topic = 0;
   bool binary = false;
   std::shared_ptr<const std::string> bytes;
-  int place = 0;  ///< a topic, in whose place it waits, too; 0: its own
 };
 
 /// What waits for one client: all of topic 0, in order, which go first; of each other topic the newest, which
-/// keeps the place of the one that it replaces, so that topics take turns. Topics may share a place.
+/// keeps the place of the one that it replaces, so that topics take turns.
 class WebQueue {
  public:
   /// `most_important`: of topic 0.

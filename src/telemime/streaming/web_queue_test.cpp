@@ -28,23 +28,6 @@ TEST(WebQueue, OfATopicTheNewestWaits) {
   EXPECT_EQ(all_of(queue), "a3 b1 ");
 }
 
-TEST(WebQueue, TopicsOfOnePlaceReplaceEachOther) {
-  WebQueue queue;
-  const auto between = [](const std::string& words) {
-    WebMessage message = say(3, words);
-    message.place = 1;
-    return message;
-  };
-  queue.push(say(1, "a1"));
-  queue.push(say(2, "b1"));
-  queue.push(between("a2"));
-  EXPECT_EQ(queue.size(), 2U);
-  queue.push(say(1, "a3"));
-  queue.set_topic(3, false);
-  queue.push(between("a4"));
-  EXPECT_EQ(all_of(queue), "a3 b1 ");
-}
-
 TEST(WebQueue, ABusyTopicDoesNotStarveAnother) {
   WebQueue queue;
   std::string taken;

@@ -12,7 +12,7 @@
 
 #include "telemime/streaming/web_hub.h"
 #include "telemime/streaming/web_listener.h"
-#include "telemime/streaming/web_tls.h"
+#include "telemime/streaming/web_stream.h"
 
 namespace telemime {
 
@@ -95,8 +95,8 @@ void WebServer::send_text(int topic, std::shared_ptr<const std::string> text) {
   state_->send({topic, false, std::move(text)});
 }
 
-void WebServer::send_binary(int topic, std::shared_ptr<const std::string> bytes, int place) {
-  state_->send({topic, true, std::move(bytes), place});
+void WebServer::send_binary(int topic, std::shared_ptr<const std::string> bytes) {
+  state_->send({topic, true, std::move(bytes)});
 }
 
 void WebServer::set_topic(std::uint64_t client, int topic, bool on) {

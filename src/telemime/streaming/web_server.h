@@ -24,10 +24,6 @@ struct WebContent {
   /// Not empty: a file instead of `bytes`. It is read bit by bit as it is sent, and parts of it may be asked
   /// for (Range). A file that cannot be read is answered 404.
   std::filesystem::path file = {};
-  /// Not empty: bytes that are still being made. It is called at once, in the server's thread, and calls
-  /// `ready` once, from any thread and at any time, also when the server is gone; null means that they could
-  /// not be made (500).
-  std::function<void(std::function<void(WebBytes)> ready)> later = {};
   unsigned status = 200;  ///< of HTTP, for `bytes` alone
 };
 
@@ -54,7 +50,7 @@ struct WebServerOptions {
   std::chrono::milliseconds request_within{10'000};  ///< for a whole request to come; idle connections, too
   std::chrono::milliseconds stalled_after{
       30'000};  ///< without progress in writing, or a sign of life: closed
-  /// Not empty: TLS with this certificate and its key (web_tls.h). There are no WebSockets then.
+  /// Not empty: TLS with this certificate and its key (web_stream.h). There are no WebSockets then.
   std::filesystem::path certificate = {};
   std::filesystem::path key = {};
 };
@@ -105,11 +101,9 @@ class WebServer {
 
   /// To all clients; from any thread, never blocks. `topic` is any small number: a message of a topic
   /// replaces one of the same topic that still waits. Topic 0 is never replaced (few, important ones; a
-  /// client that lets 1000 of them wait is closed) and overtakes the others, which take turns. `place`: a
-  /// topic whose messages are replaced, too, and in whose stead it waits, so that none of the two overtakes
-  /// the other; 0: only its own.
+  /// client that lets 1000 of them wait is closed) and overtakes the others, which take turns.
   void send_text(int topic, std::shared_ptr<const std::string> text);
-  void send_binary(int topic, std::shared_ptr<const std::string> bytes, int place = 0);
+  void send_binary(int topic, std::shared_ptr<const std::string> bytes);
 
   /// Whether that client gets messages of that topic (at first of every one); one that waits is dropped. From
   /// any thread, handlers included; a client that is gone is no error. Topic 0 cannot be turned off.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/streaming/web_socket_sender.h"
+#include "telemime/streaming/all.h"
 
 #include <gtest/gtest.h>
 

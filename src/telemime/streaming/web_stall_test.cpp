@@ -12,10 +12,6 @@
 namespace telemime {
 namespace {
 
-std::shared_ptr<const std::string> shared(std::string text) {
-  return std::make_shared<const std::string>(std::move(text));
-}
-
 TEST(WebStall, CostsTheOthersNothingAndLittleMemory) {
   WebServer server(any_port(), {});
   const SocketClient stalled(server.port(), "", 4096);

@@ -6,11 +6,22 @@
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
 
 namespace telemime {
+
+/// The addresses of a connection. One of IPv4 is written as such, also on a socket of IPv6.
+boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socket);
+boost::asio::ip::address remote_address(const boost::asio::ip::tcp::socket& socket);
+
+/// What a server of TLS (1.2 or newer) shows and proves: its certificate, with those in between behind it,
+/// and its key without a password, both in PEM form. Throws Error(usage) that says which of them cannot be
+/// used and why.
+std::shared_ptr<boost::asio::ssl::context> web_tls(const std::filesystem::path& certificate,
+                                                   const std::filesystem::path& key);
 
 /// A connection of the server's, plain or by TLS, as Beast reads and writes it. The time limit is that of
 /// the TCP connection below.

@@ -32,14 +32,19 @@ std::string address_outside() {
   return found;
 }
 
-TEST(WebVisitor, OverLoopbackIsFromHere) {
-  std::atomic<std::uint64_t> id = 0;
+/// Handlers that note the last client.
+WebHandlers notes_client(std::atomic<std::uint64_t>& id) {
   WebHandlers handlers = small_page();
-  handlers.opened = [&](std::uint64_t client) {
+  handlers.opened = [&id](std::uint64_t client) {
     id = client;
     return std::vector<std::string>();
   };
-  const WebServer server(any_port(), handlers);
+  return handlers;
+}
+
+TEST(WebVisitor, OverLoopbackIsFromHere) {
+  std::atomic<std::uint64_t> id = 0;
+  const WebServer server(any_port(), notes_client(id));
   EXPECT_FALSE(server.from_here(1)) << "nobody has come";
   {
     const SocketClient page(server.port());
@@ -58,12 +63,7 @@ TEST(WebVisitor, OverAnotherAddressIsNot) {
   WebServerOptions options = any_port();
   options.address = "0.0.0.0";
   std::atomic<std::uint64_t> id = 0;
-  WebHandlers handlers = small_page();
-  handlers.opened = [&](std::uint64_t client) {
-    id = client;
-    return std::vector<std::string>();
-  };
-  const WebServer server(options, handlers);
+  const WebServer server(options, notes_client(id));
   const SocketClient page(server.port(), "", 0, outside.c_str());
   ASSERT_TRUE(comes_true([&] { return id > 0; }));
   EXPECT_FALSE(server.from_here(id));
@@ -75,7 +75,7 @@ TEST(WebVisitor, HandlersMayUseTheServerUntilItHasStopped) {
   WebHandlers handlers = small_page();
   handlers.closed = [&](std::uint64_t client) {
     server->set_topic(client, 1, false);
-    server->send_text(0, std::make_shared<const std::string>("one is gone"));
+    server->send_text(0, shared("one is gone"));
     left += server->port() > 0 ? 1 : 0;
   };
   server = std::make_unique<WebServer>(any_port(), handlers);
@@ -85,7 +85,7 @@ TEST(WebVisitor, HandlersMayUseTheServerUntilItHasStopped) {
   server->stop();
   EXPECT_EQ(left, 2);
   EXPECT_EQ(server->clients(), 0U);
-  server->send_text(0, std::make_shared<const std::string>("to nobody"));
+  server->send_text(0, shared("to nobody"));
   server->set_topic(1, 1, true);
   server->stop();
   EXPECT_EQ(left, 2);

@@ -10,7 +10,7 @@
 #include "meeting/hosting/service.h"
 #include "meeting/protocol/json.h"
 #include "telemime/core/errors.h"
-#include "telemime/streaming/web_tls.h"
+#include "telemime/streaming/web_stream.h"
 
 namespace telemime::meeting {
 namespace {

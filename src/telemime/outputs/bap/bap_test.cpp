@@ -6,12 +6,12 @@
 #include <numbers>
 #include <set>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/random.h"
+#include "telemime/core/testing_errors.h"
+#include "telemime/outputs/all.h"
 #include "telemime/outputs/bap/profile.h"
 #include "telemime/outputs/bap/reader.h"
 #include "telemime/outputs/bap/table.h"
-#include "telemime/outputs/encoders/bap.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {
@@ -220,13 +220,8 @@ TEST(BapReader, NeedsNoHeader) {
 }
 
 TEST(BapReader, NamesTheLineThatIsWrong) {
-  const auto message_of = [](const std::string& text) -> std::string {
-    try {
-      parse_bap(text, "t.bap");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
+  const auto message_of = [](const std::string& text) {
+    return error_of(ErrorKind::input, [&] { parse_bap(text, "t.bap"); });
   };
   const std::string mask = mask_of(186, {38});
   EXPECT_NE(message_of("3.1 a b c\n").find("line 1"), std::string::npos);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/random.h"
+#include "telemime/core/testing_errors.h"
+#include "telemime/outputs/all.h"
 #include "telemime/outputs/bvh/skeleton.h"
-#include "telemime/outputs/encoders/bvh.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {
@@ -170,15 +170,10 @@ TEST(BvhReader, ReportsACutEndAndAWrongCount) {
 TEST(BvhReader, NamesTheLineThatIsWrong) {
   const StreamHeader header = testing_motion::header();
   const std::string text = encoded(header, testing_motion::gesture(header, 2));
-  const auto message_with = [&text](const std::string& from, const std::string& to) -> std::string {
+  const auto message_with = [&text](const std::string& from, const std::string& to) {
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);
-    try {
-      parse_bvh(changed, "t.bvh");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "nothing was thrown";
+    return error_of(ErrorKind::input, [&] { parse_bvh(changed, "t.bvh"); });
   };
   EXPECT_NE(message_with("HIERARCHY", "HIERARCHIE").find("line 1"), std::string::npos);
   EXPECT_NE(message_with("CHANNELS 6", "CHANNELS 7").find("channels"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/encoders/bap.h"
+#include "telemime/outputs/all.h"
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/encoders/bvh.h"
+#include "telemime/outputs/all.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/encoders/csv.h"
+#include "telemime/outputs/all.h"
 
 #include <string>
 

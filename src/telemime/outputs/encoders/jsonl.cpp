@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/encoders/jsonl.h"
+#include "telemime/outputs/all.h"
 
 #include "telemime/outputs/finite.h"
 #include "telemime/outputs/numbers.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/encoders/jsonl.h"
+#include "telemime/outputs/all.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/outputs/readers/jsonl.h"
 #include "telemime/outputs/testing_motion.h"
 
@@ -175,19 +175,12 @@ TEST(JsonlReader, RefusesASpreadThatIsNone) {
   auto frames = testing_motion::gesture(header, 1);
   frames[0].spread = some_spread();
   const auto all = lines(encoded(header, frames));
-  const auto message_of = [&](const std::string& place, const json& value) -> std::string {
+  const auto refused = [&](const std::string& place, const json& value, const std::string& word) {
     json frame = all.at(1);
     frame[json::json_pointer("/spread" + place)] = value;
-    try {
+    const std::string said = error_of(ErrorKind::input, [&] {
       parse_pose_jsonl(all.at(0).dump() + "\n" + frame.dump() + "\n" + "\n", "broken.jsonl");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "nothing was thrown";
-  };
-  const auto refused = [&](const std::string& place, const json& value, const std::string& word) {
-    const std::string said = message_of(place, value);
+    });
     EXPECT_NE(said.find("line 2"), std::string::npos) << said;
     EXPECT_NE(said.find(word), std::string::npos) << said;
   };
@@ -214,14 +207,8 @@ TEST(JsonlReader, ReportsALastLineThatWasCutOff) {
 TEST(JsonlReader, NamesTheLineAndWhatIsWrong) {
   const StreamHeader header = testing_motion::header();
   const std::string text = encoded(header, testing_motion::gesture(header, 2));
-  const auto message_of = [](const std::string& broken) -> std::string {
-    try {
-      parse_pose_jsonl(broken, "broken.jsonl");
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input);
-      return error.what();
-    }
-    return "nothing was thrown";
+  const auto message_of = [](const std::string& broken) {
+    return error_of(ErrorKind::input, [&] { parse_pose_jsonl(broken, "broken.jsonl"); });
   };
   const auto with = [&text](const std::string& from, const std::string& to) {
     std::string changed = text;

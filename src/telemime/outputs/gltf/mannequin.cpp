@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/gltf/mannequin.h"
+#include "telemime/outputs/gltf/humanoid.h"
 
 #include <array>
 #include <cmath>

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/gltf/motion_encoder.h"
-
 #include <algorithm>
 #include <string>
 
+#include "telemime/outputs/all.h"
 #include "telemime/outputs/finite.h"
 #include "telemime/outputs/gltf/humanoid.h"
 #include "telemime/outputs/gltf/keys.h"
-#include "telemime/outputs/gltf/mannequin.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
@@ -20,13 +18,13 @@ constexpr std::size_t kRoomToGrow = 1024;
 
 class GltfMotionEncoder final : public Encoder {
  public:
-  explicit GltfMotionEncoder(GltfMotion kind) : kind_(kind) {}
+  explicit GltfMotionEncoder(bool mannequin) : mannequin_(mannequin) {}
 
   std::string begin(const StreamHeader& header) override {
     const HumanoidSkeleton skeleton = humanoid_skeleton(header.body);
     fixed_ = make_gltf();
     add_humanoid(fixed_, skeleton);
-    if (kind_ == GltfMotion::seen) {
+    if (mannequin_) {
       const std::size_t mesh = add_mannequin(fixed_, skeleton, header.body.shape.stature);
       add_skinned_mesh(fixed_, "mannequin", mesh, add_humanoid_skin(fixed_, skeleton));
     } else {
@@ -76,7 +74,7 @@ class GltfMotionEncoder final : public Encoder {
     return std::move(document.buffer);
   }
 
-  GltfMotion kind_;
+  bool mannequin_;      ///< shows the motion; otherwise VRM animation
   GltfDocument fixed_;  ///< what does not change: skeleton and mannequin
   std::optional<MotionKeys> keys_;
   FiniteFrames finite_;
@@ -89,8 +87,12 @@ class GltfMotionEncoder final : public Encoder {
 
 }  // namespace
 
-std::unique_ptr<Encoder> make_gltf_motion_encoder(GltfMotion kind) {
-  return std::make_unique<GltfMotionEncoder>(kind);
+std::unique_ptr<Encoder> make_glb_encoder() {
+  return std::make_unique<GltfMotionEncoder>(/*mannequin=*/true);
+}
+
+std::unique_ptr<Encoder> make_vrma_encoder() {
+  return std::make_unique<GltfMotionEncoder>(/*mannequin=*/false);
 }
 
 }  // namespace telemime

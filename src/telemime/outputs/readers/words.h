@@ -19,7 +19,17 @@ inline std::string_view take_line(std::string_view& text) {
 }
 
 /// The words of a text, between spaces, tabs and line ends.
-std::vector<std::string_view> split_words(std::string_view text);
+inline std::vector<std::string_view> split_words(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n\f\v";
+  std::vector<std::string_view> words;
+  std::size_t begin = text.find_first_not_of(kBlank);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlank, end);
+  }
+  return words;
+}
 
 /// The number that a word is, all of it; nothing when it is none or does not fit. A leading + is allowed.
 template <class Number>

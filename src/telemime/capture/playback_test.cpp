@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/capture/paced.h"
+#include "telemime/capture/playback.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+
+#include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
@@ -12,11 +14,14 @@ namespace {
 /// Frames without images, ten per second.
 class TenASecond : public Source {
  public:
-  explicit TenASecond(std::int64_t frames) { info_.frames = frames; }
+  explicit TenASecond(std::int64_t frames) : frames_(frames) {
+    info_.fps = 10.0;
+    info_.frames = frames;
+  }
   const SourceInfo& info() const override { return info_; }
   std::string complaint() const override { return "as the file says"; }
   std::optional<Frame> next() override {
-    if (index_ == info_.frames) {
+    if (index_ == frames_) {
       return std::nullopt;
     }
     const std::int64_t index = index_++;
@@ -25,6 +30,7 @@ class TenASecond : public Source {
 
  private:
   SourceInfo info_;
+  std::int64_t frames_;
   std::int64_t index_ = 0;
 };
 
@@ -35,6 +41,35 @@ struct FakeTime {
     return {[this] { return seconds; }, [this](double until) { seconds = std::max(seconds, until); }};
   }
 };
+
+TEST(Loop, TimeAndIndexContinue) {
+  const auto source = loop([] { return std::make_unique<TenASecond>(3); });
+  EXPECT_EQ(source->info().frames, 0) << "nobody knows how many";
+  for (int i = 0; i < 10; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->index, i);
+    EXPECT_NEAR(frame->time, i / 10.0, 1e-9);
+  }
+}
+
+TEST(Loop, EndsOnAnEmptyFile) {
+  const auto source = loop([] { return std::make_unique<TenASecond>(0); });
+  EXPECT_FALSE(source->next());
+}
+
+TEST(Loop, EndsWhenTheFileIsGone) {
+  int opened = 0;
+  const auto source = loop([&opened]() -> std::unique_ptr<Source> {
+    if (opened++ > 0) {
+      throw Error(ErrorKind::input, "it is gone");
+    }
+    return std::make_unique<TenASecond>(1);
+  });
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+  EXPECT_NE(source->complaint().find("gone"), std::string::npos);
+}
 
 TEST(Paced, FastConsumerGetsAllFramesInTime) {
   FakeTime time;

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/room_pictures.h"
+#pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <utility>
+#include <vector>
+
+#include "telemime/core/frame.h"
 
 namespace telemime {
 
-std::vector<Frame> room_pictures(const std::function<std::optional<Frame>()>& next) {
+/// Frames from which the background of a live input is learned: those of one second by their time stamps
+/// (cameras often state another rate than they have), at least 8 and at most 60. When `next` returns nothing,
+/// because the input has ended or the session stops, there may be fewer or none.
+inline std::vector<Frame> background_frames(const std::function<std::optional<Frame>()>& next) {
   constexpr std::size_t kFewest = 8;
   constexpr std::size_t kMost = 60;  // also where the times do not advance
   constexpr double kSeconds = 1.0;

@@ -1,12 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/capture/paced.h"
+#include "telemime/capture/playback.h"
 
+#include <optional>
+#include <string>
 #include <utility>
+
+#include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
 
 constexpr double kMostReading = 1.0;  // s, to find the newest frame
+
+class LoopedSource : public Source {
+ public:
+  explicit LoopedSource(std::function<std::unique_ptr<Source>()> open)
+      : open_(std::move(open)), file_(open_()), info_(file_->info()) {
+    info_.frames = 0;
+  }
+
+  const SourceInfo& info() const override { return info_; }
+  std::string complaint() const override { return complaint_.empty() ? file_->complaint() : complaint_; }
+
+  std::optional<Frame> next() override {
+    std::optional<Frame> frame = file_->next();
+    if (!frame && count_ > 0) {
+      frame = again();
+    }
+    if (frame) {
+      frame->time += passed_;
+      last_ = frame->time;
+      frame->index = count_++;
+    }
+    return frame;
+  }
+
+ private:
+  std::optional<Frame> again() {
+    try {
+      file_ = open_();
+    } catch (const Error& e) {
+      complaint_ = e.what();
+      return std::nullopt;
+    }
+    passed_ = last_ + 1.0 / info_.fps;
+    return file_->next();
+  }
+
+  std::function<std::unique_ptr<Source>()> open_;
+  std::unique_ptr<Source> file_;
+  SourceInfo info_;
+  std::string complaint_;
+  double passed_ = 0.0;  // s, at the first frame of this repetition
+  double last_ = 0.0;
+  std::int64_t count_ = 0;
+};
 
 class PacedSource : public Source {
  public:
@@ -53,6 +101,10 @@ class PacedSource : public Source {
 };
 
 }  // namespace
+
+std::unique_ptr<Source> loop(std::function<std::unique_ptr<Source>()> open) {
+  return std::make_unique<LoopedSource>(std::move(open));
+}
 
 std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock) {
   return std::make_unique<PacedSource>(std::move(file), std::move(clock));

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/page_files.h"
+#include "telemime/live/live_files.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
-
-#include "telemime/live/page_table.h"
 
 namespace telemime {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/streaming/web_tls.h"
+#include "telemime/streaming/web_stream.h"
 
 #include <openssl/err.h>
 #include <openssl/ssl.h>
@@ -14,6 +14,7 @@
 namespace telemime {
 namespace {
 
+namespace ip = boost::asio::ip;
 namespace ssl = boost::asio::ssl;
 
 void require_readable(const std::filesystem::path& file, const std::string& what) {
@@ -32,7 +33,23 @@ int no_password(char* /*buffer*/, int /*size*/, int /*writes*/, void* /*data*/) 
   return 0;
 }
 
+ip::address plain(const ip::address& address) {
+  return address.is_v6() && address.to_v6().is_v4_mapped()
+             ? ip::address(ip::make_address_v4(ip::v4_mapped, address.to_v6()))
+             : address;
+}
+
 }  // namespace
+
+ip::address local_address(const ip::tcp::socket& socket) {
+  boost::system::error_code closed;
+  return plain(socket.local_endpoint(closed).address());
+}
+
+ip::address remote_address(const ip::tcp::socket& socket) {
+  boost::system::error_code closed;
+  return plain(socket.remote_endpoint(closed).address());
+}
 
 std::shared_ptr<ssl::context> web_tls(const std::filesystem::path& certificate,
                                       const std::filesystem::path& key) {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "telemime/capture/clock.h"
 #include "telemime/capture/source.h"
 
 namespace telemime {
+
+/// Repeats a file: `open` opens it again at its end. Time and index keep increasing, like those of a camera.
+/// Ends if the file cannot be opened again or has no frame. Throws what the first `open` throws.
+std::unique_ptr<Source> loop(std::function<std::unique_ptr<Source>()> open);
 
 /// Makes a file behave like a camera: a frame is available from its time on (relative to the first call of
 /// next), and next() returns the newest one and drops older ones. Times and indices remain those of the file,
