@@ -22,9 +22,20 @@ namespace fs = std::filesystem;
 
 constexpr double images_per_second = 25.0;
 
-/// Runs of digits compare as numbers: "frame2" is before "frame10".
-bool by_name(const fs::path& a, const fs::path& b) {
-  return ::strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// "frame007.png" as "frame7.png".
+std::string without_leading_zeros(const std::string& name) {
+  std::string result;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool in_number = !result.empty() && is_digit(result.back());
+    if (name[i] != '0' || in_number || i + 1 == name.size() || !is_digit(name[i + 1])) {
+      result += name[i];
+    }
+  }
+  return result;
 }
 
 /// The plain files of a folder whose name passes `wanted`, in natural order.
@@ -44,7 +55,9 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& input,
     throw cannot_read(input, kind, "the folder cannot be read: " + problem.message(),
                       "Check its name and its rights.");
   }
-  std::sort(files.begin(), files.end(), by_name);
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
   return files;
 }
 
@@ -162,6 +175,12 @@ class ImageSequence : public Source {
 };
 
 }  // namespace
+
+bool natural_less(const std::string& a, const std::string& b) {
+  // strverscmp() takes a number with leading zeros for a fraction.
+  const int order = ::strverscmp(without_leading_zeros(a).c_str(), without_leading_zeros(b).c_str());
+  return order != 0 ? order < 0 : std::pair(a.size(), a) < std::pair(b.size(), b);
+}
 
 std::vector<fs::path> image_files(const std::string& input, InputKind kind) {
   const fs::path path(without_file_scheme(input));

@@ -11,6 +11,10 @@
 
 namespace telemime {
 
+/// Order of names with runs of digits as numbers of any length: "frame2" is before "frame10". Of two names
+/// that differ in leading zeros alone, the shorter one is first.
+bool natural_less(const std::string& a, const std::string& b);
+
 /// The image files of a folder, a pattern or an image name, in natural order (frame2 before frame10). Throws
 /// Error(input) if there are none.
 std::vector<std::filesystem::path> image_files(const std::string& input, InputKind kind);
