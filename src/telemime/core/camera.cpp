@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "telemime/core/errors.h"
 #include "telemime/core/files.h"
@@ -40,7 +41,8 @@ void check(const Camera& camera, const std::filesystem::path& file) {
   }
 }
 
-// A JSON file with fx instead of a camera matrix. By default the pixels are square and the axis is central.
+// A JSON file with fx instead of a camera matrix. By default the pixels are square, the axis is central and
+// the last numbers of the distortion are 0.
 std::optional<Camera> from_plain_json(const std::filesystem::path& file) {
   const JsonSource source{"camera file " + file.string(), ErrorKind::config, kRemedy};
   auto json = parse_if_json(read_text_file(file, ErrorKind::config), source);
@@ -51,6 +53,11 @@ std::optional<Camera> from_plain_json(const std::filesystem::path& file) {
   json->emplace("fy", json->at("fx"));
   json->emplace("cx", (field["width"].number() - 1.0) / 2.0);
   json->emplace("cy", (field["height"].number() - 1.0) / 2.0);
+  if (const auto distortion = json->find("distortion"); distortion != json->end()) {
+    while (distortion->is_array() && distortion->size() < Camera().distortion.size()) {
+      distortion->push_back(0.0);
+    }
+  }
   return read_camera(field);
 }
 
@@ -143,8 +150,12 @@ Camera load_camera(const std::filesystem::path& file) {
     camera.height = static_cast<int>(storage["image_height"]);
     if (!distortion.empty()) {
       distortion.convertTo(distortion, CV_64F);
-      std::copy_n(distortion.begin<double>(), std::min<std::size_t>(5, distortion.total()),
-                  camera.distortion.begin());
+      const std::vector<double> numbers(distortion.begin<double>(), distortion.end<double>());
+      const std::size_t used = std::min(numbers.size(), camera.distortion.size());
+      if (std::any_of(numbers.begin() + used, numbers.end(), [](double number) { return number != 0.0; })) {
+        throw broken(file, "of the distortion_coefficients, only k1 k2 p1 p2 k3 may differ from 0");
+      }
+      std::copy_n(numbers.begin(), used, camera.distortion.begin());
     }
   } catch (const cv::Exception&) {
     throw broken(file, "it is not YAML, XML or JSON that OpenCV can read");
