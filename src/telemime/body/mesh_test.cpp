@@ -190,15 +190,16 @@ TEST(Mesh, SleeveCoversTheArmFromTheShoulderDown) {
 }
 
 TEST(Mesh, SleeveEndsAtShoulderElbowAndWrist) {
-  const auto bare = [](double sleeve, Segment segment) {
+  const auto with_sleeve = [](double sleeve) {
     Shape shape;
     shape.sleeve = sleeve;
-    return area(mesh_of(shape), segment, SurfaceClass::arms);
+    return mesh_of(shape);
   };
-  const auto dressed = [](double sleeve, Segment segment) {
-    Shape shape;
-    shape.sleeve = sleeve;
-    return area(mesh_of(shape), segment, SurfaceClass::clothes);
+  const auto bare = [&](double sleeve, Segment segment) {
+    return area(with_sleeve(sleeve), segment, SurfaceClass::arms);
+  };
+  const auto dressed = [&](double sleeve, Segment segment) {
+    return area(with_sleeve(sleeve), segment, SurfaceClass::clothes);
   };
   for (const Segment upper : {Segment::l_upper_arm, Segment::r_upper_arm}) {
     EXPECT_EQ(dressed(0.0, upper), 0.0);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
+#include "telemime/body/arm_ik.h"
 #include "telemime/body/body.h"
 #include "telemime/body/limits.h"
 #include "telemime/core/random.h"
@@ -24,6 +26,26 @@ inline Pose random_pose(const JointLimits& limits, Random& random, double trunk 
     pose.angles[a] = share * random.uniform(limits.min[a], limits.max[a]);
   }
   return pose;
+}
+
+/// A random pose whose arms are bent: straight ones have no swivel.
+inline Pose bent_pose(const JointLimits& limits, Random& random) {
+  Pose pose = random_pose(limits, random, 0.4);
+  for (const Side side : kSides) {
+    ArmAngles arm = arm_angles(pose, side);
+    arm.elbow = std::min(arm.elbow, -15 * kDegree);
+    set_arm_angles(pose, side, arm);
+  }
+  return pose;
+}
+
+/// Largest distance of a joint, m.
+inline double farthest_joint(const JointPositions& a, const JointPositions& b) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < kJointCount; ++j) {
+    most = std::max(most, (a.at[j] - b.at[j]).norm());
+  }
+  return most;
 }
 
 /// A body with other proportions, the same on both sides.

@@ -99,9 +99,7 @@ TEST(HeadShape, AdaptsToHairAndStopsThere) {
 
 TEST(HeadShape, FacingTheCameraMeansTwoShoulders) {
   const cv::Mat silhouette = person({160, 70}, {18, 26});
-  HeadRegion head;
-  head.centre = {160, 70};
-  head.radii = {18, 26};
+  HeadRegion head{{160, 70}, {18, 26}};
   EXPECT_TRUE(faces_camera(head, silhouette));
   head.centre.x() = 200;
   EXPECT_FALSE(faces_camera(head, silhouette));
@@ -112,9 +110,7 @@ TEST(PersonShape, CutFindsPersonAndIsDeterministic) {
   const cv::Mat truth = person({160, 70}, {18, 26});
   bgr.setTo(cv::Scalar(40, 40, 160), truth);
   cv::ellipse(bgr, {160, 70}, {18, 26}, 0, 0, 360, cv::Scalar(130, 160, 210), cv::FILLED);
-  HeadRegion head;
-  head.centre = {160, 70};
-  head.radii = {18, 26};
+  HeadRegion head{{160, 70}, {18, 26}};
   const cv::Mat first = cut_person(bgr, head);
   const double both = cv::countNonZero(first & truth);
   EXPECT_GT(both / cv::countNonZero(first | truth), 0.9);
@@ -124,9 +120,7 @@ TEST(PersonShape, CutFindsPersonAndIsDeterministic) {
 }
 
 TEST(PersonShape, PriorIsHighOnHeadAndLowFarAway) {
-  HeadRegion head;
-  head.centre = {160, 70};
-  head.radii = {18, 26};
+  HeadRegion head{{160, 70}, {18, 26}};
   const cv::Mat prior = body_prior({320, 240}, head);
   EXPECT_GT(prior.at<float>(70, 160), 0.9F);
   EXPECT_GT(prior.at<float>(200, 160), 0.9F);

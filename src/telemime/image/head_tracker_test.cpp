@@ -34,16 +34,20 @@ class HeadTrackerTest : public testing::Test {
   static HeadTracker tracker() { return {HeadTrackerConfig{}, ImageConfig{}.cascades}; }
   cv::Rect whole() const { return {0, 0, grey_.cols, grey_.rows}; }
 
+  // A tracker gets a square that is a fifth wider than the face, `right` of it.
+  double wider() const { return 1.2 * face_.side; }
+  void adopt_wider(HeadTracker& heads, const cv::Mat& image, double match, double right = 0.0) const {
+    const double half = 0.5 * (wider() - 1);
+    heads.adopt(image, {face_.centre.x + right - half, face_.centre.y - half, wider(), wider()}, match);
+  }
+
   cv::Mat grey_;
   TrackedFace face_;
 };
 
 TEST_F(HeadTrackerTest, ReportsReplacedOutlineSquare) {
   HeadTracker heads = tracker();
-  const double side = 1.2 * face_.side;
-  const cv::Rect2d outline(face_.centre.x + 3 - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side,
-                           side);
-  heads.adopt(grey_, outline, 1.0);
+  adopt_wider(heads, grey_, 1.0, 3.0);
   int replaced = 0;
   for (int i = 0; i < 12; ++i) {
     const auto face = heads.update(grey_, whole(), any_face);
@@ -51,9 +55,9 @@ TEST_F(HeadTrackerTest, ReportsReplacedOutlineSquare) {
     if (heads.replaced()) {
       ++replaced;
       EXPECT_TRUE(face->detected);
-      EXPECT_NEAR(heads.replaced()->side, side, 1e-9);
+      EXPECT_NEAR(heads.replaced()->side, wider(), 1e-9);
       EXPECT_NEAR(heads.replaced()->centre.x, face_.centre.x + 3, 1.0);
-      EXPECT_LT(face->side, side);
+      EXPECT_LT(face->side, wider());
     }
   }
   EXPECT_EQ(replaced, 1) << "once: then the detector gives the square";
@@ -61,8 +65,7 @@ TEST_F(HeadTrackerTest, ReportsReplacedOutlineSquare) {
 
 TEST_F(HeadTrackerTest, FirstDetectionIsNotSmoothed) {
   HeadTracker heads = tracker();
-  const double side = 1.2 * face_.side;
-  heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
+  adopt_wider(heads, grey_, 1.0);
   for (int i = 0; i < 12 && !heads.replaced(); ++i) {
     ASSERT_TRUE(heads.update(grey_, whole(), any_face).has_value());
   }
@@ -72,20 +75,18 @@ TEST_F(HeadTrackerTest, FirstDetectionIsNotSmoothed) {
 
 TEST_F(HeadTrackerTest, LostSquareKeepsOnlyItsSize) {
   HeadTracker heads = tracker();
-  const double side = 1.2 * face_.side;
-  heads.adopt(grey_, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side}, 1.0);
+  adopt_wider(heads, grey_, 1.0);
   // The face is absent in one image and then visible again, slightly shifted.
   ASSERT_TRUE(heads.update(cv::Mat(grey_.size(), CV_8UC1, cv::Scalar(90)), whole(), any_face).has_value());
   EXPECT_FALSE(heads.replaced().has_value());
   cv::Mat negative;
   cv::bitwise_not(grey_, negative);
-  heads.adopt(negative, {face_.centre.x - 0.5 * (side - 1), face_.centre.y - 0.5 * (side - 1), side, side},
-              0.0);
+  adopt_wider(heads, negative, 0.0);
   const auto face = heads.update(grey_, whole(), any_face);
   ASSERT_TRUE(face && face->detected && heads.replaced());
   ASSERT_LT(heads.replaced()->match, HeadTrackerConfig{}.lost_match);
   EXPECT_EQ(heads.replaced()->centre, face->centre);
-  EXPECT_NEAR(heads.replaced()->side, side, 1e-9);
+  EXPECT_NEAR(heads.replaced()->side, wider(), 1e-9);
 }
 
 TEST_F(HeadTrackerTest, DetectedFaceReplacesNothing) {

@@ -7,21 +7,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
-
-class CalibrationFile : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("telemime_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
-};
 
 ImageCalibration some_calibration() {
   ImageCalibration c;
@@ -43,11 +33,12 @@ ImageCalibration some_calibration() {
   return c;
 }
 
-TEST_F(CalibrationFile, ReadsWhatWasWritten) {
+TEST(CalibrationFile, ReadsWhatWasWritten) {
+  const ScratchFolder folder;
   const ImageCalibration before = some_calibration();
   for (const char* name : {"calibration.yml.gz", "calibration.json"}) {
-    save_calibration(before, folder_ / name);
-    const ImageCalibration after = load_calibration(folder_ / name);
+    save_calibration(before, folder.path() / name);
+    const ImageCalibration after = load_calibration(folder.path() / name);
     EXPECT_EQ(cv::norm(before.background.mean.u, after.background.mean.u, cv::NORM_INF), 0) << name;
     EXPECT_EQ(
         cv::norm(before.background.luminance_variance, after.background.luminance_variance, cv::NORM_INF), 0);
@@ -63,21 +54,19 @@ TEST_F(CalibrationFile, ReadsWhatWasWritten) {
   }
 }
 
-TEST_F(CalibrationFile, ErrorNamesTheFile) {
-  const auto message_of = [](const std::filesystem::path& file) {
+TEST(CalibrationFile, ErrorNamesTheFile) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path() / "noise.yml") << "not a calibration";
+  std::ofstream(folder.path() / "other.yml") << "%YAML:1.0\n---\nsomething: 3\n";
+  for (const char* name : {"missing.yml", "noise.yml", "other.yml"}) {
     try {
-      load_calibration(file);
-    } catch (const Error& e) {
-      return std::string(e.what());
+      load_calibration(folder.path() / name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_TRUE(testing_errors::names(error.what(), name)) << error.what();
     }
-    return std::string();
-  };
-  EXPECT_NE(message_of(folder_ / "missing.yml").find("missing.yml"), std::string::npos);
-  std::ofstream(folder_ / "noise.yml") << "not a calibration";
-  EXPECT_NE(message_of(folder_ / "noise.yml").find("noise.yml"), std::string::npos);
-  std::ofstream(folder_ / "other.yml") << "%YAML:1.0\n---\nsomething: 3\n";
-  EXPECT_NE(message_of(folder_ / "other.yml").find("other.yml"), std::string::npos);
-  EXPECT_THROW(save_calibration(some_calibration(), folder_ / "no_such_folder" / "a.yml.gz"), Error);
+  }
+  EXPECT_THROW(save_calibration(some_calibration(), folder.path() / "no_such_folder" / "a.yml.gz"), Error);
 }
 
 }  // namespace

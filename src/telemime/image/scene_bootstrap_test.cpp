@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "telemime/core/random.h"
@@ -18,7 +19,6 @@ cv::Mat empty_scene(Random& random) {
   for (int i = 0; i < 12; ++i) {
     image(cv::Rect(4 + 13 * i, 8 + (i * 7) % 60, 6, 9)).setTo(cv::Scalar(20 * i, 60, 200 - 12 * i));
   }
-  cv::Mat noise(image.size(), CV_8UC3);
   for (std::size_t i = 0; i < image.total() * 3; ++i) {
     image.data[i] = cv::saturate_cast<unsigned char>(image.data[i] + random.normal(0, 1));
   }
@@ -26,10 +26,7 @@ cv::Mat empty_scene(Random& random) {
 }
 
 HeadRegion head_at(int x) {
-  HeadRegion head;
-  head.centre = {x, 40};
-  head.radii = {9, 13};
-  return head;
+  return {{x, 40}, {9, 13}};
 }
 
 cv::Mat with_person(cv::Mat image, int x) {
@@ -39,55 +36,45 @@ cv::Mat with_person(cv::Mat image, int x) {
   return image;
 }
 
-TEST(StillStretch, IsEmptyStartWithoutLastFrames) {
+// The scene, empty for a number of frames, and with a person who is at x + step * i in the frame i of the
+// others.
+struct Part {
+  int frames;
+  int x = 0;
+  int step = 0;
+};
+std::vector<cv::Mat> clip_of(const std::vector<Part>& parts) {
   Random random(1);
   std::vector<cv::Mat> clip;
-  clip.reserve(64);
-  for (int i = 0; i < 20; ++i) {
-    clip.push_back(empty_scene(random));
+  for (const Part& part : parts) {
+    for (int i = 0; i < part.frames; ++i) {
+      const cv::Mat empty = empty_scene(random);
+      clip.push_back(part.x > 0 ? with_person(empty, part.x + part.step * i) : empty);
+    }
   }
-  for (int i = 0; i < 20; ++i) {
-    clip.push_back(with_person(empty_scene(random), 150 - 4 * i));
-  }
-  const auto [first, count] = find_still_stretch(clip);
-  EXPECT_EQ(first, 0U);
-  EXPECT_EQ(count, 17U);
+  return clip;
 }
 
-TEST(StillStretch, IsFoundAtTheEnd) {
-  Random random(2);
-  std::vector<cv::Mat> clip;
-  clip.reserve(64);
-  for (int i = 0; i < 15; ++i) {
-    clip.push_back(with_person(empty_scene(random), 40 + 5 * i));
-  }
-  for (int i = 0; i < 15; ++i) {
-    clip.push_back(empty_scene(random));
-  }
-  const auto [first, count] = find_still_stretch(clip);
-  EXPECT_EQ(first, 18U);
-  EXPECT_EQ(count, 12U);
+TEST(StillStretch, IsTheLongestEmptyPart) {
+  // Without the frames next to the person.
+  using Stretch = std::pair<std::size_t, std::size_t>;
+  EXPECT_EQ(Stretch(find_still_stretch(clip_of({{20}, {20, 150, -4}}))), Stretch(0, 17));
+  EXPECT_EQ(Stretch(find_still_stretch(clip_of({{15, 40, 5}, {15}}))), Stretch(18, 12));
+  EXPECT_EQ(find_still_stretch(clip_of({{30, 20, 4}})).second, 0U) << "a moving clip";
 }
 
-TEST(StillStretch, NoneInAMovingClip) {
-  Random random(3);
-  std::vector<cv::Mat> clip;
-  clip.reserve(64);
-  for (int i = 0; i < 30; ++i) {
-    clip.push_back(with_person(empty_scene(random), 20 + 4 * i));
+// The clip with the places of the head.
+std::vector<SceneSample> samples_of(const Part& part) {
+  std::vector<SceneSample> samples;
+  for (const cv::Mat& image : clip_of({part})) {
+    samples.push_back({image, head_at(part.x + part.step * static_cast<int>(samples.size()))});
   }
-  EXPECT_EQ(find_still_stretch(clip).second, 0U);
+  return samples;
 }
 
 TEST(AroundPerson, MovingPersonUncoversBackground) {
+  const BackgroundModel model = learn_around_person(samples_of({12, 30, 9}));
   Random random(4);
-  std::vector<SceneSample> samples;
-  samples.reserve(64);
-  for (int i = 0; i < 12; ++i) {
-    const int x = 30 + 9 * i;
-    samples.push_back({with_person(empty_scene(random), x), head_at(x)});
-  }
-  const BackgroundModel model = learn_around_person(samples);
   const LogColour empty = log_colour(empty_scene(random));
   EXPECT_GT(cv::countNonZero(model.valid), 0.9 * model.valid.total());
   const cv::Mat wrong = (cv::abs(model.mean.l - empty.l) > 0.15) & model.valid;
@@ -95,12 +82,7 @@ TEST(AroundPerson, MovingPersonUncoversBackground) {
 }
 
 TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
-  Random random(5);
-  std::vector<SceneSample> samples;
-  samples.reserve(64);
-  for (int i = 0; i < 8; ++i) {
-    samples.push_back({with_person(empty_scene(random), 80), head_at(80)});
-  }
+  const std::vector<SceneSample> samples = samples_of({8, 80, 0});
   const BackgroundModel model = learn_around_person(samples);
   EXPECT_EQ(model.valid.at<unsigned char>(100, 80), 0);
   EXPECT_EQ(model.valid.at<unsigned char>(40, 80), 0);

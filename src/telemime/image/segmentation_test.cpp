@@ -10,6 +10,7 @@
 namespace telemime {
 namespace {
 
+const cv::Mat kEverywhere(120, 160, CV_8UC1, cv::Scalar(255));
 const cv::Scalar kWall(150, 150, 145);
 const cv::Scalar kSkinColour(125, 155, 205);
 const cv::Scalar kShirt(150, 60, 40);
@@ -27,6 +28,12 @@ cv::Mat test_image() {
   return image;
 }
 
+// How this image differs from the wall alone.
+BackgroundEnergy against_the_wall(const LogColour& colour) {
+  const std::vector<cv::Mat> empty(5, cv::Mat(colour.l.size(), CV_8UC3, kWall));
+  return background_energy(learn_background_model(empty), colour, ShadowRange{}, {});
+}
+
 struct Scene {
   LogColour colour;
   BackgroundEnergy background;
@@ -36,13 +43,9 @@ struct Scene {
 
 Scene scene() {
   Scene s;
-  const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
-  const BackgroundModel model = learn_background_model(empty);
   s.colour = log_colour(test_image());
-  s.background = background_energy(model, s.colour, ShadowRange{}, {});
-  s.head.centre = {80, 30};
-  s.head.radii = {10.5, 14.5};
-  s.head.detected = true;
+  s.background = against_the_wall(s.colour);
+  s.head = {{80, 30}, {10.5, 14.5}, true};
   const Segmentation rough = segment(s.colour, s.background, {}, s.head, {});
   const PersonReport report = learn_person_colours(s.colour, rough.silhouette, s.head, s.colours);
   EXPECT_TRUE(report.accepted) << report.reason;
@@ -68,8 +71,7 @@ TEST(Segmentation, EachPartGetsItsLabel) {
 
 // A person visible from head to foot, in an image of twice the size, with a hanging arm of the given length.
 Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& config = {}) {
-  const cv::Mat empty(240, 320, CV_8UC3, kWall);
-  cv::Mat image = empty.clone();
+  cv::Mat image(240, 320, CV_8UC3, kWall);
   cv::rectangle(image, cv::Rect(142, 46, 36, 60), kShirt, cv::FILLED);
   cv::rectangle(image, cv::Rect(146, 106, 28, 80), kTrousers, cv::FILLED);
   cv::rectangle(image, cv::Rect(148, 186, 24, 14), kSkinColour, cv::FILLED);
@@ -77,8 +79,7 @@ Segmentation seen_whole(int arm, double head_height, const SegmentationConfig& c
   cv::ellipse(image, {160, 28}, {9, 13}, 0, 0, 360, kSkinColour, cv::FILLED);
   cv::rectangle(image, cv::Rect(130, 64, 12, arm), kSkinColour, cv::FILLED);
   const LogColour colour = log_colour(image);
-  const BackgroundModel model = learn_background_model(std::vector<cv::Mat>(5, empty));
-  const BackgroundEnergy background = background_energy(model, colour, ShadowRange{}, {});
+  const BackgroundEnergy background = against_the_wall(colour);
   HeadRegion head{{160, 28}, {9.5, 13.5}, true};
   PersonColours colours;
   EXPECT_TRUE(
@@ -126,9 +127,8 @@ TEST(Segmentation, ForeignBoxIsRemoved) {
   Scene s = scene();
   cv::Mat image = test_image();
   cv::rectangle(image, cv::Rect(125, 20, 25, 25), cv::Scalar(30, 160, 60), cv::FILLED);
-  const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
   s.colour = log_colour(image);
-  s.background = background_energy(learn_background_model(empty), s.colour, ShadowRange{}, {});
+  s.background = against_the_wall(s.colour);
   const Segmentation out = segment(s.colour, s.background, s.colours, s.head, {});
   EXPECT_EQ(at(out.labels, 137, 32), Label::background);
   EXPECT_EQ(at(out.labels, 48, 64), Label::arms);
@@ -139,12 +139,11 @@ TEST(PersonColours, RefusesTinyFaceAndHiddenChest) {
   PersonColours colours;
   HeadRegion tiny = s.head;
   tiny.radii = {1, 1.5};
-  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  PersonReport report = learn_person_colours(s.colour, everywhere, tiny, colours);
+  PersonReport report = learn_person_colours(s.colour, kEverywhere, tiny, colours);
   EXPECT_FALSE(report.accepted);
   EXPECT_NE(report.reason.find("pixels"), std::string::npos);
   const LogColour all_skin = log_colour(cv::Mat(120, 160, CV_8UC3, kSkinColour));
-  report = learn_person_colours(all_skin, everywhere, s.head, colours);
+  report = learn_person_colours(all_skin, kEverywhere, s.head, colours);
   EXPECT_FALSE(report.accepted);
   EXPECT_FALSE(report.reason.empty());
   EXPECT_FALSE(colours.known());
@@ -155,8 +154,7 @@ TEST(PersonColours, MaskOnHalfTheFaceIsNotSkin) {
   cv::rectangle(image, cv::Rect(70, 33, 20, 9), cv::Scalar(225, 222, 220), cv::FILLED);
   PersonColours colours;
   const Scene s = scene();
-  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  ASSERT_TRUE(learn_person_colours(log_colour(image), everywhere, s.head, colours).accepted);
+  ASSERT_TRUE(learn_person_colours(log_colour(image), kEverywhere, s.head, colours).accepted);
   EXPECT_LT(mahalanobis2(colours.skin, log_colour_of(125, 155, 205)), 4);
   EXPECT_GT(mahalanobis2(colours.skin, log_colour_of(225, 222, 220)), 9);
 }
@@ -172,13 +170,9 @@ TEST(PersonColours, ObjectOfMaskColourIsNotAnArm) {
     if (masked) {
       cv::rectangle(shown, cv::Rect(70, 33, 20, 9), white, cv::FILLED);
     }
-    const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
     const LogColour colour = log_colour(shown);
-    EXPECT_TRUE(learn_person_colours(colour, everywhere, s.head, s.colours).accepted);
-    const std::vector<cv::Mat> empty(5, cv::Mat(120, 160, CV_8UC3, kWall));
-    const BackgroundModel model = learn_background_model(empty);
-    const BackgroundEnergy background = background_energy(model, colour, ShadowRange{}, {});
-    const Segmentation out = segment(colour, background, s.colours, s.head, {});
+    EXPECT_TRUE(learn_person_colours(colour, kEverywhere, s.head, s.colours).accepted);
+    const Segmentation out = segment(colour, against_the_wall(colour), s.colours, s.head, {});
     EXPECT_EQ(at(out.labels, 48, 64), Label::arms) << "a true arm";
     EXPECT_EQ(at(out.labels, 80, 60), Label::clothes);
     return at(out.labels, shoe.x + 5, shoe.y + 4);
@@ -193,8 +187,7 @@ TEST(PersonColours, ShirtInsideHeadEllipseIsNoMask) {
   cv::rectangle(image, cv::Rect(70, 38, 20, 12), kShirt, cv::FILLED);
   PersonColours colours;
   const Scene s = scene();
-  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
-  ASSERT_TRUE(learn_person_colours(log_colour(image), everywhere, s.head, colours).accepted);
+  ASSERT_TRUE(learn_person_colours(log_colour(image), kEverywhere, s.head, colours).accepted);
   EXPECT_GT(mahalanobis2(colours.other, log_colour_of(150, 60, 40)), 9);
 }
 

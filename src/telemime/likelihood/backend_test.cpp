@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "telemime/body/testing_poses.h"
-#include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/image/edges.h"
 #include "telemime/likelihood/cues/contour.h"
 #include "telemime/likelihood/cues/region.h"
@@ -220,12 +220,8 @@ TEST_F(Likelihood, PrepareRefusesWhatDoesNotMatchTheCamera) {
   for (std::size_t i = 0; i < faults.size(); ++i) {
     FrameFeatures wrong = seen_;
     faults[i](wrong);
-    try {
-      prepare(wrong, camera_);
-      ADD_FAILURE() << "fault " << i << " was accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-    }
+    SCOPED_TRACE(i);
+    testing_errors::message_of(ErrorKind::usage, [&] { prepare(wrong, camera_); });
   }
 }
 

@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "telemime/body/testing_poses.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {
 namespace {
 
+using testing_poses::farthest_joint;
 using testing_scene::both_arms_seen;
-using testing_scene::farthest_joint;
 using testing_scene::Scene;
 
 Config quick() {

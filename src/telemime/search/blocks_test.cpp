@@ -8,6 +8,7 @@
 namespace telemime {
 namespace {
 
+using testing_poses::bent_pose;
 using testing_poses::kDegree;
 using testing_poses::kSides;
 using testing_poses::random_pose;
@@ -16,25 +17,9 @@ using testing_poses::wrist_of;
 
 constexpr double kTenthOfMillimetre = 1e-4;
 
-// A random pose whose arms are bent: straight ones have no swivel.
-Pose bent_pose(Random& random, const JointLimits& limits) {
-  Pose pose = random_pose(limits, random, 0.4);
-  for (const Side side : kSides) {
-    ArmAngles arm = arm_angles(pose, side);
-    arm.elbow = std::min(arm.elbow, -15 * kDegree);
-    set_arm_angles(pose, side, arm);
-  }
-  return pose;
-}
-
 double farthest_joint(const Body& body, const Pose& a, const Pose& b) {
-  const JointPositions ja = forward_kinematics(body, a).joints;
-  const JointPositions jb = forward_kinematics(body, b).joints;
-  double most = 0.0;
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    most = std::max(most, (ja.at[j] - jb.at[j]).norm());
-  }
-  return most;
+  return testing_poses::farthest_joint(forward_kinematics(body, a).joints,
+                                       forward_kinematics(body, b).joints);
 }
 
 std::vector<SearchBlock> all_blocks(const Body& body, const Pose& pose, const JointLimits& limits) {
@@ -47,7 +32,7 @@ TEST(Blocks, StartDecodesToThePose) {
   const JointLimits limits = anatomical_limits();
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Pose pose = bent_pose(random, limits);
+    const Pose pose = bent_pose(limits, random);
     for (const SearchBlock& block : all_blocks(body, pose, limits)) {
       ASSERT_LT(farthest_joint(body, block.decode(block.start), pose), kTenthOfMillimetre)
           << block.name << " " << i;
@@ -59,7 +44,7 @@ TEST(Blocks, SizesAndBoundsFit) {
   const Body body = make_body(Shape{});
   const JointLimits limits = anatomical_limits();
   Random random(2);
-  const Pose pose = bent_pose(random, limits);
+  const Pose pose = bent_pose(limits, random);
   const auto blocks = all_blocks(body, pose, limits);
   const Eigen::Index sizes[] = {23, 9, 7, 7};
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -99,7 +84,7 @@ TEST(Blocks, TrunkBlockKeepsTheWristsInPlace) {
   const JointLimits limits = anatomical_limits();
   Random random(4);
   for (int i = 0; i < 100; ++i) {
-    Pose pose = bent_pose(random, limits);
+    Pose pose = bent_pose(limits, random);
     for (const Side side : kSides) {  // well in reach, so that the trunk may move
       ArmAngles arm = arm_angles(pose, side);
       arm.elbow = std::clamp(arm.elbow, -110 * kDegree, -50 * kDegree);
@@ -127,7 +112,7 @@ TEST(Blocks, ArmBlockMovesItsArmOnly) {
   Random random(5);
   for (const Side side : kSides) {
     const Side other = side == Side::left ? Side::right : Side::left;
-    const Pose pose = bent_pose(random, limits);
+    const Pose pose = bent_pose(limits, random);
     const SearchBlock block = arm_block(body, pose, side, limits, 1.5);
     const Pose moved = block.decode(block.start + block.steps);
     EXPECT_EQ(moved.root, pose.root);
@@ -183,7 +168,7 @@ TEST(Blocks, PartMovesItsNumbersAndKeepsTheOthers) {
   const Body body = make_body(Shape{});
   const JointLimits limits = anatomical_limits();
   Random random(9);
-  const Pose pose = bent_pose(random, limits);
+  const Pose pose = bent_pose(limits, random);
   const SearchBlock whole = bones_block(body, pose, Side::left, limits, 1.5);
   const SearchBlock fore = part_of(bones_block(body, pose, Side::left, limits, 1.5), 2, 2);
   ASSERT_EQ(fore.start.size(), 2);

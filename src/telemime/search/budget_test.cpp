@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
@@ -146,14 +147,9 @@ TEST(SplitForBudget, NothingFitsIntoNoTime) {
 
 class TuningFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    file_ = std::filesystem::temp_directory_path() /
-            (std::string("telemime_tuning_") +
-             ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
   void write(const std::string& text) const { std::ofstream(file_) << text; }
-  std::filesystem::path file_;
+  ScratchFolder folder_;
+  std::filesystem::path file_ = folder_.file("tuning.json");
 };
 
 TEST_F(TuningFile, ReadsWhatWasWritten) {

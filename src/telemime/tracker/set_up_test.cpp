@@ -9,13 +9,7 @@ namespace telemime {
 namespace {
 
 Camera camera() {
-  Camera result;
-  result.width = 320;
-  result.height = 240;
-  result.fx = result.fy = 300.0;
-  result.cx = 159.5;
-  result.cy = 119.5;
-  return result;
+  return camera_from_field_of_view(320, 240, 60.0);
 }
 
 TEST(WithBudget, WithoutABudgetNothingChanges) {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "telemime/body/limits.h"
+#include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
 #include "telemime/tracker/joint_rotations.h"
@@ -38,11 +38,7 @@ struct Rig : testing::Stage {
 };
 
 double largest_move(const MotionFrame& a, const MotionFrame& b) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    largest = std::max(largest, (a.joints.at[j] - b.joints.at[j]).norm());
-  }
-  return largest;
+  return testing_poses::farthest_joint(a.joints, b.joints);
 }
 
 /// Mean second difference of the right wrist, m/frame^2.
@@ -70,10 +66,7 @@ TEST(JointRotations, AreTheInverseOfEachOther) {
   Random random(1);
   const JointLimits limits = anatomical_limits();
   for (int n = 0; n < 500; ++n) {
-    Pose pose = standing();
-    for (std::size_t a = 0; a < kAngleCount; ++a) {
-      pose.angles[a] = random.uniform(limits.min[a], limits.max[a]);
-    }
+    const Pose pose = testing_poses::random_pose(limits, random);
     EXPECT_LT((pose_of(rotations_of(pose), pose).vector() - pose.vector()).cwiseAbs().maxCoeff(), 1e-6);
   }
 }

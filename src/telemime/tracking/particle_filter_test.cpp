@@ -32,6 +32,13 @@ RunningFilter make_filter(Scene& scene, const FilterConfig& config, std::uint64_
   return {scene, config, scene.evaluators, seed};
 }
 
+// The same, started at the pose that the scene shows at first.
+RunningFilter started(Scene& scene, const FilterConfig& config) {
+  RunningFilter filter = make_filter(scene, config);
+  filter.start(both_arms_seen());
+  return filter;
+}
+
 StepInput input(const Scene& scene, double velocity) {
   return {.frame = scene.frame, .model = scene.model, .velocity = velocity};
 }
@@ -77,8 +84,7 @@ TEST(ParticleFilter, CondensationFollowsASlowlyRaisedArm) {
 TEST(ParticleFilter, SteppingBackKeepsTheHeading) {
   Scene scene;
   FilterConfig config;
-  config.particles = 300;
-  config.mode_most = 300;
+  config.particles = config.mode_most = 300;
   RunningFilter filter = make_filter(scene, config);
   Pose truth = both_arms_seen();
   filter.start(truth);
@@ -94,8 +100,7 @@ TEST(ParticleFilter, SteppingBackKeepsTheHeading) {
 TEST(ParticleFilter, WalkingTurnsTheHeading) {
   Scene scene;
   FilterConfig config;
-  config.particles = 300;
-  config.mode_most = 300;
+  config.particles = config.mode_most = 300;
   for (const bool backward : {false, true}) {
     for (const double side : {-1.0, 1.0}) {
       RunningFilter filter = make_filter(scene, config);
@@ -115,8 +120,7 @@ TEST(ParticleFilter, WalkingTurnsTheHeading) {
 TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
   Scene scene;
   const auto spread = [&](double frames) {
-    RunningFilter filter = make_filter(scene, thesis("", 400));
-    filter.start(both_arms_seen());
+    RunningFilter filter = started(scene, thesis("", 400));
     filter.step({.frame = scene.frame, .model = scene.model, .time_step = frames});
     double sum = 0.0;
     for (const Particle& p : filter.particles()) {
@@ -131,8 +135,7 @@ TEST(ParticleFilter, ParticlesSpreadWithTheRootOfTheTimeStep) {
 TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   Scene scene;
   const auto evaluations = [&](double effort, const FilterConfig& config) {
-    RunningFilter filter = make_filter(scene, config);
-    filter.start(both_arms_seen());
+    RunningFilter filter = started(scene, config);
     return filter.step({.frame = scene.frame, .model = scene.model, .velocity = 0.5, .effort = effort})
         .evaluations;
   };
@@ -140,8 +143,7 @@ TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   const int whole = evaluations(1.0, FilterConfig());
   EXPECT_LT(evaluations(0.25, FilterConfig()), 0.4 * whole);
   Scene other;
-  RunningFilter filter = make_filter(other, FilterConfig());
-  filter.start(both_arms_seen());
+  RunningFilter filter = started(other, FilterConfig());
   for (const double bad : {0.0, -1.0, 1.5, std::nan("")}) {
     const double bad_step = bad == 1.5 ? 0.0 : bad;
     EXPECT_THROW(filter.step({.frame = other.frame, .model = other.model, .effort = bad}), Error) << bad;
@@ -150,13 +152,14 @@ TEST(ParticleFilter, TheEffortIsAShareOfTheEvaluations) {
   }
 }
 
-TEST(ParticleFilter, TheMeanIsScoredItself) {
+TEST(ParticleFilter, TheMeanOfTheParticlesIsScoredItself) {
   Scene scene;
-  FilterConfig config = thesis("", 60);
+  FilterConfig config = thesis("", 100);
   config.estimate = "mean";
-  RunningFilter filter = make_filter(scene, config);
-  filter.start(both_arms_seen());
+  RunningFilter filter = started(scene, config);
   const FilterResult found = filter.step(input(scene, 0.0));
+  EXPECT_EQ(found.pose.vector(), scene.limits.clamp(mean_pose(filter.particles())).vector());
+  EXPECT_NE(found.pose.vector(), best_of(filter).pose.vector());
   Score score;
   scene.evaluators.evaluate(scene.frame, scene.model, {&found.pose, 1}, {&score, 1});
   EXPECT_EQ(found.score.region(), score.region());
@@ -165,8 +168,7 @@ TEST(ParticleFilter, TheMeanIsScoredItself) {
 
 TEST(ParticleFilter, ChildrenOfOneParentDiffer) {
   Scene scene;
-  RunningFilter filter = make_filter(scene, thesis("", 100));
-  filter.start(both_arms_seen());
+  RunningFilter filter = started(scene, thesis("", 100));
   filter.step(input(scene, 0.0));
   std::set<double> roots;
   for (const Particle& p : filter.particles()) {
@@ -270,17 +272,13 @@ TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
 
 TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
   Scene scene;
-  PreparedFrame nobody = scene.frame;
-  {
-    Pose away = both_arms_seen();
-    away.root.x() = 50.0;
-    nobody = frame_of_model(scene.model, away, scene.camera);
-  }
+  Pose away = both_arms_seen();
+  away.root.x() = 50.0;
+  const PreparedFrame nobody = frame_of_model(scene.model, away, scene.camera);
   FilterConfig ours;
   ours.particles = 100;
   for (const FilterConfig& config : {thesis("", 100), thesis("wd,hpm,ee,lo,kf", 100), ours}) {
-    RunningFilter filter = make_filter(scene, config);
-    filter.start(both_arms_seen());
+    RunningFilter filter = started(scene, config);
     for (int i = 0; i < 4; ++i) {
       const FilterResult found =
           filter.step({.frame = i == 3 ? scene.frame : nobody, .model = scene.model, .velocity = 0.5});
@@ -301,8 +299,7 @@ TEST(ParticleFilter, OneParticleIsEnoughToGoOn) {
     for (const std::string list : {"", "wd", "wd,hpm,ee,lo,kf", "modes,wd,lo,turn,kf"}) {
       FilterConfig config = thesis(list, 1);
       config.blocks = ours;
-      RunningFilter filter = make_filter(scene, config);
-      filter.start(both_arms_seen());
+      RunningFilter filter = started(scene, config);
       for (int i = 0; i < 3; ++i) {
         const FilterResult found = filter.step(input(scene, 0.0));
         EXPECT_TRUE(found.pose.vector().allFinite()) << list;
@@ -340,21 +337,9 @@ TEST(ParticleFilter, RefusesSettingsThatCannotBe) {
   EXPECT_THROW(make_filter(scene, config), Error);
 }
 
-TEST(ParticleFilter, TheMeanIsTheMeanOfItsParticles) {
-  Scene scene;
-  FilterConfig config = thesis("", 100);
-  config.estimate = "mean";
-  RunningFilter filter = make_filter(scene, config);
-  filter.start(both_arms_seen());
-  const FilterResult found = filter.step(input(scene, 0.0));
-  EXPECT_EQ(found.pose.vector(), scene.limits.clamp(mean_pose(filter.particles())).vector());
-  EXPECT_NE(found.pose.vector(), best_of(filter).pose.vector());
-}
-
 TEST(ParticleFilter, WithoutMotionThePartitionLetsNothingMove) {
   Scene scene;
-  RunningFilter filter = make_filter(scene, thesis("hpm", 30));
-  filter.start(both_arms_seen());
+  RunningFilter filter = started(scene, thesis("hpm", 30));
   EXPECT_EQ(filter.step(input(scene, 0.0)).moving, all_parts()) << "there is no frame before";
   const Pose before = best_of(filter).pose;
   const FilterResult found = filter.step(input(scene, 0.0));

@@ -12,8 +12,9 @@
 namespace telemime {
 namespace {
 
+using testing_poses::bent_pose;
+using testing_poses::farthest_joint;
 using testing_scene::both_arms_seen;
-using testing_scene::farthest_joint;
 using testing_scene::kDegree;
 using testing_scene::Scene;
 
@@ -21,17 +22,6 @@ constexpr double kTenthOfMillimetre = 1e-4;
 
 PartSet only(Part part) {
   return PartSet().set(static_cast<std::size_t>(part));
-}
-
-// Inside the limits; arms are bent: straight ones have no swivel.
-Pose bent_pose(const JointLimits& limits, Random& random) {
-  Pose pose = testing_poses::random_pose(limits, random, 0.4);
-  for (const Side side : testing_poses::kSides) {
-    ArmAngles arm = arm_angles(pose, side);
-    arm.elbow = std::min(arm.elbow, -15 * kDegree);
-    set_arm_angles(pose, side, arm);
-  }
-  return pose;
 }
 
 TEST(SearchSpace, StartDecodesToThePose) {

@@ -80,15 +80,6 @@ inline Particle particle(const Pose& pose, double weight, double log_likelihood 
   return p;
 }
 
-/// Largest distance of a joint, m.
-inline double farthest_joint(const JointPositions& a, const JointPositions& b) {
-  double most = 0.0;
-  for (std::size_t j = 0; j < kJointCount; ++j) {
-    most = std::max(most, (a.at[j] - b.at[j]).norm());
-  }
-  return most;
-}
-
 inline double mean_of(std::span<const double> values) {
   double sum = 0.0;
   for (const double v : values) {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/tracking/testing_scene.h"
@@ -14,8 +15,8 @@
 namespace telemime {
 namespace {
 
+using testing_poses::farthest_joint;
 using testing_scene::both_arms_seen;
-using testing_scene::farthest_joint;
 using testing_scene::kDegree;
 using testing_scene::Scene;
 

@@ -8,27 +8,16 @@
 namespace telemime {
 namespace {
 
-TEST(Region, IsZeroForTheSamePlanes) {
-  EXPECT_EQ(non_overlapping_ratio({{100, 50, 300}, {100, 50, 300}, {100, 50, 300}, 0.0, 0}), 0.0);
-}
-
-TEST(Region, IsOneForDisjointPlanes) {
-  EXPECT_EQ(non_overlapping_ratio({{100, 50, 300}, {10, 20, 30}, {0, 0, 0}, 0.0, 0}), 1.0);
-}
-
-TEST(Region, CountsAsByHand) {
+TEST(Region, IsTheMeanShareOutsideTheIntersections) {
+  const auto f = [](const Reductions& r) { return non_overlapping_ratio(r); };
+  EXPECT_EQ(f({{100, 50, 300}, {100, 50, 300}, {100, 50, 300}, 0.0, 0}), 0.0) << "the same planes";
+  EXPECT_EQ(f({{100, 50, 300}, {10, 20, 30}, {0, 0, 0}, 0.0, 0}), 1.0) << "disjoint planes";
   // Unions 120, 60, 400; outside of the intersections 70, 20, 100: mean of 7/12, 1/3 and 1/4.
-  const Reductions r = {{100, 50, 350}, {70, 50, 350}, {50, 40, 300}, 0.0, 0};
-  EXPECT_NEAR(non_overlapping_ratio(r), (70.0 / 120 + 20.0 / 60 + 100.0 / 400) / 3, 1e-15);
-}
-
-TEST(Region, ClassThatIsNowhereCountsZero) {
-  EXPECT_NEAR(non_overlapping_ratio({{0, 50, 0}, {0, 50, 0}, {0, 0, 0}, 0.0, 0}), 1.0 / 3, 1e-15);
-  EXPECT_EQ(non_overlapping_ratio(Reductions{}), 0.0);
-}
-
-TEST(Region, ClassOnOneSideOnlyCountsOne) {
-  EXPECT_NEAR(non_overlapping_ratio({{20, 0, 0}, {0, 30, 0}, {0, 0, 0}, 0.0, 0}), 2.0 / 3, 1e-15);
+  EXPECT_NEAR(f({{100, 50, 350}, {70, 50, 350}, {50, 40, 300}, 0.0, 0}),
+              (70.0 / 120 + 20.0 / 60 + 100.0 / 400) / 3, 1e-15);
+  EXPECT_NEAR(f({{0, 50, 0}, {0, 50, 0}, {0, 0, 0}, 0.0, 0}), 1.0 / 3, 1e-15) << "two classes nowhere";
+  EXPECT_EQ(f(Reductions{}), 0.0) << "nothing anywhere";
+  EXPECT_NEAR(f({{20, 0, 0}, {0, 30, 0}, {0, 0, 0}, 0.0, 0}), 2.0 / 3, 1e-15) << "each on one side only";
 }
 
 TEST(Region, StaysBetweenZeroAndOneAndIsSymmetric) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "telemime/search/shape_refine.h"
 #include "telemime/tracking/testing_scene.h"
@@ -18,19 +20,28 @@ using testing_scene::Scene;
 
 constexpr int kSeeds = 60;
 
-// Particles made from a heaviest parent with this torsion.
-Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
-  Pose pose = both_arms_seen();
-  pose[Angle::root_torsion] = torsion;
+// Searches that are too short to move far from their start.
+struct ShortSearch : Scene {
+  ShortSearch() { config.turn_evaluations = config.walk_evaluations = 10; }
+};
+
+// Particles made from these parents.
+Generation searched(Scene& scene, std::vector<Particle> parents, std::uint64_t seed = 1) {
   Generation generation;
-  generation.parents = {particle(both_arms_seen(), 0.3), particle(pose, 0.7)};
+  generation.parents = std::move(parents);
   search_heading(scene.context(seed), generation);
   return generation;
 }
 
+// Particles made from a heaviest parent with this torsion.
+Generation turned(Scene& scene, double torsion, std::uint64_t seed) {
+  Pose pose = both_arms_seen();
+  pose[Angle::root_torsion] = torsion;
+  return searched(scene, {particle(both_arms_seen(), 0.3), particle(pose, 0.7)}, seed);
+}
+
 TEST(HeadingSearch, AnUprightTrunkIsTurnedHalfOfTheTime) {
-  Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  ShortSearch scene;
   int came = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const std::size_t count = turned(scene, 0.0, seed).particles.size();
@@ -41,8 +52,7 @@ TEST(HeadingSearch, AnUprightTrunkIsTurnedHalfOfTheTime) {
 }
 
 TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
-  Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;  // too few to move far from the start
+  ShortSearch scene;
   int two = 0;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const Generation generation = turned(scene, 0.6, seed);
@@ -58,13 +68,10 @@ TEST(HeadingSearch, ATurnedTrunkIsAlwaysTriedUpright) {
 }
 
 TEST(HeadingSearch, ABentTrunkIsStraightenedAboutTheNeck) {
-  Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  ShortSearch scene;
   Pose bent = both_arms_seen();
   bent[Angle::root_roll] = 0.3;
-  Generation generation;
-  generation.parents = {particle(bent, 1.0)};
-  search_heading(scene.context(), generation);
+  const Generation generation = searched(scene, {particle(bent, 1.0)});
   ASSERT_FALSE(generation.particles.empty());
   const Pose& upright = generation.particles[0].pose;
   EXPECT_LT(std::abs(upright[Angle::root_roll]), 0.1);
@@ -74,14 +81,11 @@ TEST(HeadingSearch, ABentTrunkIsStraightenedAboutTheNeck) {
 }
 
 TEST(HeadingSearch, FarLeanIsTriedUprightAtItsLowerEnd) {
-  Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  ShortSearch scene;
   for (const double tilt : {0.4, -0.4}) {
     Pose leaning = both_arms_seen();
     leaning[Angle::root_tilt] = tilt;
-    Generation generation;
-    generation.parents = {particle(leaning, 1.0)};
-    search_heading(scene.context(), generation);
+    const Generation generation = searched(scene, {particle(leaning, 1.0)});
     ASSERT_GE(generation.particles.size(), 2U) << tilt;
     const Pose& upright = generation.particles[1].pose;
     EXPECT_LT(std::abs(upright[Angle::root_tilt]), 0.15) << tilt;
@@ -94,15 +98,12 @@ TEST(HeadingSearch, FarLeanIsTriedUprightAtItsLowerEnd) {
 }
 
 TEST(HeadingSearch, ArmsStayInTheImageWhenTheTrunkTurns) {
-  Scene scene;  // shows both_arms_seen(), upright
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+  ShortSearch scene;  // shows both_arms_seen(), upright
   // The trunk was lost, not the arms.
   Pose lost = both_arms_seen();
   lost[Angle::root_torsion] = 0.5;
   lost = carry_arms(scene.model.body, both_arms_seen(), scene.model.body, lost, scene.limits);
-  Generation generation;
-  generation.parents = {particle(lost, 1.0)};
-  search_heading(scene.context(), generation);
+  const Generation generation = searched(scene, {particle(lost, 1.0)});
   ASSERT_FALSE(generation.particles.empty());
   const JointPositions truth = scene.joints(both_arms_seen());
   const JointPositions found = scene.joints(generation.particles[0].pose);
@@ -111,9 +112,8 @@ TEST(HeadingSearch, ArmsStayInTheImageWhenTheTrunkTurns) {
   }
 }
 
-TEST(HeadingSearch, WhoWalksIsTriedFacingTheirWay) {
-  Scene scene;
-  scene.config.turn_evaluations = scene.config.walk_evaluations = 10;
+TEST(HeadingSearch, AWalkingPersonIsTriedFacingAhead) {
+  ShortSearch scene;
   scene.heading = 0.7;
   EXPECT_NEAR(turned(scene, 0.0, 1).particles.at(0).pose[Angle::root_torsion], 0.7, 0.15);
 }

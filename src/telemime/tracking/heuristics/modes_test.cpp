@@ -28,52 +28,50 @@ Generation two_modes() {
   return generation;
 }
 
+// The parents that are left.
+std::vector<Particle> merged(Scene& scene) {
+  Generation generation = two_modes();
+  merge_modes(scene.context(), generation);
+  return generation.parents;
+}
+
 TEST(MergeModes, TheLikeliestParticleStandsForItsMode) {
   Scene scene;
   scene.config.memory = 1.0;
-  Generation generation = two_modes();
-  merge_modes(scene.context(), generation);
-  ASSERT_EQ(generation.parents.size(), 2U);
-  EXPECT_EQ(generation.parents[0].pose.vector(), with_left_elbow(-103).vector());
-  EXPECT_NEAR(generation.parents[0].weight, 0.64, 1e-12);
-  EXPECT_EQ(generation.parents[1].pose.vector(), with_left_elbow(-20).vector());
-  EXPECT_NEAR(generation.parents[1].weight, 0.36, 1e-12);
+  const std::vector<Particle> parents = merged(scene);
+  ASSERT_EQ(parents.size(), 2U);
+  EXPECT_EQ(parents[0].pose.vector(), with_left_elbow(-103).vector());
+  EXPECT_NEAR(parents[0].weight, 0.64, 1e-12);
+  EXPECT_EQ(parents[1].pose.vector(), with_left_elbow(-20).vector());
+  EXPECT_NEAR(parents[1].weight, 0.36, 1e-12);
 }
 
 TEST(MergeModes, MemoryLevelsTheWeights) {
   Scene scene;
   scene.config.memory = 0.5;  // roots: 0.8 and 0.6
-  Generation generation = two_modes();
-  merge_modes(scene.context(), generation);
-  ASSERT_EQ(generation.parents.size(), 2U);
-  EXPECT_NEAR(generation.parents[0].weight, 0.8 / 1.4, 1e-12);
-  EXPECT_NEAR(generation.parents[1].weight, 0.6 / 1.4, 1e-12);
+  const std::vector<Particle> parents = merged(scene);
+  ASSERT_EQ(parents.size(), 2U);
+  EXPECT_NEAR(parents[0].weight, 0.8 / 1.4, 1e-12);
+  EXPECT_NEAR(parents[1].weight, 0.6 / 1.4, 1e-12);
   scene.config.memory = 0.0;
-  generation = two_modes();
-  merge_modes(scene.context(), generation);
-  EXPECT_NEAR(generation.parents[0].weight, 0.5, 1e-12);
+  EXPECT_NEAR(merged(scene)[0].weight, 0.5, 1e-12);
 }
 
 TEST(MergeModes, OnlyTheHeaviestStay) {
   Scene scene;
   scene.config.modes = 1;
-  Generation generation = two_modes();
-  merge_modes(scene.context(), generation);
-  ASSERT_EQ(generation.parents.size(), 1U);
-  EXPECT_NEAR(generation.parents[0].weight, 1.0, 1e-12);
-  EXPECT_EQ(generation.parents[0].pose.vector(), with_left_elbow(-103).vector());
+  const std::vector<Particle> parents = merged(scene);
+  ASSERT_EQ(parents.size(), 1U);
+  EXPECT_NEAR(parents[0].weight, 1.0, 1e-12);
+  EXPECT_EQ(parents[0].pose.vector(), with_left_elbow(-103).vector());
 }
 
-TEST(MergeModes, TheRadiusSaysWhatIsApart) {
+TEST(MergeModes, TheRadiusDecidesWhatIsApart) {
   Scene scene;
   scene.config.mode_radius = 1.0;
-  Generation generation = two_modes();
-  merge_modes(scene.context(), generation);
-  EXPECT_EQ(generation.parents.size(), 1U);
+  EXPECT_EQ(merged(scene).size(), 1U);
   scene.config.mode_radius = 0.001;
-  generation = two_modes();
-  merge_modes(scene.context(), generation);
-  EXPECT_EQ(generation.parents.size(), 3U);
+  EXPECT_EQ(merged(scene).size(), 3U);
 }
 
 }  // namespace
