@@ -7,7 +7,6 @@
 #include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -124,7 +123,7 @@ std::filesystem::path measurement_data(const std::filesystem::path& given, const
     return development;
   }
   std::filesystem::path made = out / "clips";
-  for (const std::string_view name : std::span(kGestureNames).first(kThesisGestureCount)) {
+  for (const std::string_view name : kThesisGestures) {
     if (std::filesystem::exists(made / name / "truth.json")) {
       continue;
     }

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,30 +24,20 @@ struct SynthArguments {
 };
 
 void read_size(const std::string& text, SceneOptions& scene) {
-  std::size_t used = 0;
-  try {
-    scene.width = std::stoi(text, &used);
-    if (used < text.size() && text[used] == 'x') {
-      const std::string rest = text.substr(used + 1);
-      scene.height = std::stoi(rest, &used);
-      if (used == rest.size()) {
-        return;
-      }
-    }
-  } catch (const std::exception&) {
-    used = 0;  // not a number: reported below
+  std::istringstream in(text);
+  char by = '\0';
+  if (!(in >> scene.width >> by >> scene.height) || by != 'x' || in.peek() != EOF) {
+    throw Error(ErrorKind::usage, "--size \"" + text + "\" is not a size in pixels",
+                "write it as width x height, for instance 640x480");
   }
-  throw Error(ErrorKind::usage, "--size \"" + text + "\" is not a size in pixels",
-              "write it as width x height, for instance 640x480");
 }
 
 void run_synth(const SynthArguments& arguments) {
   SequenceOptions options = arguments.sequence;
   read_size(arguments.size, options.scene);
   const std::vector<std::string> gestures =
-      arguments.gesture == "all"
-          ? std::vector<std::string>(kGestureNames.begin(), kGestureNames.begin() + kThesisGestureCount)
-          : std::vector<std::string>{arguments.gesture};
+      arguments.gesture == "all" ? std::vector<std::string>(kThesisGestures.begin(), kThesisGestures.end())
+                                 : std::vector<std::string>{arguments.gesture};
   for (const std::string& gesture : gestures) {
     options.scene.gesture = gesture_named(gesture);
     ProgressBar bar(arguments.quiet);

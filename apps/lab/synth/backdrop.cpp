@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/synth/backdrop.h"
+#include "lab/synth/render.h"
 
 #include <algorithm>
 #include <array>
@@ -134,7 +134,7 @@ void draw_notice(Canvas& c, double x, double y, double w, double h, const cv::Sc
 }  // namespace
 
 Backdrop make_backdrop(const Camera& camera, int shirt_index, Random& random) {
-  // BGR: blue, teal, green, violet, slate - in the order of the shirts of look.cpp.
+  // BGR: blue, teal, green, violet, slate - in the order of kShirts in avatar.cpp.
   const std::array<cv::Scalar, 5> accents = {
       {{168, 112, 52}, {140, 128, 44}, {92, 132, 62}, {150, 74, 108}, {128, 92, 70}}};
   const auto shirt = static_cast<std::size_t>(shirt_index);

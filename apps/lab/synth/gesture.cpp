@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/synth/gesture.h"
+#include "lab/synth/actor.h"
+
+// boost/math/interpolators/pchip.hpp of Boost 1.74 calls isnan() without std.
+#include <math.h>
 
 #include <algorithm>
+#include <boost/math/interpolators/pchip.hpp>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "telemime/core/errors.h"
@@ -11,6 +17,129 @@
 
 namespace telemime {
 namespace {
+
+// Directions: outward, up, forward. Then pronation and extension in degrees, curl.
+constexpr GestureArmKey kRest = {{0.42, -0.90, 0.03}, {0.74, -0.41, 0.38}, 55, 0, 0.32};
+
+constexpr GestureKey both(double frame, const GestureArmKey& arm, double lean, double nod) {
+  return {frame, arm, arm, lean, nod};
+}
+
+constexpr GestureArmKey kOpenLow = {{0.82, -0.55, 0.08}, {0.84, 0.22, 0.30}, 50, -8, 0.25};
+constexpr GestureArmKey kOpenHigh = {{0.96, -0.10, 0.10}, {0.50, 0.84, 0.16}, 15, 0, 0.15};
+constexpr GestureArmKey kUp = {{0.60, 0.78, 0.10}, {0.12, 0.98, 0.14}, 5, 5, 0.10};
+constexpr GestureArmKey kUpWide = {{0.76, 0.62, 0.12}, {0.34, 0.93, 0.16}, 10, 10, 0.12};
+constexpr std::array<GestureKey, 10> kRaisingArms = {{
+    both(0, kRest, 0, 0),
+    both(10, kRest, 0, 0),
+    both(30, kOpenLow, 0, 0),
+    both(48, kOpenHigh, -1, -2),
+    {72, kUp, kUpWide, -2, -6},
+    {90, kUpWide, kUp, -2, -6},
+    both(108, kOpenLow, 0, 0),
+    {126, kOpenHigh, {{0.94, -0.25, 0.10}, {0.62, 0.74, 0.20}, 20, 0, 0.2}, -1, -1},
+    {139, {{0.88, 0.32, 0.10}, {0.15, 0.97, 0.18}, 5, 5, 0.1}, kOpenHigh, -1, -3},
+    both(164, kRest, 0, 0),
+}};
+
+constexpr GestureArmKey kReach = {{0.52, -0.02, 0.85}, {0.10, 0.72, 0.66}, 20, 10, 0.2};
+constexpr GestureArmKey kCheer = {{0.66, 0.30, 0.68}, {-0.02, 0.92, 0.38}, 10, 5, 0.12};
+constexpr GestureArmKey kCheerHigh = {{0.66, 0.52, 0.54}, {-0.04, 0.96, 0.26}, 5, 5, 0.1};
+constexpr GestureArmKey kDropped = {{0.30, -0.84, 0.44}, {-0.30, 0.38, 0.86}, 60, 5, 0.35};
+constexpr GestureArmKey kFace = {{0.30, -0.45, 0.84}, {-0.46, 0.86, -0.06}, -35, -10, 0.30};
+constexpr std::array<GestureKey, 12> kJoy = {{
+    both(0, kRest, 0, 0),
+    both(10, kRest, 0, 0),
+    both(30, kReach, -1, -2),
+    both(46, kCheer, -3, -7),
+    both(64, kCheerHigh, -3, -8),
+    both(69, kCheerHigh, -3, -7),
+    both(77, kDropped, 2, 2),
+    both(86, kCheerHigh, -3, -8),
+    both(100, kCheer, -2, -5),
+    {118, kFace, {{0.27, -0.42, 0.85}, {-0.44, 0.87, -0.10}, -35, -10, 0.35}, 1, 3},
+    {136, {{0.27, -0.48, 0.82}, {-0.48, 0.84, -0.04}, -40, -10, 0.30}, kFace, 1, 4},
+    both(164, kRest, 0, 0),
+}};
+
+constexpr GestureArmKey kStopLow = {{0.38, -0.90, 0.18}, {-0.05, 0.28, 0.95}, 85, 62, 0.12};
+constexpr GestureArmKey kStopThrust = {{0.34, -0.58, 0.74}, {-0.04, 0.34, 0.93}, 85, 66, 0.08};
+constexpr GestureArmKey kStopHigh = {{0.48, -0.44, 0.74}, {0.14, 0.78, 0.60}, 60, 35, 0.12};
+constexpr GestureArmKey kTurnedOut = {{0.84, -0.46, 0.28}, {0.42, 0.82, 0.40}, 25, 15, 0.15};
+constexpr GestureArmKey kTurnedIn = {{0.52, -0.52, 0.68}, {-0.58, 0.50, 0.62}, 45, 5, 0.25};
+constexpr GestureArmKey kCross = {{0.22, -0.80, 0.56}, {-0.82, 0.36, 0.42}, 50, 0, 0.25};
+constexpr GestureArmKey kRaisedHand = {{0.50, -0.34, 0.80}, {0.08, 0.96, 0.24}, 30, 10, 0.15};
+constexpr GestureArmKey kLowHand = {{0.42, -0.88, 0.20}, {0.22, 0.16, 0.96}, 30, 10, 0.3};
+constexpr std::array<GestureKey, 12> kExclaiming = {{
+    both(0, kRest, 0, 0),
+    both(8, kRest, 0, 0),
+    both(28, kStopLow, 2, 1),
+    both(43, kStopThrust, 4, 2),
+    both(58, kStopHigh, 0, -1),
+    both(74, kTurnedOut, -2, -3),
+    both(89, kTurnedIn, 0, 0),
+    {104, kRaisedHand, kTurnedIn, 0, 0},
+    {118, kRaisedHand, kCross, 1, 2},
+    {133, kCross, kLowHand, 1, 2},
+    {147, kTurnedIn, kLowHand, 0, 1},
+    both(164, kRest, 0, 0),
+}};
+
+constexpr GestureArmKey kPalmsLow = {{0.26, -0.94, 0.20}, {0.22, -0.06, 0.97}, -70, 0, 0.25};
+constexpr GestureArmKey kThrust = {{0.30, -0.70, 0.64}, {0.18, 0.02, 0.98}, -75, 8, 0.12};
+constexpr GestureArmKey kThrustFar = {{0.26, -0.52, 0.81}, {0.20, 0.04, 0.97}, -80, 12, 0.08};
+constexpr GestureArmKey kRetract = {{0.30, -0.95, -0.12}, {0.34, 0.44, 0.83}, -60, -5, 0.30};
+constexpr GestureArmKey kOpen = {{0.46, -0.76, 0.46}, {0.48, 0.16, 0.86}, -75, 5, 0.18};
+constexpr GestureArmKey kOpenBack = {{0.48, -0.86, 0.16}, {0.66, 0.32, 0.68}, -65, 0, 0.25};
+constexpr std::array<GestureKey, 13> kAsking = {{
+    both(0, kRest, 0, 0),
+    both(8, kRest, 0, 0),
+    both(27, kPalmsLow, 1, 1),
+    both(43, kThrust, 4, 0),
+    both(58, kRetract, -3, -1),
+    {73, kOpen, kThrust, 2, -2},
+    {86, kThrust, kOpen, 2, -2},
+    both(95, kThrust, 3, -1),
+    both(101, kRetract, -3, 0),
+    both(107, kThrustFar, 6, -1),
+    both(122, kThrustFar, 5, -2),
+    both(138, kOpenBack, -1, -1),
+    both(164, kRest, 0, 0),
+}};
+
+constexpr GestureArmKey kLap = {{0.30, -0.95, 0.10}, {-0.30, -0.30, 0.90}, 60, 0, 0.40};
+constexpr GestureArmKey kTalkLow = {{0.34, -0.92, 0.20}, {0.05, 0.25, 0.95}, 20, 5, 0.30};
+constexpr GestureArmKey kTalkOpen = {{0.42, -0.86, 0.28}, {0.40, 0.35, 0.85}, -20, 5, 0.20};
+constexpr GestureArmKey kTalkIn = {{0.30, -0.88, 0.38}, {-0.40, 0.45, 0.80}, 35, 0, 0.30};
+constexpr GestureArmKey kTalkPoint = {{0.34, -0.80, 0.50}, {0.05, 0.62, 0.78}, 30, 5, 0.55};
+constexpr GestureArmKey kClasp = {{0.28, -0.92, 0.28}, {-0.50, 0.15, 0.85}, 50, 0, 0.35};
+constexpr std::array<GestureKey, 11> kTalking = {{
+    both(0, kRest, 0, 0),
+    both(10, kRest, 0, 0),
+    both(30, kTalkLow, 1, 0),
+    {48, kTalkOpen, kTalkLow, 2, -1},
+    {66, kTalkIn, kTalkOpen, 2, 1},
+    {84, kTalkLow, kTalkPoint, 1, -1},
+    both(100, kClasp, 0, 1),
+    {118, kTalkPoint, kTalkLow, 2, -1},
+    both(136, kLap, -1, 1),
+    both(150, kLap, -1, 0),
+    both(164, kRest, 0, 0),
+}};
+
+struct GestureData {
+  std::span<const GestureKey> keys;
+  std::string_view note;
+};
+
+// By Gesture.
+constexpr std::array<GestureData, kGestureCount> kGestures = {{
+    {kRaisingArms, "arms raised and lowered beside the body, mostly parallel to the image"},
+    {kJoy, "arms up and forward, one fast drop and raise, then hands before the face"},
+    {kExclaiming, "hands toward the camera, upper arms rotate, forearms cross the chest"},
+    {kAsking, "palms up, forearms far forward and back, one fast retract and thrust"},
+    {kTalking, "slow talking gestures before the trunk, hands in the lap between them"},
+}};
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kNumbers = 11;  // of one arm (9), lean, nod
@@ -22,42 +151,20 @@ Numbers numbers_of(const GestureKey& key, std::size_t side) {
           a.pronation, a.extension, a.curl,     key.lean,  key.nod};
 }
 
-// Slope of the monotone cubic at a key: the weighted harmonic mean of the slopes beside it, 0 at a turn.
-double slope_at(double before, double after, double step_before, double step_after) {
-  if (before * after <= 0.0) {
-    return 0.0;
-  }
-  const double w1 = 2.0 * step_after + step_before;
-  const double w2 = step_after + 2.0 * step_before;
-  return (w1 + w2) / (w1 / before + w2 / after);
-}
-
 Numbers numbers_at(std::span<const GestureKey> keys, double frame, std::size_t side) {
   frame = std::clamp(frame, keys.front().frame, keys.back().frame);
-  std::size_t i = 0;
-  while (i + 2 < keys.size() && frame >= keys[i + 1].frame) {
-    ++i;
-  }
-  const double step = keys[i + 1].frame - keys[i].frame;
-  const double t = (frame - keys[i].frame) / step;
-  const Numbers a = numbers_of(keys[i], side);
-  const Numbers b = numbers_of(keys[i + 1], side);
-  // A key doubled at either end rests there.
-  const GestureKey& first = keys[i == 0 ? 0 : i - 1];
-  const GestureKey& last = keys[std::min(i + 2, keys.size() - 1)];
-  const Numbers p = numbers_of(first, side);
-  const Numbers n = numbers_of(last, side);
   Numbers result{};
   for (std::size_t k = 0; k < kNumbers; ++k) {
-    const double rise = (b[k] - a[k]) / step;
-    const double step_before = keys[i].frame - first.frame;
-    const double step_after = last.frame - keys[i + 1].frame;
-    const double m0 = step_before > 0 ? slope_at((a[k] - p[k]) / step_before, rise, step_before, step) : 0.0;
-    const double m1 = step_after > 0 ? slope_at(rise, (n[k] - b[k]) / step_after, step, step_after) : 0.0;
-    const double t2 = t * t;
-    const double t3 = t2 * t;
-    result[k] = (2 * t3 - 3 * t2 + 1) * a[k] + (t3 - 2 * t2 + t) * step * m0 + (3 * t2 - 2 * t3) * b[k] +
-                (t3 - t2) * step * m1;
+    std::vector<double> frames;
+    std::vector<double> values;
+    for (const GestureKey& key : keys) {
+      frames.push_back(key.frame);
+      values.push_back(numbers_of(key, side)[k]);
+    }
+    // It rests at both ends.
+    const boost::math::interpolators::pchip<std::vector<double>> curve(std::move(frames), std::move(values),
+                                                                       0.0, 0.0);
+    result[k] = curve(frame);
   }
   return result;
 }
@@ -77,6 +184,14 @@ struct Drift {
 };
 
 }  // namespace
+
+std::span<const GestureKey> gesture_keys(Gesture gesture) {
+  return kGestures.at(static_cast<std::size_t>(gesture)).keys;
+}
+
+std::string_view gesture_note(Gesture gesture) {
+  return kGestures.at(static_cast<std::size_t>(gesture)).note;
+}
 
 Gesture gesture_named(std::string_view name) {
   const auto found = std::find(kGestureNames.begin(), kGestureNames.end(), name);

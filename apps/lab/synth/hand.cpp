@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/synth/hand.h"
+#include "lab/synth/avatar.h"
 
 namespace telemime {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/synth/head.h"
-
-#include "lab/synth/sdf.h"
+#include "lab/synth/avatar.h"
 
 namespace telemime {
 namespace {

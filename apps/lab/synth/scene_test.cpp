@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <functional>
 #include <opencv2/core.hpp>
 
 #include "lab/synth/sequence.h"
@@ -215,22 +216,19 @@ TEST(Scene, DistanceMovesThePersonAndKeepsTheHead) {
 }
 
 TEST(Scene, ImpossibleOptionsAreRefused) {
-  SceneOptions options = small_scene();
-  options.width = 4;
-  EXPECT_THROW(make_scene(options), Error);
-  options = small_scene();
-  options.frames = 0;
-  EXPECT_THROW(make_scene(options), Error);
-  options = small_scene();
-  options.sensor.noise = -1.0;
-  EXPECT_THROW(make_scene(options), Error);
-  options = small_scene();
-  options.distance = 0.3;
-  EXPECT_THROW(make_scene(options), Error);
-  options = small_scene();
-  options.walk_in = true;
-  options.frames = 100;
-  EXPECT_THROW(make_scene(options), Error);
+  const auto refused = [](const std::function<void(SceneOptions&)>& spoil) {
+    SceneOptions options = small_scene();
+    spoil(options);
+    EXPECT_THROW(make_scene(options), Error);
+  };
+  refused([](auto& options) { options.width = 4; });
+  refused([](auto& options) { options.frames = 0; });
+  refused([](auto& options) { options.sensor.noise = -1.0; });
+  refused([](auto& options) { options.distance = 0.3; });
+  refused([](auto& options) {
+    options.walk_in = true;
+    options.frames = 100;
+  });
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "lab/synth/gesture.h"
 #include "lab/synth/render.h"
 #include "telemime/core/camera.h"
 

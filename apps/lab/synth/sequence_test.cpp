@@ -9,7 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "telemime/capture/source.h"
-#include "telemime/core/errors.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -28,11 +29,8 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 class SequenceFolder : public testing::Test {
  protected:
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() /
-      ("telemime_synth_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-  void SetUp() override { std::filesystem::remove_all(folder); }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  ScratchFolder scratch;
+  std::filesystem::path folder = scratch.path() / "made";
 };
 
 TEST_F(SequenceFolder, WritesLosslessClipsAndTruth) {
@@ -97,13 +95,8 @@ TEST_F(SequenceFolder, AFolderThatCannotBeMadeIsNamed) {
   SequenceOptions options;
   options.scene = small_scene(Gesture::asking);
   options.folder = folder;
-  try {
-    make_sequence(options);
-    FAIL() << "wrote into a file";
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::output);
-    EXPECT_NE(std::string(e.what()).find("asking"), std::string::npos);
-  }
+  const std::string message = testing_errors::message_of(ErrorKind::output, [&] { make_sequence(options); });
+  EXPECT_TRUE(testing_errors::names(message, "asking")) << message;
 }
 
 }  // namespace
