@@ -2,7 +2,7 @@
 // Poses and images that occur in tracking.
 
 #include "equivalence/every_backend.h"
-#include "lab/experiments/engine_agreement.h"
+#include "lab/experiments/engine.h"
 
 namespace telemime::equivalence {
 namespace {

@@ -2,7 +2,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -12,10 +11,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "lab/experiments/engine_agreement.h"
-#include "lab/experiments/engine_bench.h"
-#include "lab/experiments/report.h"
-#include "lab/experiments/timing.h"
+#include "lab/experiments/engine.h"
+#include "lab/experiments/experiments.h"
 #include "telemime/likelihood/all.h"
 
 namespace telemime {
@@ -48,8 +45,7 @@ void report_clips(BenchArguments& arguments, const std::function<void(const Tabl
   arguments.lab.data = measurement_data(arguments.data, arguments.out);
   arguments.lab.seconds = thread_seconds;
   Lab lab(arguments.lab);
-  constexpr std::array<int, 6> kIterations = {40, 100, 200, 300, 400, 500};
-  const std::vector<FrameTime> frames = measure_frame_times(lab, kIterations);
+  const std::vector<FrameTime> frames = measure_frame_times(lab);
   const std::vector<SizeTime> sizes = measure_sizes(lab);
   show(background_time_table(lab));
   show(frame_time_table(frames));
@@ -70,8 +66,14 @@ void report_engine(const EngineOptions& options, const std::function<void(const 
   if (const Table device = device_table(cells); !device.rows.empty()) {
     show(device);
   }
-  if (std::find(backends.begin(), backends.end(), "simd") != backends.end()) {
-    show(stage_table(options));
+  const auto measured = [&](const char* name) {
+    return std::find(backends.begin(), backends.end(), name) != backends.end();
+  };
+  if (measured("scalar")) {
+    show(scalar_stage_table(options));
+  }
+  if (measured("simd")) {
+    show(simd_stage_table(options));
     show(instruction_set_table(options));
     show(opencv_table(options));
   }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "commands.h"
-#include "lab/experiments/learn.h"
-#include "lab/experiments/report.h"
+#include "lab/experiments/experiments.h"
 #include "telemime/offline/run_outputs.h"
 
 namespace telemime {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "commands.h"
-#include "lab/experiments/report.h"
+#include "lab/experiments/experiments.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/search/budget.h"
 #include "telemime/tracker/config.h"
@@ -34,9 +34,8 @@ void run_tune(const TuneArguments& arguments) {
         measure_cost(*backend, model, Camera{}.scaled_to(width, height), kRepeats, random, thread_seconds);
     tuning.costs.push_back(cost);
     const Split split = split_for_budget(arguments.budget_ms, cost.region_ms, cost.edge_ms, tuning.fit);
-    table.rows.push_back({std::to_string(width) + "x" + std::to_string(height), number(1e3 * cost.region_ms),
-                          number(1e3 * cost.edge_ms), std::to_string(split.region),
-                          std::to_string(split.edge)});
+    table.rows.push_back(
+        row_of(size_name(width, height), 1e3 * cost.region_ms, 1e3 * cost.edge_ms, split.region, split.edge));
   }
   std::cout << "best split of " << number(arguments.budget_ms) << " ms of search per frame\n"
             << to_text(table);

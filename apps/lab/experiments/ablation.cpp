@@ -24,18 +24,13 @@ std::string list_of(const std::vector<const Heuristic*>& heuristics, const Heuri
   return names;
 }
 
-FilterSweep measure(Lab& lab, const std::string& name, int particles, const FilterSearch& search) {
+Variant measured_filter(Lab& lab, const std::string& name, FilterSetup setup, const std::string& heuristics) {
   lab.log("tracking the four gestures with " + name);
-  return sweep(lab.gestures(), {particles}, lab.options().seed, lab.seeds(), lab.options().peaks, search);
-}
-
-FilterSweep measure_filter(Lab& lab, const std::string& name, FilterSetup setup,
-                           const std::string& heuristics) {
   setup.filter.heuristics = heuristics;
-  const int particles = setup.filter.particles;
-  return measure(lab, name, particles, [&](const PreparedSequence& sequence, int, std::uint64_t seed) {
-    return track_filter(sequence, setup, seed);
-  });
+  return {name, lab.sweep_gestures({setup.filter.particles},
+                                   [&](const PreparedSequence& sequence, int, std::uint64_t seed) {
+                                     return track_filter(sequence, setup, seed);
+                                   })};
 }
 
 // The filter as it is, each cue left out, each heuristic of its list left out, each heuristic alone, and
@@ -44,14 +39,14 @@ std::vector<Variant> variants_of(Lab& lab, const FilterSetup& setup) {
   const auto heuristics = parse_heuristics(setup.filter.heuristics);
   std::vector<Variant> variants;
   const auto add = [&](const std::string& name, const std::string& list) {
-    variants.push_back({name, measure_filter(lab, name, setup, list)});
+    variants.push_back(measured_filter(lab, name, setup, list));
   };
   add("everything: " + list_of(heuristics, nullptr), setup.filter.heuristics);
   for (std::size_t i = 0; i < setup.cues.size(); ++i) {
     const std::string name = "without the cue " + std::string(setup.cues[i].name);
     FilterSetup less = setup;
     less.cues.enable(i, false);
-    variants.push_back({name, measure_filter(lab, name, less, setup.filter.heuristics)});
+    variants.push_back(measured_filter(lab, name, less, setup.filter.heuristics));
   }
   for (const Heuristic* heuristic : heuristics) {
     add("without " + std::string(heuristic->name), list_of(heuristics, heuristic));
@@ -64,10 +59,11 @@ std::vector<Variant> variants_of(Lab& lab, const FilterSetup& setup) {
 }
 
 Variant single_search(Lab& lab, const std::string& name, const RegistrationConfig& search) {
-  return {name, measure(lab, name, search.iterations,
-                        [&](const PreparedSequence& sequence, int, std::uint64_t seed) {
-                          return track_sequence(sequence, search, seed, "simd");
-                        })};
+  lab.log("tracking the four gestures with " + name);
+  return {name, lab.sweep_gestures({search.iterations},
+                                   [&](const PreparedSequence& sequence, int, std::uint64_t seed) {
+                                     return track_sequence(sequence, search, seed, "simd");
+                                   })};
 }
 
 Table table_of(const std::string& title, const std::vector<Variant>& variants) {
@@ -135,30 +131,28 @@ Finding ablation(Lab& lab) {
   const std::string of_theirs =
       "the thesis's filter, " + std::to_string(reference.filter.particles) + " particles";
   const std::string of_ours = "our filter, " + std::to_string(ours.filter.particles) + " particles";
-  Finding finding;
-  finding.tables = {table_of(of_theirs, theirs),
-                    table_of(of_ours, own),
-                    table_of("one search from frame to frame", single),
-                    by_gesture(lab, of_theirs + ", 3-D error (mm) by gesture", theirs),
-                    by_gesture(lab, of_ours + ", 3-D error (mm) by gesture", own),
-                    by_gesture(lab, "one search from frame to frame, 3-D error (mm) by gesture", single)};
   const auto error = [](const Variant& v) { return v.sweep.over_sequences(0, &FilterRun::error_3d).mean; };
-  finding.notes = {
-      "Means over the four gestures; in brackets the lowest and highest of the " +
-          std::to_string(lab.seeds()) +
-          " seeds. 'Without' leaves one cue or heuristic out of everything; 'alone' is that heuristic and no "
-          "other. The single searches start from the last pose, without a prediction.",
-      "Left out of the thesis's filter: " + cost_of_leaving_out(theirs, &FilterRun::error_3d, " mm") + "; " +
-          cost_of_leaving_out(theirs, &FilterRun::mistracked, " frames") + ".",
-      "Left out of ours: " + cost_of_leaving_out(own, &FilterRun::error_3d, " mm") + "; " +
-          cost_of_leaving_out(own, &FilterRun::mistracked, " frames") + "."};
-  finding.verdict =
-      verdict({error(theirs.front()) < error(theirs.back()), error(theirs.front()) < error(single.front())},
-              "all heuristics together leave " + number(error(theirs.front())) + " mm, none " +
-                  number(error(theirs.back())) + " mm, one search from frame to frame " +
-                  number(error(single.front())) + " mm; ours " + number(error(own.front())) +
-                  " mm, our single search " + number(error(single.back())) + " mm.");
-  return finding;
+  return {
+      .tables = {table_of(of_theirs, theirs), table_of(of_ours, own),
+                 table_of("one search from frame to frame", single),
+                 by_gesture(lab, of_theirs + ", 3-D error (mm) by gesture", theirs),
+                 by_gesture(lab, of_ours + ", 3-D error (mm) by gesture", own),
+                 by_gesture(lab, "one search from frame to frame, 3-D error (mm) by gesture", single)},
+      .notes =
+          {"Means over the four gestures; in brackets the lowest and highest of the " +
+               std::to_string(lab.seeds()) +
+               " seeds. 'Without' leaves one cue or heuristic out of everything; 'alone' is that heuristic "
+               "and no other. The single searches start from the last pose, without a prediction.",
+           "Left out of the thesis's filter: " + cost_of_leaving_out(theirs, &FilterRun::error_3d, " mm") +
+               "; " + cost_of_leaving_out(theirs, &FilterRun::mistracked, " frames") + ".",
+           "Left out of ours: " + cost_of_leaving_out(own, &FilterRun::error_3d, " mm") + "; " +
+               cost_of_leaving_out(own, &FilterRun::mistracked, " frames") + "."},
+      .verdict = verdict(
+          {error(theirs.front()) < error(theirs.back()), error(theirs.front()) < error(single.front())},
+          "all heuristics together leave " + number(error(theirs.front())) + " mm, none " +
+              number(error(theirs.back())) + " mm, one search from frame to frame " +
+              number(error(single.front())) + " mm; ours " + number(error(own.front())) +
+              " mm, our single search " + number(error(single.back())) + " mm.")};
 }
 
 }  // namespace telemime

@@ -74,7 +74,7 @@ Finding background_in_light(Lab& lab) {
     std::vector<double> late;
     for (int t = 0; t < frames; ++t) {
       const auto i = static_cast<std::size_t>(t);
-      const cv::Mat found = subtractor->foreground(clip.pictures[i]);
+      const cv::Mat found = subtractor(clip.pictures[i]);
       if (t < before_end || t >= after_begin) {
         (t < before_end ? early : late).push_back(overlap(found, clip.truth[i]));
       }
@@ -85,8 +85,8 @@ Finding background_in_light(Lab& lab) {
       }
     }
     after[m] = mean_of(late);
-    table.rows.push_back({std::string(kSubtractionNames[m]), number(mean_of(early)), number(after[m]),
-                          number(mean_of({late.begin(), late.begin() + 3}))});
+    table.rows.push_back(
+        row_of(kSubtractionNames[m], mean_of(early), after[m], mean_of({late.begin(), late.begin() + 3})));
   }
   std::array<cv::Mat, 2> rows;
   for (std::size_t row = 0; row < rows.size(); ++row) {

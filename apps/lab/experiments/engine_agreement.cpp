@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/engine_agreement.h"
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
+#include "lab/experiments/engine.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/core/errors.h"
 #include "telemime/search/budget.h"
@@ -24,23 +23,12 @@ Pose random_pose(const JointLimits& limits, Random& random) {
   return pose;
 }
 
-// Ranks from 0 on; equal values share the mean of theirs.
-std::vector<double> ranks(std::span<const double> values) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  std::vector<double> rank(values.size());
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t last = first;
-    while (last + 1 < order.size() && values[order[last + 1]] == values[order[first]]) {
-      ++last;
-    }
-    for (std::size_t i = first; i <= last; ++i) {
-      rank[order[i]] = 0.5 * static_cast<double>(first + last);
-    }
-    first = last + 1;
-  }
-  return rank;
+// Ranks about their mean; equal values share the mean of theirs.
+Eigen::ArrayXd centred_ranks(std::span<const double> list) {
+  const Eigen::Map<const Eigen::ArrayXd> values(list.data(), static_cast<Eigen::Index>(list.size()));
+  return values.unaryExpr([&](double value) {
+    return 0.5 * static_cast<double>((values < value).count() - (values > value).count());
+  });
 }
 
 // Around a true pose, as the last steps of a search try them.
@@ -143,18 +131,10 @@ double spearman(std::span<const double> a, std::span<const double> b) {
   if (a.size() != b.size()) {
     throw Error(ErrorKind::usage, "a rank correlation needs two lists of one length");
   }
-  const std::vector<double> rank_a = ranks(a);
-  const std::vector<double> rank_b = ranks(b);
-  const double mean = 0.5 * (static_cast<double>(a.size()) - 1.0);  // of the ranks, ties or not
-  double ab = 0.0;
-  double aa = 0.0;
-  double bb = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (rank_a[i] - mean) * (rank_b[i] - mean);
-    aa += (rank_a[i] - mean) * (rank_a[i] - mean);
-    bb += (rank_b[i] - mean) * (rank_b[i] - mean);
-  }
-  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+  const Eigen::ArrayXd rank_a = centred_ranks(a);
+  const Eigen::ArrayXd rank_b = centred_ranks(b);
+  const double scale = std::sqrt(rank_a.square().sum() * rank_b.square().sum());
+  return scale > 0.0 ? (rank_a * rank_b).sum() / scale : 0.0;
 }
 
 Agreement compare_scores(Backend& reference, Backend& tested, std::size_t poses, std::uint64_t seed) {
@@ -212,8 +192,7 @@ Table agreement_table(const EngineOptions& options) {
               {}};
   compare_each(options, table, [&](Backend& reference, Backend& tested) {
     const Agreement a = compare_scores(reference, tested, poses, options.seed);
-    return std::vector<std::string>{std::to_string(a.poses), number(a.region_max), number(a.region_mean),
-                                    number(a.contour_max), number(a.contour_mean)};
+    return row_of(a.poses, a.region_max, a.region_mean, a.contour_max, a.contour_mean);
   });
   return table;
 }
@@ -225,8 +204,7 @@ Table ranking_table(const EngineOptions& options) {
               {}};
   compare_each(options, table, [&](Backend& reference, Backend& tested) {
     const RankAgreement r = compare_ranks(reference, tested, frames, options.seed);
-    return std::vector<std::string>{std::to_string(frames), number(r.region_min), number(r.region_mean),
-                                    number(r.contour_min), number(r.contour_mean)};
+    return row_of(frames, r.region_min, r.region_mean, r.contour_min, r.contour_mean);
   });
   return table;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/engine_agreement.h"
+#include "lab/experiments/engine.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/engine_bench.h"
+#include "lab/experiments/engine.h"
 
 #include <oneapi/tbb/info.h>
 
@@ -40,7 +40,8 @@ void measure_batches(const EngineOptions& options, const std::string& name, int 
   const auto backend = make_backend(name, {threads});
   double each = 0.0;  // s for one evaluation, by the batch before
   for (const std::size_t batch : kBatches) {
-    Throughput cell = {name, size_name(scene.frame.camera), threads, batch, std::nullopt};
+    Throughput cell = {name, size_name(scene.frame.camera.width, scene.frame.camera.height), threads, batch,
+                       std::nullopt};
     if (each * static_cast<double>(batch) <= longest) {
       cell.time = best_batch_time(*backend, scene, batch, Reduction::all, budget, options.seconds);
       each = cell.time->seconds / static_cast<double>(batch);
@@ -103,10 +104,6 @@ std::vector<std::string> missing_backends() {
 
 std::vector<Camera> engine_cameras() {
   return {Camera{}.scaled_to(160, 120), Camera{}.scaled_to(320, 240), Camera{}.scaled_to(640, 480)};
-}
-
-std::string size_name(const Camera& camera) {
-  return std::to_string(camera.width) + "x" + std::to_string(camera.height);
 }
 
 EngineScene engine_scene(const Camera& camera, std::size_t poses, std::uint64_t seed) {
@@ -179,8 +176,8 @@ Table device_table(std::span<const Throughput> cells) {
   for (const Throughput& cell : cells) {
     if (cell.time && cell.time->device) {
       const DeviceTimes& times = *cell.time->device;
-      table.rows.push_back({cell.backend, cell.size, std::to_string(cell.batch), number(1e3 * times.upload),
-                            number(1e3 * times.kernel), number(1e3 * times.download)});
+      table.rows.push_back(row_of(cell.backend, cell.size, cell.batch, 1e3 * times.upload, 1e3 * times.kernel,
+                                  1e3 * times.download));
     }
   }
   return table;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/engine_bench.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "lab/experiments/report.h"
-#include "lab/experiments/timing.h"
+#include "lab/experiments/engine.h"
+#include "lab/experiments/experiments.h"
 #include "telemime/likelihood/simd/simd_backend.h"
+#include "telemime/render/renderer.h"
 
 namespace telemime {
 namespace {
@@ -26,6 +25,33 @@ constexpr std::array<StageName, 7> kStages = {{{SimdStage::place, "kinematics"},
                                                {SimdStage::sample, "points of the contour"},
                                                {SimdStage::look_up, "distances under them"},
                                                {SimdStage::count, "counting, clearing"}}};
+
+constexpr std::array<const char*, 4> kScalarStages = {"kinematics", "drawing", "points of the contour",
+                                                      "counting, distances"};
+
+// What `scalar` does up to a stage of kScalarStages, without the last one.
+class ScalarUpTo final : public Backend {
+ public:
+  explicit ScalarUpTo(std::size_t stage) : stage_(stage) {}
+  std::string_view name() const override { return "part of scalar"; }
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction,
+             std::span<Reductions>) override {
+    for (const Pose& pose : poses) {
+      const Kinematics kinematics = forward_kinematics(model.body, pose);
+      if (stage_ >= 1) {
+        render(model.mesh, kinematics, frame.camera, rendering_);
+      }
+      if (stage_ >= 2) {
+        occluding_contour(model.mesh, rendering_, contour_);
+      }
+    }
+  }
+
+ private:
+  std::size_t stage_;
+  Rendering rendering_;
+  std::vector<Eigen::Vector2f> contour_;
+};
 
 // Microseconds for one evaluation by each back end. The back ends alternate several times, so that other load
 // on the machine affects all of them.
@@ -47,32 +73,45 @@ EngineScene scene_of(const Camera& camera, const EngineOptions& options) {
   return engine_scene(camera, options.quick ? kBatch / 10 : kBatch, options.seed);
 }
 
+// Appends the columns of times to the stages' names; each back end ends after its stage.
+Table with_stages(Table table, const std::vector<std::unique_ptr<Backend>>& backends,
+                  const EngineOptions& options) {
+  table.rows.push_back({"all"});
+  for (const Camera& camera : engine_cameras()) {
+    const std::vector<double> up_to = each_of(backends, scene_of(camera, options), options);
+    table.columns.push_back(size_name(camera.width, camera.height) + " us");
+    table.columns.push_back(size_name(camera.width, camera.height) + " %");
+    for (std::size_t i = 0; i <= up_to.size(); ++i) {
+      const double alone = i == up_to.size() ? up_to.back() : up_to[i] - (i > 0 ? up_to[i - 1] : 0.0);
+      add_fields(table.rows[i], alone, 100.0 * alone / up_to.back());
+    }
+  }
+  return table;
+}
+
 constexpr std::array<std::size_t, 4> kHistograms = {100, 300, 500, 700};
 
 }  // namespace
 
-Table stage_table(const EngineOptions& options) {
-  std::vector<std::unique_ptr<Backend>> backends;
+Table simd_stage_table(const EngineOptions& options) {
   Table table{"Stages of simd, one evaluation on one thread", {"stage"}, {}};
+  std::vector<std::unique_ptr<Backend>> backends;
   for (const StageName& stage : kStages) {
     backends.push_back(make_simd_backend({1, {}, stage.stage}));
     table.rows.push_back({stage.what});
   }
-  table.rows.push_back({"all"});
-  for (const Camera& camera : engine_cameras()) {
-    const std::vector<double> up_to = each_of(backends, scene_of(camera, options), options);
-    const std::string size = size_name(camera);
-    table.columns.push_back(size + " us");
-    table.columns.push_back(size + " %");
-    for (std::size_t i = 0; i < up_to.size(); ++i) {
-      const double alone = up_to[i] - (i > 0 ? up_to[i - 1] : 0.0);
-      table.rows[i].push_back(number(alone));
-      table.rows[i].push_back(number(100.0 * alone / up_to.back()));
-    }
-    table.rows.back().push_back(number(up_to.back()));
-    table.rows.back().push_back("100");
+  return with_stages(std::move(table), backends, options);
+}
+
+Table scalar_stage_table(const EngineOptions& options) {
+  Table table{"Stages of scalar, one evaluation on one thread", {"stage"}, {}};
+  std::vector<std::unique_ptr<Backend>> backends;
+  for (std::size_t stage = 0; stage < kScalarStages.size(); ++stage) {
+    backends.push_back(stage + 1 < kScalarStages.size() ? std::make_unique<ScalarUpTo>(stage)
+                                                        : make_scalar_backend());
+    table.rows.push_back({kScalarStages[stage]});
   }
-  return table;
+  return with_stages(std::move(table), backends, options);
 }
 
 Table instruction_set_table(const EngineOptions& options) {
@@ -85,7 +124,7 @@ Table instruction_set_table(const EngineOptions& options) {
   }
   for (const Camera& camera : engine_cameras()) {
     const std::vector<double> each = each_of(backends, scene_of(camera, options), options);
-    table.columns.push_back(size_name(camera) + " us");
+    table.columns.push_back(size_name(camera.width, camera.height) + " us");
     for (std::size_t i = 0; i < each.size(); ++i) {
       table.rows[i].push_back(number(each[i]));
     }
@@ -96,7 +135,7 @@ Table instruction_set_table(const EngineOptions& options) {
 Table opencv_table(const EngineOptions& options) {
   std::vector<std::unique_ptr<Backend>> backends;
   backends.push_back(make_literal_opencv());
-  backends.push_back(make_opencv_baseline());
+  backends.push_back(make_fast_opencv());
   backends.push_back(make_simd_backend());
   Table table{
       "OpenCV beside simd, one evaluation on one thread",
@@ -104,8 +143,8 @@ Table opencv_table(const EngineOptions& options) {
       {}};
   for (const Camera& camera : engine_cameras()) {
     const std::vector<double> each = each_of(backends, scene_of(camera, options), options);
-    table.rows.push_back({size_name(camera), number(each[0]), number(each[1]), number(each[2]),
-                          number(each[0] / each[2]), number(each[1] / each[2])});
+    table.rows.push_back(row_of(size_name(camera.width, camera.height), each[0], each[1], each[2],
+                                each[0] / each[2], each[1] / each[2]));
   }
   return table;
 }

@@ -1,13 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <opencv2/core/mat.hpp>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "lab/experiments/lab.h"
-#include "lab/experiments/report.h"
+#include "lab/experiments/table.h"
+#include "telemime/tracking/filter_model.h"
 
 namespace telemime {
+
+/// The result of one experiment. plots.py draws its figures from the tables.
+struct Finding {
+  std::vector<Table> tables = {};       ///< titles become file names
+  cv::Mat picture = {};                 ///< written as picture.png; empty: none
+  std::vector<std::string> notes = {};  ///< observations, one paragraph each
+  std::string verdict = {};             ///< whether it agrees with the thesis, and on what
+};
+
+/// A finding with the question that it answers.
+struct Section {
+  std::string id;
+  std::string title;
+  std::string question;
+  Table published;
+  Finding finding;
+};
+
+/// What the thesis reports for an experiment (its table in apps/lab/published.json); no rows for
+/// an unknown id.
+Table published_values(const std::string& id);
+
+/// Writes the tables (CSV), the picture and section.json, which names them, to folder/<id>/. Throws
+/// Error(output).
+void write_section(const std::filesystem::path& folder, const Section& section);
+
+/// Writes a text file. Throws Error(output) that names it.
+void write_text(const std::filesystem::path& file, const std::string& text);
 
 /// A table or figure of the thesis that can be measured again.
 struct Experiment {
@@ -66,5 +100,43 @@ Finding real_clips(Lab& lab);            ///< F4-33
 Finding overlap_times(Lab& lab);         ///< T4-1
 Finding ablation(Lab& lab);              ///< not in the thesis: each cue and heuristic left out
 Finding levers(Lab& lab);                ///< not in the thesis: each part of the program left out
+
+/// Processor time of one frame with this number of evaluations, half on F and half on D_C; medians over
+/// frames.
+struct FrameTime {
+  int iterations = 0;
+  double features_ms = 0.0;
+  double search_ms = 0.0;
+  double total_ms() const { return features_ms + search_ms; }
+};
+
+/// Thesis Table 3-2 at 160x120.
+std::vector<FrameTime> measure_frame_times(Lab& lab);
+
+/// Cost of one F and one D_C at a working size, median of several repeats.
+EvaluationCost evaluation_cost(Lab& lab, int width, int height);
+
+/// Features, F and D_C at one working size (thesis Table 3-3).
+struct SizeTime {
+  double features_ms = 0.0;
+  EvaluationCost cost;
+};
+
+/// Tables 3-1, 3-2 and 3-3: our values beside the published ones.
+Table background_time_table(Lab& lab);
+Table frame_time_table(const std::vector<FrameTime>& times);
+Table size_time_table(const std::vector<SizeTime>& times);
+
+/// The working sizes of Table 3-3.
+std::vector<SizeTime> measure_sizes(Lab& lab);
+
+/// 0 for an empty list.
+double median_of(std::vector<double> values);
+
+/// Estimates the parameters of data/filter.json from sequences with truth (folders as read_clip reads them),
+/// each tracked with `config`. Of the end-effector space only the swivel angle is estimated: the wrist's
+/// standard deviations are the thesis's. `progress` may be empty. Throws Error(input), Error(tracking).
+FilterModel learn_filter_model(const std::vector<std::filesystem::path>& clips, const Config& config,
+                               const std::function<void(const std::string&)>& progress);
 
 }  // namespace telemime

@@ -9,7 +9,6 @@
 
 #include "lab/experiments/experiments.h"
 #include "lab/experiments/testing_sequence.h"
-#include "lab/experiments/timing.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 
@@ -72,7 +71,7 @@ TEST(Means, LeaveOutWhatIsNotFinite) {
   EXPECT_EQ(median_of({5.0, 1.0, 3.0}), 3.0);
 }
 
-TEST(PublishedValues, CellsBecomeRowsAndColumns) {
+TEST(PublishedValues, HaveColumnsAndRows) {
   const Table times = published_values("T3-2");
   EXPECT_EQ(times.columns,
             (std::vector<std::string>{"quantity", "platform 1 ms", "platform 2 ms", "platform 3 ms"}));

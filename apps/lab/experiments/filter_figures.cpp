@@ -4,13 +4,103 @@
 #include <cmath>
 
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/filter_comparison.h"
 
 namespace telemime {
 namespace {
 
+// A quantity of the figures.
+struct FilterQuantity {
+  FilterMeasure measure;
+  const char* title;  // with its unit
+};
+constexpr FilterQuantity kError3d = {&FilterRun::error_3d, "mean 3-D error (mm)"};
+constexpr FilterQuantity kMistracked = {&FilterRun::mistracked, "mistracked frames"};
+
+Table averages_table(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity) {
+  Table table{std::string(quantity.title) + ", mean over particles and seeds", {"sequence"}, {}};
+  for (const PreparedSequence& sequence : lab.gestures()) {
+    table.rows.push_back({sequence.name});
+  }
+  table.rows.push_back({"mean of the four"});
+  table.rows.push_back({"spread over the seeds"});
+  for (const std::string& filter : filters) {
+    table.columns.push_back(filter_title(filter));
+    table.columns.emplace_back("+-");
+    const FilterAverages averages = averages_of(lab.filter(filter), quantity.measure);
+    for (std::size_t s = 0; s < averages.gestures.size(); ++s) {
+      add_fields(table.rows[s], averages.gestures[s], averages.chance[s]);
+    }
+    add_fields(table.rows[averages.gestures.size()], averages.all, averages.chance_of_all);
+    add_fields(table.rows.back(), averages.spread, "-");
+  }
+  return table;
+}
+
+// Effort and state of the filters, to explain why they differ.
+Table effort_table(Lab& lab, const std::vector<std::string>& filters) {
+  Table table{"what the filters spent and kept",
+              {"filter", "evaluations / frame", "effective particles", "parts diffused (%)",
+               "jitter of the wrists (mm/frame^2)", "mean 2-D error (mm)"},
+              {}};
+  for (const std::string& filter : filters) {
+    const FilterSweep& sweep = lab.filter(filter);
+    table.rows.push_back(
+        row_of(filter_title(filter), sweep.mean_of_all(&FilterRun::evaluations),
+               sweep.mean_of_all(&FilterRun::effective), 100.0 * sweep.mean_of_all(&FilterRun::moving),
+               sweep.mean_of_all(&FilterRun::jitter), sweep.mean_of_all(&FilterRun::error_2d)));
+  }
+  return table;
+}
+
+const char* sign_text(int sign) {
+  return sign < 0 ? " (down)" : sign > 0 ? " (up)" : " (may be chance)";
+}
+
+// "raising_arms 120 -> 100 (down), ...; mean ...".
+std::string described_change(Lab& lab, const FilterAverages& from, const FilterAverages& to) {
+  std::string text;
+  for (std::size_t s = 0; s < from.gestures.size(); ++s) {
+    text += lab.gestures()[s].name + " " + number(from.gestures[s]) + " -> " + number(to.gestures[s]) +
+            sign_text(change_of(from, to, s)) + ", ";
+  }
+  return text + "mean " + number(from.all) + " -> " + number(to.all) + sign_text(change_of_all(from, to));
+}
+
+// Tables of several filters (Lab::filter) beside each other: averages, by number of particles (mean and each
+// gesture, with the spread over the seeds), and effort.
+Finding compare_filters(Lab& lab, const std::vector<std::string>& filters, const FilterQuantity& quantity) {
+  Table all{std::string(quantity.title) + " by gesture", {"sequence", "particles"}, {}};
+  Table mean{std::string(quantity.title) + " over the four", {"particles"}, {}};
+  for (const std::string& filter : filters) {
+    for (const char* what : {"", ", lowest", ", highest"}) {
+      all.columns.push_back(filter_title(filter) + what);
+      mean.columns.push_back(all.columns.back());
+    }
+  }
+  const std::vector<int> particles = lab.filter(filters.front()).particles;
+  // The spread of each filter at one number of particles.
+  const auto add_row = [&](Table& table, std::vector<std::string> row, const auto& spread_of_filter) {
+    for (const std::string& filter : filters) {
+      const Spread spread = spread_of_filter(lab.filter(filter));
+      add_fields(row, spread.mean, spread.low, spread.high);
+    }
+    table.rows.push_back(std::move(row));
+  };
+  for (std::size_t count = 0; count < particles.size(); ++count) {
+    add_row(mean, row_of(particles[count]),
+            [&](const FilterSweep& sweep) { return sweep.over_sequences(count, quantity.measure); });
+  }
+  for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
+    for (std::size_t count = 0; count < particles.size(); ++count) {
+      add_row(all, row_of(lab.gestures()[s].name, particles[count]),
+              [&](const FilterSweep& sweep) { return sweep.at(s, count, quantity.measure); });
+    }
+  }
+  return {.tables = {averages_table(lab, filters, quantity), mean, all, effort_table(lab, filters)}};
+}
+
 // In the order of Lab::gestures.
-enum Gesture : std::size_t { kRaisingArms, kJoy, kExclaiming, kAsking };
+enum : std::size_t { kRaisingArms, kJoy, kExclaiming, kAsking };
 
 constexpr double kNoticeable = 0.05;      // of the error
 constexpr double kMostPublished = 120.0;  // mm, all heuristics together

@@ -8,11 +8,17 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "lab/experiments/table.h"
 
 namespace telemime {
+namespace {
+
+int sign_beyond(double change, double chance) {
+  return std::abs(change) <= chance ? 0 : change < 0.0 ? -1 : 1;
+}
+
+}  // namespace
 
 FilterRun summary_of(const Trace& trace, const PeakThresholds& peaks) {
   FilterRun run;
@@ -41,80 +47,6 @@ std::string mean_and_range(const Spread& spread) {
   return number(spread.mean) + " (" + number(spread.low) + " to " + number(spread.high) + ")";
 }
 
-Spread FilterSweep::at(std::size_t sequence, std::size_t count, FilterMeasure measure) const {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < seeds; ++i) {
-    values.push_back(run(sequence, count, i).*measure);
-  }
-  return spread_of(values);
-}
-
-Spread FilterSweep::over_sequences(std::size_t count, FilterMeasure measure) const {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < seeds; ++i) {
-    std::vector<double> each;
-    for (std::size_t s = 0; s < sequences; ++s) {
-      each.push_back(run(s, count, i).*measure);
-    }
-    values.push_back(mean_of(each));
-  }
-  return spread_of(values);
-}
-
-double FilterSweep::mean_of_sequence(std::size_t sequence, FilterMeasure measure) const {
-  std::vector<double> values;
-  for (std::size_t count = 0; count < particles.size(); ++count) {
-    values.push_back(at(sequence, count, measure).mean);
-  }
-  return mean_of(values);
-}
-
-double FilterSweep::mean_of_all(FilterMeasure measure) const {
-  std::vector<double> values;
-  for (std::size_t s = 0; s < sequences; ++s) {
-    values.push_back(mean_of_sequence(s, measure));
-  }
-  return mean_of(values);
-}
-
-double FilterSweep::standard_error(std::size_t sequence, FilterMeasure measure) const {
-  if (seeds < 2) {
-    return 0.0;
-  }
-  double sum = 0.0;  // of the variances of the means over the seeds
-  for (std::size_t count = 0; count < particles.size(); ++count) {
-    const double mean = at(sequence, count, measure).mean;
-    for (std::size_t i = 0; i < seeds; ++i) {
-      const double away = run(sequence, count, i).*measure - mean;
-      sum += away * away / static_cast<double>((seeds - 1) * seeds);
-    }
-  }
-  return std::sqrt(sum) / static_cast<double>(particles.size());
-}
-
-FilterSweep sweep(std::span<const PreparedSequence> sequences, std::vector<int> particles,
-                  std::uint64_t first_seed, std::size_t seeds, const PeakThresholds& peaks,
-                  const FilterSearch& search) {
-  FilterSweep result;
-  result.particles = std::move(particles);
-  result.sequences = sequences.size();
-  result.seeds = seeds;
-  std::vector<double> lengths;
-  for (const PreparedSequence& sequence : sequences) {
-    for (const int count : result.particles) {
-      lengths.insert(lengths.end(), seeds, count * static_cast<double>(sequence.frames.size()));
-    }
-  }
-  result.runs.resize(lengths.size());
-  longest_first(lengths, [&](std::size_t i) {
-    const std::size_t cell = i / seeds;
-    const Trace trace = search(sequences[cell / result.particles.size()],
-                               result.particles[cell % result.particles.size()], first_seed + i % seeds);
-    result.runs[i] = summary_of(trace, peaks);
-  });
-  return result;
-}
-
 void longest_first(std::span<const double> lengths, const std::function<void(std::size_t)>& work) {
   std::vector<std::size_t> order(lengths.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -122,6 +54,36 @@ void longest_first(std::span<const double> lengths, const std::function<void(std
                    [&](std::size_t a, std::size_t b) { return lengths[a] > lengths[b]; });
   std::atomic<std::size_t> next{0};
   tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t) { work(order[next++]); });
+}
+
+FilterAverages averages_of(const FilterSweep& sweep, FilterMeasure measure) {
+  FilterAverages averages;
+  std::vector<double> widths;
+  for (std::size_t s = 0; s < sweep.sequences; ++s) {
+    averages.gestures.push_back(sweep.mean_of_sequence(s, measure));
+    averages.chance.push_back(2.0 * sweep.standard_error(s, measure));
+    averages.chance_of_all = std::hypot(averages.chance_of_all, averages.chance.back());
+    for (std::size_t count = 0; count < sweep.particles.size(); ++count) {
+      widths.push_back(sweep.at(s, count, measure).width());
+    }
+  }
+  for (std::size_t count = 1; count < sweep.particles.size(); ++count) {
+    averages.rises += std::max(
+        0.0, sweep.over_sequences(count, measure).mean - sweep.over_sequences(count - 1, measure).mean);
+  }
+  averages.all = mean_of(averages.gestures);
+  averages.chance_of_all /= static_cast<double>(sweep.sequences);
+  averages.spread = mean_of(widths);
+  return averages;
+}
+
+int change_of(const FilterAverages& a, const FilterAverages& b, std::size_t gesture) {
+  return sign_beyond(b.gestures[gesture] - a.gestures[gesture],
+                     std::hypot(a.chance[gesture], b.chance[gesture]));
+}
+
+int change_of_all(const FilterAverages& a, const FilterAverages& b) {
+  return sign_beyond(b.all - a.all, std::hypot(a.chance_of_all, b.chance_of_all));
 }
 
 }  // namespace telemime

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "lab/experiments/filter_comparison.h"
+#include "lab/experiments/lab.h"
 #include "lab/experiments/testing_sequence.h"
 
 namespace telemime {
@@ -91,14 +91,10 @@ TEST(SpreadOf, IsMeanLowestAndHighestOfWhatIsFinite) {
 
 // Error of a run: 100 for each sequence, plus particles, plus the seed.
 FilterSweep counted_sweep(const std::vector<int>& particles) {
-  std::vector<PreparedSequence> sequences(2);
-  sequences[1].first = 1;
-  sequences[1].frames.resize(5);
-  return sweep(sequences, particles, 7, 3, {}, [](const PreparedSequence& s, int count, std::uint64_t seed) {
-    Trace trace;
-    trace.error_3d = {100.0 * static_cast<double>(s.first) + count + static_cast<double>(seed)};
-    return trace;
-  });
+  return sweep<FilterRun>(
+      std::vector{0.0, 5.0}, particles, 7, 3, [](std::size_t s, int count, std::uint64_t seed) {
+        return FilterRun{100.0 * static_cast<double>(s) + count + static_cast<double>(seed)};
+      });
 }
 
 TEST(Sweep, PutsEveryRunInItsPlace) {
@@ -126,7 +122,7 @@ TEST(AveragesOf, AddUpSpreadAndRises) {
   EXPECT_NEAR(up.chance_of_all, 2.0 / 3.0 / std::sqrt(2.0), 1e-9);
 }
 
-TEST(ChangeOf, TellsAChangeFromChance) {
+TEST(ChangeOf, SeparatesAChangeFromChance) {
   const FilterAverages a{{10.0, 10.0, 10.0}, 10.0, {3.0, 3.0, 3.0}, 1.0};
   const FilterAverages b{{4.0, 14.0, 16.0}, 12.0, {4.0, 4.0, 4.0}, 1.0};
   EXPECT_EQ(change_of(a, b, 0), -1);

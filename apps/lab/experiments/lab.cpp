@@ -3,15 +3,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <utility>
 
+#include "lab/synth/actor.h"
 #include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
-
-constexpr std::array<const char*, 4> kGestures = {"raising_arms", "joy", "exclaiming", "asking"};
 
 Grid track_grid(const std::vector<PreparedSequence>& sequences, const LabOptions& options) {
   Grid grid;
@@ -48,6 +46,23 @@ Grid track_grid(const std::vector<PreparedSequence>& sequences, const LabOptions
 
 }  // namespace
 
+std::vector<double> Grid::plane(std::size_t sequence, double GridCell::*measure) const {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < steps.size() * steps.size(); ++i) {
+    values.push_back(cells[sequence * steps.size() * steps.size() + i].*measure);
+  }
+  return values;
+}
+
+std::vector<double> Grid::mean_plane(double GridCell::*measure) const {
+  const std::size_t size = steps.size() * steps.size();
+  std::vector<double> mean(size, 0.0);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    mean[i % size] += cells[i].*measure / static_cast<double>(cells.size() / size);
+  }
+  return mean;
+}
+
 FilterSetup filter_setup(const std::string& heuristics) {
   return heuristics == kOurFilter ? our_setup() : reference_setup(heuristics);
 }
@@ -82,9 +97,9 @@ void Lab::log(const std::string& message) const {
 const std::vector<PreparedSequence>& Lab::gestures() {
   if (gestures_.empty()) {
     log("preparing the four gestures at 160x120");
-    std::vector<PreparedSequence> prepared(kGestures.size());
-    tbb::parallel_for(std::size_t{0}, kGestures.size(), [&](std::size_t i) {
-      const Clip clip = read_clip(options_.data / kGestures[i], options_.quick ? 24 : 0);
+    std::vector<PreparedSequence> prepared(kThesisGestures.size());
+    tbb::parallel_for(std::size_t{0}, kThesisGestures.size(), [&](std::size_t i) {
+      const Clip clip = read_clip(options_.data / kThesisGestures[i], options_.quick ? 24 : 0);
       prepared[i] = prepare_sequence(clip, experiment_config(options_.seed));
     });
     gestures_ = std::move(prepared);
@@ -121,42 +136,47 @@ std::size_t Lab::seeds() const {
   return static_cast<std::size_t>(options_.seeds > 0 ? options_.seeds : options_.quick ? 2 : 5);
 }
 
+FilterSweep Lab::sweep_gestures(
+    std::vector<int> particles,
+    const std::function<Trace(const PreparedSequence&, int, std::uint64_t)>& track) {
+  const auto& sequences = gestures();
+  std::vector<double> lengths;
+  for (const PreparedSequence& sequence : sequences) {
+    lengths.push_back(static_cast<double>(sequence.frames.size()));
+  }
+  return sweep<FilterRun>(lengths, std::move(particles), options_.seed, seeds(),
+                          [&](std::size_t s, int count, std::uint64_t seed) {
+                            return summary_of(track(sequences[s], count, seed), options_.peaks);
+                          });
+}
+
 const FilterSweep& Lab::filter(const std::string& heuristics) {
   const auto known = filters_.find(heuristics);
   if (known != filters_.end()) {
     return known->second;
   }
-  const auto& sequences = gestures();
+  gestures();
   const std::vector<int> particles =
       options_.quick ? std::vector<int>{100, 300}
                      : std::vector<int>{100, 200, 300, 400, 500, 600, 700, 800, 900, 1000};
   log("tracking the four gestures with " + filter_title(heuristics) + ", up to " +
       std::to_string(particles.back()) + " particles");
-  const FilterSetup setup = filter_setup(heuristics);
-  const auto search = [&](const PreparedSequence& sequence, int count, std::uint64_t seed) {
-    FilterSetup with = setup;
-    with.filter.particles = count;
-    return track_filter(sequence, with, seed);
+  const auto track = [&](const PreparedSequence& sequence, int count, std::uint64_t seed) {
+    FilterSetup setup = filter_setup(heuristics);
+    setup.filter.particles = count;
+    return track_filter(sequence, setup, seed);
   };
-  return filters_
-      .emplace(heuristics, sweep(sequences, particles, options_.seed, seeds(), options_.peaks, search))
-      .first->second;
+  return filters_.emplace(heuristics, sweep_gestures(particles, track)).first->second;
 }
 
-QuadraticFit Lab::fit() {
+std::vector<ErrorSample> Lab::error_samples() {
   const Grid& g = grid();
-  const std::size_t n = g.steps.size();
+  const std::vector<double> errors = g.mean_plane(&GridCell::error_2d);
   std::vector<ErrorSample> samples;
-  for (std::size_t e = 0; e < n; ++e) {
-    for (std::size_t r = 0; r < n; ++r) {
-      double sum = 0.0;
-      for (std::size_t s = 0; s < kGestures.size(); ++s) {
-        sum += g.at(s, e, r).error_2d;
-      }
-      samples.push_back({g.steps[r], g.steps[e], sum / static_cast<double>(kGestures.size())});
-    }
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    samples.push_back({g.steps[i % g.steps.size()], g.steps[i / g.steps.size()], errors[i]});
   }
-  return fit_quadratic(samples);
+  return samples;
 }
 
 std::vector<Trace> track_all(const PreparedSequence& sequence,

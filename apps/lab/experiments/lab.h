@@ -40,9 +40,10 @@ struct GridCell {
 struct Grid {
   std::vector<double> steps;    ///< numbers of evaluations, the same for both
   std::vector<GridCell> cells;  ///< by sequence, then edge, then region
-  const GridCell& at(std::size_t sequence, std::size_t edge_index, std::size_t region_index) const {
-    return cells[(sequence * steps.size() + edge_index) * steps.size() + region_index];
-  }
+  /// Values of one sequence, by edge, then region.
+  std::vector<double> plane(std::size_t sequence, double GridCell::*measure) const;
+  /// Their mean over the sequences.
+  std::vector<double> mean_plane(double GridCell::*measure) const;
 };
 
 /// Names for Lab::filter besides lists of heuristics of the thesis's filter.
@@ -67,10 +68,15 @@ class Lab {
   /// The four gestures with a particle filter of 100 to 1000 particles: the thesis's with these heuristics,
   /// or ours.
   const FilterSweep& filter(const std::string& heuristics);
+  /// The four gestures tracked by track(sequence, particles, seed).
+  FilterSweep sweep_gestures(std::vector<int> particles,
+                             const std::function<Trace(const PreparedSequence&, int, std::uint64_t)>& track);
   /// Runs of each particle filter.
   std::size_t seeds() const;
   /// Quadratic fit to the mean 2-D error over the gestures (thesis Figure 3-28).
-  QuadraticFit fit();
+  QuadraticFit fit() { return fit_quadratic(error_samples()); }
+  /// That error by numbers of evaluations.
+  std::vector<ErrorSample> error_samples();
   /// Evaluations after which a search counts as run to convergence.
   int to_convergence() const { return options_.quick ? 800 : 3000; }
   void log(const std::string& message) const;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/learn.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <span>
 
-#include "lab/experiments/sequence.h"
+#include "lab/experiments/experiments.h"
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/rotations.h"
 #include "telemime/capture/source.h"
@@ -43,12 +42,10 @@ struct Samples {
 };
 
 double deviation(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double sum = 0.0;
-  for (const double v : values) {
-    sum += (v - mean) * (v - mean);
-  }
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, values.size())));
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(values, mean, deviation);
+  return deviation[0];
 }
 
 // Largest displacement of the part's joints from one true frame to the next, m; nothing where one is unknown.

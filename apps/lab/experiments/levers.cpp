@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "lab/experiments/experiments.h"
+#include "lab/synth/actor.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/evaluation/evaluate.h"
 #include "telemime/offline/track_file.h"
@@ -77,10 +78,8 @@ struct Measured {
 Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std::uint64_t seed) {
   const ScratchFolder scratch;
   TrackRequest request;
-  request.input = video_of(clip).string();
-  for (const char* name : {"background.mp4", "background.mkv"}) {
-    request.background = fs::exists(clip / name) ? (clip / name).string() : request.background;
-  }
+  request.input = video_in(clip, "video").string();
+  request.background = find_video(clip, "background").value_or("").string();
   request.out = scratch.path();
   request.formats = {"jsonl"};
   request.overlay = false;
@@ -106,31 +105,9 @@ Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std:
           e.lost_scored};
 }
 
-// By clip, then seed.
-struct LeverRuns {
-  std::vector<std::vector<Measured>> clips;
-
-  Spread over_clips(double Measured::*what) const {
-    std::vector<double> seeds(clips.front().size());
-    for (const auto& runs : clips) {
-      for (std::size_t s = 0; s < runs.size(); ++s) {
-        seeds[s] += runs[s].*what / static_cast<double>(clips.size());
-      }
-    }
-    return spread_of(seeds);
-  }
-  Spread of_clip(std::size_t clip) const {
-    std::vector<double> values;
-    for (const Measured& run : clips[clip]) {
-      values.push_back(run.aligned);
-    }
-    return spread_of(values);
-  }
-};
-
 std::vector<fs::path> clips_of(const Lab& lab) {
   std::vector<fs::path> clips;
-  for (const char* name : {"raising_arms", "joy", "exclaiming", "asking"}) {
+  for (const std::string_view name : kThesisGestures) {
     clips.push_back(lab.options().data / name);
   }
   const fs::path desk = (lab.options().data / "..").lexically_normal() / "dev_practical" / "desk_talk";
@@ -156,37 +133,37 @@ Finding levers(Lab& lab) {
   std::string changes;
   for (const Lever& lever : kLevers) {
     lab.log("the whole program: " + std::string(lever.name));
-    LeverRuns runs;
+    Sweep<Measured> sweep{{0}, clips.size(), lab.seeds(), {}};
     by_clip.rows.push_back({lever.name});
     for (const fs::path& clip : clips) {
-      std::vector<Measured>& seeds = runs.clips.emplace_back();
       for (std::size_t s = 0; s < lab.seeds(); ++s) {
-        seeds.push_back(run_once(lab, clip, lever, lab.options().seed + s));
+        sweep.runs.push_back(run_once(lab, clip, lever, lab.options().seed + s));
       }
-      by_clip.rows.back().push_back(mean_and_range(runs.of_clip(runs.clips.size() - 1)));
+      by_clip.rows.back().push_back(
+          mean_and_range(sweep.at(by_clip.rows.back().size() - 1, 0, &Measured::aligned)));
     }
-    const Spread error = runs.over_clips(&Measured::aligned);
+    const Spread error = sweep.over_sequences(0, &Measured::aligned);
     base = table.rows.empty() ? error.mean : base;
     constexpr double kPercent = 100.0;
-    table.rows.push_back(
-        {lever.group, lever.name, mean_and_range(error), table.rows.empty() ? "" : number(error.mean - base),
-         mean_and_range(runs.over_clips(&Measured::depth)),
-         mean_and_range(runs.over_clips(&Measured::pixels)), number(runs.over_clips(&Measured::jitter).mean),
-         number(kPercent * runs.over_clips(&Measured::lost).mean)});
+    table.rows.push_back({lever.group, lever.name, mean_and_range(error),
+                          table.rows.empty() ? "" : number(error.mean - base),
+                          mean_and_range(sweep.over_sequences(0, &Measured::depth)),
+                          mean_and_range(sweep.over_sequences(0, &Measured::pixels)),
+                          number(sweep.over_sequences(0, &Measured::jitter).mean),
+                          number(kPercent * sweep.over_sequences(0, &Measured::lost).mean)});
     if (table.rows.size() > 1) {
       changes.append(changes.empty() ? "" : "; ").append(lever.name).append(error.mean < base ? " " : " +");
       changes.append(number(error.mean - base));
     }
   }
-  Finding finding;
-  finding.tables = {table, by_clip};
-  finding.notes = {
-      "`telemime track` on each clip with its background, default settings except for one part; elbows and "
-      "wrists, mid-shoulders aligned. Means over the clips; in brackets the lowest and highest of the " +
-      std::to_string(lab.seeds()) + " seeds. A useful part has a positive change when it is left out."};
-  finding.verdict =
-      "no figure of the thesis. Unchanged " + number(base) + " mm; change in mm: " + changes + ".";
-  return finding;
+  return {.tables = {table, by_clip},
+          .notes = {"`telemime track` on each clip with its background, default settings except for one "
+                    "part; elbows and wrists, mid-shoulders aligned. Means over the clips; in brackets the "
+                    "lowest and highest of the " +
+                    std::to_string(lab.seeds()) +
+                    " seeds. A useful part has a positive change when it is left out."},
+          .verdict =
+              "no figure of the thesis. Unchanged " + number(base) + " mm; change in mm: " + changes + "."};
 }
 
 }  // namespace telemime

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "lab/experiments/experiments.h"
-#include "lab/experiments/timing.h"
+#include "lab/synth/actor.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/truth.h"
 #include "telemime/offline/look_ahead.h"
@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 struct LearnedClip {
   std::string name;
   std::string input;
-  std::string background;  ///< empty: there is none
   Camera camera;
   KnownStart start;
   ImageCalibration scene;      ///< background and colours
@@ -91,22 +90,19 @@ PeakThresholds peaks_of(const LearnedClip& clip, const Config& config, std::int6
 std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   LearnedClip clip;
   clip.name = folder.filename().string();
-  for (const char* file : {"clip.mp4", "video.mp4", "video.mkv"}) {
-    clip.input = clip.input.empty() && fs::exists(folder / file) ? (folder / file).string() : clip.input;
-  }
-  if (clip.input.empty()) {
+  const auto named_clip = find_video(folder, "clip");
+  const auto input = named_clip ? named_clip : find_video(folder, "video");
+  if (!input) {
     return std::nullopt;
   }
-  for (const char* file : {"background.mp4", "background.mkv"}) {
-    clip.background = fs::exists(folder / file) ? (folder / file).string() : clip.background;
-  }
+  clip.input = input->string();
   if (fs::exists(folder / "truth.json")) {
     clip.truth = read_truth(folder / "truth.json");
   }
   lab.log("learning scene and person of " + clip.name);
   TrackRequest request;
   request.input = clip.input;
-  request.background = clip.background;
+  request.background = find_video(folder, "background").value_or("").string();
   request.config = experiment_config(lab.options().seed);
   request.config.tracking.method = "two-step";
   if (lab.options().quick) {
@@ -125,6 +121,7 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   clip.peaks = peaks_of(clip, request.config, frames_of(lab));
   return clip;
 }
+
 struct Counted {
   double frames = 0.0;
   double mistracked = 0.0;  ///< of them, the lost ones included
@@ -143,49 +140,20 @@ Counted count_frames(const LearnedClip& clip, const Config& config, std::int64_t
   return counted;
 }
 
-// One clip with one filter: by number of particles, then seed.
-struct ClipRuns {
-  std::vector<Counted> runs;
-  std::size_t seeds = 0;
-
-  Spread at(std::size_t count, double Counted::*measure) const {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < seeds; ++i) {
-      values.push_back(runs[count * seeds + i].*measure);
-    }
-    return spread_of(values);
-  }
-  double mean(double Counted::*measure) const {
-    std::vector<double> values;
-    for (const Counted& run : runs) {
-      values.push_back(run.*measure);
-    }
-    return mean_of(values);
-  }
-};
-
-ClipRuns run_clip(const Lab& lab, const LearnedClip& clip, const std::string& filter,
-                  const std::vector<int>& particles) {
+// One clip with one filter.
+Sweep<Counted> run_clip(const Lab& lab, const LearnedClip& clip, const std::string& filter,
+                        const std::vector<int>& particles) {
   lab.log("tracking " + clip.name + " with " + filter_title(filter));
-  ClipRuns result;
-  result.seeds = lab.seeds();
-  std::vector<double> lengths;
-  for (const int count : particles) {
-    lengths.insert(lengths.end(), result.seeds, count);
-  }
-  result.runs.resize(lengths.size());
-  longest_first(lengths, [&](std::size_t i) {
-    const Config config =
-        config_of(filter, particles[i / result.seeds], lab.options().seed + i % result.seeds);
-    result.runs[i] = count_frames(clip, config, frames_of(lab));
-  });
-  return result;
+  return sweep<Counted>(std::array{1.0}, particles, lab.options().seed, lab.seeds(),
+                        [&](std::size_t, int count, std::uint64_t seed) {
+                          return count_frames(clip, config_of(filter, count, seed), frames_of(lab));
+                        });
 }
 
 // The real clips beside the folder of the gestures, else the gestures themselves.
 std::vector<LearnedClip> learn_clips(const Lab& lab, bool& real) {
   std::vector<LearnedClip> clips;
-  const auto add = [&](const fs::path& folder, const char* name) {
+  const auto add = [&](const fs::path& folder, std::string_view name) {
     if (auto clip = learn(lab, folder / name)) {
       clips.push_back(std::move(*clip));
     }
@@ -196,7 +164,7 @@ std::vector<LearnedClip> learn_clips(const Lab& lab, bool& real) {
   }
   real = !clips.empty();
   if (!real) {
-    for (const char* name : {"raising_arms", "joy", "exclaiming", "asking"}) {
+    for (const std::string_view name : kThesisGestures) {
       add(data, name);
     }
   }
@@ -214,7 +182,6 @@ Finding real_clips(Lab& lab) {
   const std::vector<LearnedClip> clips = learn_clips(lab, real);
   const std::vector<int> particles =
       lab.options().quick ? std::vector<int>{100} : std::vector<int>{100, 300, 500, 700, 1000};
-  Finding finding;
   Table all{"mistracked frames", {"clip", "particles", "frames"}, {}};
   Table means{"mean over particles and seeds", {"clip", "frames", "peak of F", "peak of D_C (px)"}, {}};
   for (const char* filter : kFilters) {
@@ -227,47 +194,44 @@ Finding real_clips(Lab& lab) {
   std::size_t fewer = 0;
   std::string text;
   for (const LearnedClip& clip : clips) {
-    std::vector<ClipRuns> runs;
+    std::vector<Sweep<Counted>> runs;
     for (const char* filter : kFilters) {
       runs.push_back(run_clip(lab, clip, filter, particles));
     }
     const std::string frames = number(runs.front().runs.front().frames);
     for (std::size_t count = 0; count < particles.size(); ++count) {
-      all.rows.push_back({clip.name, std::to_string(particles[count]), frames});
-      for (const ClipRuns& run : runs) {
-        const Spread spread = run.at(count, &Counted::mistracked);
-        for (const double value :
-             {spread.mean, spread.low, spread.high, run.at(count, &Counted::lost).mean}) {
-          all.rows.back().push_back(number(value));
-        }
+      all.rows.push_back(row_of(clip.name, particles[count], frames));
+      for (const Sweep<Counted>& run : runs) {
+        const Spread spread = run.at(0, count, &Counted::mistracked);
+        add_fields(all.rows.back(), spread.mean, spread.low, spread.high,
+                   run.at(0, count, &Counted::lost).mean);
       }
     }
-    means.rows.push_back({clip.name, frames, number(clip.peaks.region), number(clip.peaks.contour)});
-    for (const ClipRuns& run : runs) {
-      means.rows.back().push_back(number(run.mean(&Counted::mistracked)));
-      means.rows.back().push_back(number(run.mean(&Counted::lost)));
+    means.rows.push_back(row_of(clip.name, frames, clip.peaks.region, clip.peaks.contour));
+    for (const Sweep<Counted>& run : runs) {
+      add_fields(means.rows.back(), run.mean_of_all(&Counted::mistracked), run.mean_of_all(&Counted::lost));
     }
-    const double before = runs[0].mean(&Counted::mistracked);
-    const double after = runs[1].mean(&Counted::mistracked);
+    const double before = runs[0].mean_of_all(&Counted::mistracked);
+    const double after = runs[1].mean_of_all(&Counted::mistracked);
     fewer += after < before ? 1 : 0;
     text += clip.name + " " + number(before) + " -> " + number(after) + " of " + frames + " frames, ours " +
-            number(runs[2].mean(&Counted::mistracked)) + "; ";
+            number(runs[2].mean_of_all(&Counted::mistracked)) + "; ";
   }
-  finding.tables = {means, all};
-  finding.notes = {
-      real ? "Two real clips without a background clip, neither of them from the thesis: a man who sits and "
-             "stands 2.8 m away (the frames in which his joints are known), and a man at his laptop."
-           : "There are no real clips here: these are the four synthetic gestures.",
-      "Scene, person and first pose are learned once and are the same for every run. A frame is mistracked "
-      "with a peak of F or D_C and while the person is lost; the tracker then searches for the person again, "
-      "which the thesis's does not. The thresholds are 1.5 times the medians of our own frame-to-frame "
-      "search on the clip.",
-      "The six films of the thesis are not published: pointing, occlusions, turning around, a job interview "
-      "and two lectures, 2 to 5 minutes each. Its statements about turning around and about people who do "
-      "not face the camera cannot be measured here."};
-  finding.verdict = verdict({fewer == clips.size(), fewer > 0},
-                            text + "CONDENSATION -> all heuristics, mean over particles and seeds.");
-  return finding;
+  return {
+      .tables = {means, all},
+      .notes =
+          {real ? "Two real clips without a background clip, neither of them from the thesis: a man who sits "
+                  "and stands 2.8 m away (the frames in which his joints are known), and a man at his laptop."
+                : "There are no real clips here: these are the four synthetic gestures.",
+           "Scene, person and first pose are learned once and are the same for every run. A frame is "
+           "mistracked with a peak of F or D_C and while the person is lost; the tracker then searches for "
+           "the person again, which the thesis's does not. The thresholds are 1.5 times the medians of our "
+           "own frame-to-frame search on the clip.",
+           "The six films of the thesis are not published: pointing, occlusions, turning around, a job "
+           "interview and two lectures, 2 to 5 minutes each. Its statements about turning around and about "
+           "people who do not face the camera cannot be measured here."},
+      .verdict = verdict({fewer == clips.size(), fewer > 0},
+                         text + "CONDENSATION -> all heuristics, mean over particles and seeds.")};
 }
 
 }  // namespace telemime

@@ -1,40 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/reference_background.h"
-
 #include <algorithm>
+#include <array>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "lab/experiments/subtraction.h"
 #include "telemime/core/errors.h"
 #include "telemime/image/deriche.h"
 
 namespace telemime {
 namespace {
 
-constexpr double kAlpha = 1.0;
 /// Below this length (grey levels per pixel) the noise decides the direction.
-constexpr float kWeakGradient = 3.0F;
+constexpr double kWeakGradient = 3.0;
 /// Variance added to Cr and Cb (grey levels squared) and to the direction (rad^2).
-constexpr float kChromaRidge = 4.0F;
-constexpr float kDirectionRidge = 0.02F;
+constexpr double kChromaRidge = 4.0;
+constexpr double kDirectionRidge = 0.02;
+/// Stands for the cosine of an unknown direction.
+constexpr float kUnknown = -2.0F;
 
 struct Features {
-  cv::Mat chroma;  // CV_8UC3: Y, Cr, Cb
+  cv::Mat cr, cb;  // CV_32FC1, less 128, so that sums of squares keep their digits
   Gradient gradient;
+  cv::Mat length;  // of the gradient
 };
 
 Features features_of(const cv::Mat& bgr) {
+  cv::Mat chroma;
+  cv::cvtColor(bgr, chroma, cv::COLOR_BGR2YCrCb);
+  std::array<cv::Mat, 3> planes;
+  cv::split(chroma, planes.data());
+  constexpr double kAlpha = 1.0;
   Features f;
-  cv::cvtColor(bgr, f.chroma, cv::COLOR_BGR2YCrCb);
-  cv::Mat grey;
-  cv::extractChannel(f.chroma, grey, 0);
-  f.gradient = deriche_gradient(grey, kAlpha);
+  f.gradient = deriche_gradient(planes[0], kAlpha);
+  planes[1].convertTo(f.cr, CV_32F, 1.0, -128.0);
+  planes[2].convertTo(f.cb, CV_32F, 1.0, -128.0);
+  cv::magnitude(f.gradient.dx, f.gradient.dy, f.length);
   return f;
 }
 
-/// Squared Mahalanobis distances of one image from the model. The cosine is -2 where the direction is
-/// unknown.
+/// Squared Mahalanobis distance of the chroma from the model, and cosine of the angle between the directions.
 struct Distances {
   cv::Mat chroma2;
   cv::Mat cosine;
@@ -42,39 +50,14 @@ struct Distances {
 
 Distances distances(const ReferenceBackground& model, const cv::Mat& bgr) {
   const Features f = features_of(bgr);
-  Distances out{cv::Mat(bgr.size(), CV_32FC1), cv::Mat(bgr.size(), CV_32FC1)};
-  for (int r = 0; r < bgr.rows; ++r) {
-    const auto* c = f.chroma.ptr<cv::Vec3b>(r);
-    const auto* dx = f.gradient.dx.ptr<float>(r);
-    const auto* dy = f.gradient.dy.ptr<float>(r);
-    const auto* mean = model.chroma_mean.ptr<cv::Vec2f>(r);
-    const auto* inverse = model.chroma_inverse.ptr<cv::Vec3f>(r);
-    const auto* direction = model.direction.ptr<cv::Vec2f>(r);
-    const auto* strength = model.strength.ptr<float>(r);
-    auto* chroma2 = out.chroma2.ptr<float>(r);
-    auto* cosine = out.cosine.ptr<float>(r);
-    for (int i = 0; i < bgr.cols; ++i) {
-      const float cr = static_cast<float>(c[i][1]) - mean[i][0];
-      const float cb = static_cast<float>(c[i][2]) - mean[i][1];
-      chroma2[i] = inverse[i][0] * cr * cr + 2 * inverse[i][1] * cr * cb + inverse[i][2] * cb * cb;
-      const float length = std::sqrt(dx[i] * dx[i] + dy[i] * dy[i]);
-      const bool both = length > kWeakGradient && strength[i] > kWeakGradient;
-      // -2 is not a cosine: the direction is unknown.
-      cosine[i] = both ? (dx[i] * direction[i][0] + dy[i] * direction[i][1]) / length : -2.0F;
-    }
-  }
+  const cv::Mat cr = f.cr - model.cr;
+  const cv::Mat cb = f.cb - model.cb;
+  Distances out;
+  out.chroma2 = model.inverse_rr.mul(cr).mul(cr) + 2.0 * model.inverse_rb.mul(cr).mul(cb) +
+                model.inverse_bb.mul(cb).mul(cb);
+  out.cosine = (f.gradient.dx.mul(model.direction_x) + f.gradient.dy.mul(model.direction_y)) / f.length;
+  out.cosine.setTo(kUnknown, (f.length <= kWeakGradient) | (model.strength <= kWeakGradient));
   return out;
-}
-
-/// z with P(|N(0, 1)| > z) = p, by bisection; once per picture.
-double normal_quantile(double p) {
-  double low = 0;
-  double high = 10;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (std::erfc(middle / std::sqrt(2.0)) > p ? low : high) = middle;
-  }
-  return low;
 }
 
 }  // namespace
@@ -84,72 +67,58 @@ ReferenceBackground learn_reference_background(std::span<const cv::Mat> pictures
     throw Error(ErrorKind::usage, "a background needs at least one picture without a person");
   }
   const cv::Size size = pictures.front().size();
-  cv::Mat sum = cv::Mat::zeros(size, CV_32FC2);
-  cv::Mat products = cv::Mat::zeros(size, CV_32FC3);
-  cv::Mat resultant = cv::Mat::zeros(size, CV_32FC2);
-  cv::Mat length_sum = cv::Mat::zeros(size, CV_32FC1);
+  std::array<cv::Mat, 8> sums;
+  for (cv::Mat& sum : sums) {
+    sum = cv::Mat::zeros(size, CV_32F);
+  }
   for (const cv::Mat& picture : pictures) {
     if (picture.size() != size) {
       throw Error(ErrorKind::usage, "the pictures of the background differ in size");
     }
     const Features f = features_of(picture);
-    for (int r = 0; r < size.height; ++r) {
-      for (int i = 0; i < size.width; ++i) {
-        const auto& c = f.chroma.at<cv::Vec3b>(r, i);
-        // About 128, so that the sums of squares keep their digits.
-        const float cr = static_cast<float>(c[1]) - 128.0F;
-        const float cb = static_cast<float>(c[2]) - 128.0F;
-        sum.at<cv::Vec2f>(r, i) += cv::Vec2f(cr, cb);
-        products.at<cv::Vec3f>(r, i) += cv::Vec3f(cr * cr, cr * cb, cb * cb);
-        const float dx = f.gradient.dx.at<float>(r, i);
-        const float dy = f.gradient.dy.at<float>(r, i);
-        resultant.at<cv::Vec2f>(r, i) += cv::Vec2f(dx, dy);
-        length_sum.at<float>(r, i) += std::sqrt(dx * dx + dy * dy);
-      }
+    const std::array<cv::Mat, 8> terms = {f.cr,           f.cb,          f.cr.mul(f.cr), f.cr.mul(f.cb),
+                                          f.cb.mul(f.cb), f.gradient.dx, f.gradient.dy,  f.length};
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] += terms[i];
     }
   }
-  const auto n = static_cast<float>(pictures.size());
-  const float degrees_of_freedom = std::max(1.0F, n - 1);
+  const auto& [cr, cb, rr, rb, bb, dx, dy, length] = sums;
+  const auto n = static_cast<double>(pictures.size());
+  const double degrees_of_freedom = std::max(1.0, n - 1.0);
   ReferenceBackground model;
-  model.chroma_mean.create(size, CV_32FC2);
-  model.chroma_inverse.create(size, CV_32FC3);
-  model.direction.create(size, CV_32FC2);
-  model.direction_variance.create(size, CV_32FC1);
-  model.strength = length_sum / n;
-  for (int r = 0; r < size.height; ++r) {
-    for (int i = 0; i < size.width; ++i) {
-      const cv::Vec2f mean = sum.at<cv::Vec2f>(r, i) / n;
-      const cv::Vec3f square = products.at<cv::Vec3f>(r, i);
-      const float xx = (square[0] - n * mean[0] * mean[0]) / degrees_of_freedom + kChromaRidge;
-      const float xy = (square[1] - n * mean[0] * mean[1]) / degrees_of_freedom;
-      const float yy = (square[2] - n * mean[1] * mean[1]) / degrees_of_freedom + kChromaRidge;
-      const float determinant = std::max(xx * yy - xy * xy, kChromaRidge);
-      model.chroma_mean.at<cv::Vec2f>(r, i) = mean + cv::Vec2f(128.0F, 128.0F);
-      model.chroma_inverse.at<cv::Vec3f>(r, i) = cv::Vec3f(yy, -xy, xx) / determinant;
-      const cv::Vec2f total = resultant.at<cv::Vec2f>(r, i);
-      const float length = std::sqrt(total.dot(total));
-      // Length of the mean of the unit vectors, weighed by their gradients: 1 when all agree, 0 when none do.
-      const float agreement = std::clamp(length / std::max(length_sum.at<float>(r, i), 1e-6F), 1e-3F, 1.0F);
-      model.direction.at<cv::Vec2f>(r, i) = length > 0 ? total / length : cv::Vec2f(1, 0);
-      model.direction_variance.at<float>(r, i) = -2 * std::log(agreement) + kDirectionRidge;
-    }
-  }
+  model.cr = cr / n;
+  model.cb = cb / n;
+  model.strength = length / n;
+  const cv::Mat var_r = (rr - n * model.cr.mul(model.cr)) / degrees_of_freedom + kChromaRidge;
+  const cv::Mat var_rb = (rb - n * model.cr.mul(model.cb)) / degrees_of_freedom;
+  const cv::Mat var_b = (bb - n * model.cb.mul(model.cb)) / degrees_of_freedom + kChromaRidge;
+  const cv::Mat determinant = cv::max(var_r.mul(var_b) - var_rb.mul(var_rb), kChromaRidge);
+  model.inverse_rr = var_b / determinant;
+  model.inverse_rb = -var_rb / determinant;
+  model.inverse_bb = var_r / determinant;
+  cv::Mat resultant;
+  cv::magnitude(dx, dy, resultant);
+  resultant = cv::max(resultant, 1e-6);
+  model.direction_x = dx / resultant;
+  model.direction_y = dy / resultant;
+  // Length of the mean of the unit vectors, weighed by their gradients: 1 when all agree, 0 when none do.
+  const cv::Mat agreement = cv::min(cv::max(resultant / cv::max(length, 1e-6), 1e-3), 1.0);
+  cv::log(agreement, model.direction_variance);
+  model.direction_variance = -2.0 * model.direction_variance + kDirectionRidge;
   return model;
 }
 
 cv::Mat reference_probability(const ReferenceBackground& model, const cv::Mat& bgr) {
   const Distances d = distances(model, bgr);
-  cv::Mat probability(bgr.size(), CV_32FC1);
+  cv::Mat probability;
+  cv::exp(-0.5 * d.chroma2, probability);
   for (int r = 0; r < bgr.rows; ++r) {
     for (int i = 0; i < bgr.cols; ++i) {
-      const float by_chroma = std::exp(-0.5F * d.chroma2.at<float>(r, i));
-      const float cosine = d.cosine.at<float>(r, i);
-      float by_direction = 0;
-      if (cosine >= -1.5F) {
+      if (const float cosine = d.cosine.at<float>(r, i); cosine != kUnknown) {
         const float angle = std::acos(std::clamp(cosine, -1.0F, 1.0F));
-        by_direction = std::erfc(angle / std::sqrt(2 * model.direction_variance.at<float>(r, i)));
+        const float by_direction = std::erfc(angle / std::sqrt(2 * model.direction_variance.at<float>(r, i)));
+        probability.at<float>(r, i) = std::max(probability.at<float>(r, i), by_direction);
       }
-      probability.at<float>(r, i) = std::max(by_chroma, by_direction);
     }
   }
   return probability;
@@ -160,22 +129,18 @@ cv::Mat reference_foreground(const ReferenceBackground& model, const cv::Mat& bg
     throw Error(ErrorKind::usage, "the threshold of a probability must lie between 0 and 1");
   }
   const Distances d = distances(model, bgr);
-  const auto chroma_limit = static_cast<float>(-2 * std::log(threshold));
-  const auto z = static_cast<float>(normal_quantile(threshold));
-  constexpr float kPi = 3.14159265F;
-  cv::Mat out(bgr.size(), CV_8UC1);
+  // z with P(|N(0, 1)| > z) = threshold.
+  const auto z = static_cast<float>(std::numbers::sqrt2 * boost::math::erfc_inv(threshold));
+  cv::Mat out = d.chroma2 > -2.0 * std::log(threshold);
   for (int r = 0; r < bgr.rows; ++r) {
-    const auto* chroma2 = d.chroma2.ptr<float>(r);
     const auto* cosine = d.cosine.ptr<float>(r);
     const auto* variance = model.direction_variance.ptr<float>(r);
     auto* o = out.ptr<unsigned char>(r);
     for (int i = 0; i < bgr.cols; ++i) {
-      bool background = chroma2[i] <= chroma_limit;
-      if (!background && cosine[i] >= -1.5F) {
-        const float widest = std::min(z * std::sqrt(variance[i]), kPi);
-        background = cosine[i] >= std::cos(widest);
+      if (o[i] != 0 && cosine[i] != kUnknown) {
+        const float widest = std::min(z * std::sqrt(variance[i]), std::numbers::pi_v<float>);
+        o[i] = cosine[i] >= std::cos(widest) ? 0 : 255;
       }
-      o[i] = background ? 0 : 255;
     }
   }
   return out;

@@ -54,42 +54,51 @@ Comparison compare_searches(Lab& lab, const std::string& title, const std::vecto
   return result;
 }
 
+// Two searches on joy, frame by frame.
+struct OnJoy {
+  std::vector<Trace> traces;
+  std::array<const char*, 2> names;
+
+  Table frames(std::vector<double> Trace::*measure) const {
+    return table_of(
+        "frames of joy",
+        {{"frame", traces[0].frame}, {names[0], traces[0].*measure}, {names[1], traces[1].*measure}});
+  }
+};
+
 // 500 evaluations of one step against convergence, on joy.
 Finding limited(Lab& lab, Method method, bool contour) {
-  const PreparedSequence& sequence = lab.gesture("joy");
-  const auto traces = track_all(
-      sequence, {single_step(method, lab.to_convergence()), single_step(method, 500)}, lab.options().seed);
+  const OnJoy joy = {
+      track_all(lab.gesture("joy"), {single_step(method, lab.to_convergence()), single_step(method, 500)},
+                lab.options().seed),
+      {"to convergence", "500 iterations"}};
+  const auto& traces = joy.traces;
   const auto residual = contour ? &Trace::contour : &Trace::region;
   const std::string measure = contour ? "D_C (px)" : "F";
   const double threshold = contour ? lab.options().peaks.contour : lab.options().peaks.region;
-  const std::array<const char*, 2> names = {"to convergence", "500 iterations"};
   Table table{"means",
               {"search", "mean " + measure, "mistracked frames", "mean 2-D error (mm)", "mean 3-D error (mm)",
                "mean evaluations"},
               {}};
   for (std::size_t i = 0; i < traces.size(); ++i) {
     const auto& values = traces[i].*residual;
-    table.rows.push_back({names[i], number(mean_of(values)), std::to_string(count_above(values, threshold)),
-                          number(mean_of(traces[i].error_2d)), number(mean_of(traces[i].error_3d)),
-                          number(mean_of(traces[i].evaluations))});
+    table.rows.push_back(row_of(joy.names[i], mean_of(values), count_above(values, threshold),
+                                mean_of(traces[i].error_2d), mean_of(traces[i].error_3d),
+                                mean_of(traces[i].evaluations)));
   }
-  Finding finding;
-  finding.tables = {table, table_of("frames of joy", {{"frame", traces[0].frame},
-                                                      {names[0], traces[0].*residual},
-                                                      {names[1], traces[1].*residual}})};
-  finding.notes = {
-      "Convergence means that the costs of the simplex differ by less than 0.01 %, or that " +
-      std::to_string(lab.to_convergence()) + " evaluations are used up. It took " +
-      number(mean_of(traces[0].evaluations)) + " evaluations on average; " +
-      number(share_below(traces[0].evaluations, 500.0)) +
-      " % of the frames needed at most 500. Each frame starts from the previous frame's pose, so the two "
-      "runs drift apart: the run that leaves a fast motion on the wrong side stays there."};
   const double to_the_end = mean_of(traces[0].*residual);
   const double stopped = mean_of(traces[1].*residual);
-  finding.verdict =
-      verdict({stopped >= to_the_end}, "stopping at 500 evaluations changes mean " + measure + " from " +
-                                           number(to_the_end) + " to " + number(stopped) + ".");
-  return finding;
+  return {
+      .tables = {table, joy.frames(residual)},
+      .notes = {"Convergence means that the costs of the simplex differ by less than 0.01 %, or that " +
+                std::to_string(lab.to_convergence()) + " evaluations are used up. It took " +
+                number(mean_of(traces[0].evaluations)) + " evaluations on average; " +
+                number(share_below(traces[0].evaluations, 500.0)) +
+                " % of the frames needed at most 500. Each frame starts from the previous frame's pose, so "
+                "the two runs drift apart: the run that leaves a fast motion on the wrong side stays there."},
+      .verdict =
+          verdict({stopped >= to_the_end}, "stopping at 500 evaluations changes mean " + measure + " from " +
+                                               number(to_the_end) + " to " + number(stopped) + ".")};
 }
 
 }  // namespace
@@ -103,19 +112,16 @@ Finding simplex_size(Lab& lab) {
   }
   Comparison c =
       compare_searches(lab, "mean F", {"factor 0.5", "factor 1.5", "factor 3.0"}, searches, &Trace::region);
-  c.means.rows.push_back({"all four", number(c.mean[0]), number(c.mean[1]), number(c.mean[2])});
-  Finding finding;
-  finding.tables = {c.means, c.joy_frames};
-  finding.notes = {
-      "The first simplex reaches the factor times each number's typical change from frame to frame. A small "
-      "one stays behind when the arm moves fast; a large one jumps between minima and needs more "
-      "evaluations."};
+  c.means.rows.push_back(row_of("all four", c.mean[0], c.mean[1], c.mean[2]));
   const auto best = static_cast<std::size_t>(std::min_element(c.mean.begin(), c.mean.end()) - c.mean.begin());
-  finding.verdict =
-      verdict({best == 1, c.mean[0] > c.mean[1]},
-              "the smallest mean F is that of factor " + number(kFactors[best]) + " (" + number(c.mean[0]) +
-                  ", " + number(c.mean[1]) + ", " + number(c.mean[2]) + " for 0.5, 1.5, 3.0).");
-  return finding;
+  return {.tables = {c.means, c.joy_frames},
+          .notes = {"The first simplex reaches the factor times each number's typical change from frame to "
+                    "frame. A small one stays behind when the arm moves fast; a large one jumps between "
+                    "minima and needs more evaluations."},
+          .verdict = verdict({best == 1, c.mean[0] > c.mean[1]},
+                             "the smallest mean F is that of factor " + number(kFactors[best]) + " (" +
+                                 number(c.mean[0]) + ", " + number(c.mean[1]) + ", " + number(c.mean[2]) +
+                                 " for 0.5, 1.5, 3.0).")};
 }
 
 Finding limited_regions(Lab& lab) {
@@ -127,28 +133,22 @@ Finding limited_edges(Lab& lab) {
 }
 
 Finding steps_to_convergence(Lab& lab) {
-  const auto traces = track_all(
-      lab.gesture("joy"),
-      {single_step(Method::regions, lab.to_convergence()), single_step(Method::edges, lab.to_convergence())},
-      lab.options().seed);
-  const std::array<const char*, 2> names = {"regions", "edges"};
-  Table table{"means", {"step", "mean 3-D error (mm)", "mean 2-D error (mm)"}, {}};
-  for (std::size_t i = 0; i < 2; ++i) {
-    table.rows.push_back(
-        {names[i], number(mean_of(traces[i].error_3d)), number(mean_of(traces[i].error_2d))});
-  }
-  Finding finding;
-  finding.tables = {table, table_of("frames of joy", {{"frame", traces[0].frame},
-                                                      {names[0], traces[0].error_3d},
-                                                      {names[1], traces[1].error_3d}})};
-  const double regions = mean_of(traces[0].error_3d);
-  const double edges = mean_of(traces[1].error_3d);
-  finding.notes = {
-      "Both start from the previous frame's pose. Edges alone can lock onto the wrong contour in a fast "
-      "motion, and then nothing pulls them back."};
-  finding.verdict =
-      verdict({edges < regions}, "regions " + number(regions) + " mm, edges " + number(edges) + " mm.");
-  return finding;
+  const OnJoy joy = {track_all(lab.gesture("joy"),
+                               {single_step(Method::regions, lab.to_convergence()),
+                                single_step(Method::edges, lab.to_convergence())},
+                               lab.options().seed),
+                     {"regions", "edges"}};
+  const double regions = mean_of(joy.traces[0].error_3d);
+  const double edges = mean_of(joy.traces[1].error_3d);
+  return {.tables = {{"means",
+                      {"step", "mean 3-D error (mm)", "mean 2-D error (mm)"},
+                      {row_of("regions", regions, mean_of(joy.traces[0].error_2d)),
+                       row_of("edges", edges, mean_of(joy.traces[1].error_2d))}},
+                     joy.frames(&Trace::error_3d)},
+          .notes = {"Both start from the previous frame's pose. Edges alone can lock onto the wrong contour "
+                    "in a fast motion, and then nothing pulls them back."},
+          .verdict = verdict({edges < regions},
+                             "regions " + number(regions) + " mm, edges " + number(edges) + " mm.")};
 }
 
 Finding steps_sharing(Lab& lab) {
@@ -157,17 +157,14 @@ Finding steps_sharing(Lab& lab) {
   const Comparison c = compare_searches(
       lab, "mean 3-D error (mm)", {"500 on regions", "500 on edges", "250 and 250", "ours, 500 in blocks"},
       {reference_with(500, 0), reference_with(0, 500), reference_with(250, 250), ours}, &Trace::error_3d);
-  Finding finding;
-  finding.tables = {c.means, c.joy_frames};
-  finding.notes = {
-      "'Ours' searches trunk and arms in turn with forearm directions, random arms, depth flips, an upright "
-      "trunk and a mild prior, but without the predicted motion and the smoothing that `telemime track` "
-      "adds."};
-  finding.verdict =
-      verdict({c.joy[2] < c.joy[0], c.joy[2] < c.joy[1]},
-              "on joy 250 + 250 gives " + number(c.joy[2]) + " mm, regions alone " + number(c.joy[0]) +
-                  " mm, edges alone " + number(c.joy[1]) + " mm; our search " + number(c.joy[3]) + " mm.");
-  return finding;
+  return {.tables = {c.means, c.joy_frames},
+          .notes = {"'Ours' searches trunk and arms in turn with forearm directions, random arms, depth "
+                    "flips, an upright trunk and a mild prior, but without the predicted motion and the "
+                    "smoothing that `telemime track` adds."},
+          .verdict = verdict({c.joy[2] < c.joy[0], c.joy[2] < c.joy[1]},
+                             "on joy 250 + 250 gives " + number(c.joy[2]) + " mm, regions alone " +
+                                 number(c.joy[0]) + " mm, edges alone " + number(c.joy[1]) +
+                                 " mm; our search " + number(c.joy[3]) + " mm.")};
 }
 
 }  // namespace telemime

@@ -18,16 +18,6 @@ namespace {
 
 constexpr double kMillimetres = 1e3;
 
-std::filesystem::path video_in(const std::filesystem::path& folder, const std::string& stem) {
-  for (const char* ending : {".mp4", ".mkv", ".avi"}) {
-    if (std::filesystem::exists(folder / (stem + ending))) {
-      return folder / (stem + ending);
-    }
-  }
-  throw Error(ErrorKind::input, "there is no " + stem + ".mp4 or .mkv in " + folder.string(),
-              "`telemime-lab synth all --out DIR` makes sequences; give DIR with --data.");
-}
-
 std::vector<Frame> read_all(const std::filesystem::path& file, std::size_t most) {
   const auto source = open_source(file.string());
   std::vector<Frame> frames;
@@ -97,8 +87,22 @@ class Recorder {
 
 }  // namespace
 
-std::filesystem::path video_of(const std::filesystem::path& folder) {
-  return video_in(folder, "video");
+std::optional<std::filesystem::path> find_video(const std::filesystem::path& folder,
+                                                const std::string& stem) {
+  for (const char* ending : {".mp4", ".mkv", ".avi"}) {
+    if (std::filesystem::exists(folder / (stem + ending))) {
+      return folder / (stem + ending);
+    }
+  }
+  return std::nullopt;
+}
+
+std::filesystem::path video_in(const std::filesystem::path& folder, const std::string& stem) {
+  if (const auto found = find_video(folder, stem)) {
+    return *found;
+  }
+  throw Error(ErrorKind::input, "there is no " + stem + ".mp4 or .mkv in " + folder.string(),
+              "`telemime-lab synth all --out DIR` makes sequences; give DIR with --data.");
 }
 
 Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct Clip {
 /// video (0: all). Throws Error(input) that says what is missing.
 Clip read_clip(const std::filesystem::path& folder, std::size_t most_frames);
 
-/// FOLDER/video.* . Throws Error(input) when there is none.
-std::filesystem::path video_of(const std::filesystem::path& folder);
+/// FOLDER/STEM.mp4, .mkv or .avi.
+std::optional<std::filesystem::path> find_video(const std::filesystem::path& folder, const std::string& stem);
+/// The same. Throws Error(input) when there is none.
+std::filesystem::path video_in(const std::filesystem::path& folder, const std::string& stem);
 
 /// A clip after image processing: the prepared frames, and the pose and body that calibration found on the
 /// first good frame. Many searches can share it.

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include "telemime/core/errors.h"
+#include <iomanip>
+#include <sstream>
 
 namespace telemime {
 namespace {
@@ -14,14 +14,9 @@ std::string csv_field(const std::string& field) {
   if (field.find_first_of(",\"\n\r") == std::string::npos) {
     return field;
   }
-  std::string quoted = "\"";
-  for (const char c : field) {
-    quoted += c;
-    if (c == '"') {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
+  std::ostringstream quoted;
+  quoted << std::quoted(field, '"', '"');
+  return quoted.str();
 }
 
 std::string csv_line(const std::vector<std::string>& fields) {
@@ -30,47 +25,6 @@ std::string csv_line(const std::vector<std::string>& fields) {
     line += (i > 0 ? "," : "") + csv_field(fields[i]);
   }
   return line + "\n";
-}
-
-std::vector<std::vector<std::string>> csv_rows(std::string_view text) {
-  std::vector<std::vector<std::string>> rows;
-  std::vector<std::string> row;
-  std::string field;
-  bool quoted = false;
-  bool open = false;  // a row has begun
-  const auto end_row = [&] {
-    row.push_back(std::move(field));
-    rows.push_back(std::move(row));
-    field.clear();
-    row.clear();
-    open = false;
-  };
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '\n' && !quoted) {
-      if (open) {
-        end_row();
-      }
-      continue;
-    }
-    open = true;
-    if (c == '"') {
-      if (quoted && i + 1 < text.size() && text[i + 1] == '"') {
-        field += text[++i];
-      } else {
-        quoted = !quoted;
-      }
-    } else if (c == ',' && !quoted) {
-      row.push_back(std::move(field));
-      field.clear();
-    } else if (c != '\r' || quoted) {
-      field += c;
-    }
-  }
-  if (open) {
-    end_row();
-  }
-  return rows;
 }
 
 }  // namespace
@@ -89,7 +43,7 @@ Table table_of(const std::string& title, const std::vector<Column>& columns) {
   for (const Column& column : columns) {
     table.columns.push_back(column.name);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      table.rows[i].push_back(number(column.values[i]));
+      add_fields(table.rows[i], column.values[i]);
     }
   }
   return table;
@@ -101,24 +55,6 @@ std::string to_csv(const Table& table) {
     text += csv_line(row);
   }
   return text;
-}
-
-Table parse_csv(std::string_view text, const std::string& title) {
-  auto rows = csv_rows(text);
-  Table table;
-  table.title = title;
-  if (rows.empty()) {
-    return table;
-  }
-  table.columns = std::move(rows.front());
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    if (rows[i].size() != table.columns.size()) {
-      throw Error(ErrorKind::input, title + ": row " + std::to_string(i) +
-                                        " and the first line differ in their number of fields");
-    }
-    table.rows.push_back(std::move(rows[i]));
-  }
-  return table;
 }
 
 std::string to_text(const Table& table) {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lab/experiments/timing.h"
+#include "lab/experiments/experiments.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
-#include "lab/experiments/engine_bench.h"
-#include "lab/experiments/experiments.h"
-#include "lab/experiments/report.h"
+#include "lab/experiments/engine.h"
 #include "lab/experiments/subtraction.h"
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
@@ -37,23 +35,19 @@ double measure_features(Lab& lab, const ImageConfig& config) {
   return median_of(times);
 }
 
-std::string size_name(int width, int height) {
-  return std::to_string(width) + "x" + std::to_string(height);
-}
-
 }  // namespace
 
 double median_of(std::vector<double> values) {
   return quantile(std::move(values), 0.5).value_or(0.0);
 }
 
-std::vector<FrameTime> measure_frame_times(Lab& lab, std::span<const int> iterations) {
+std::vector<FrameTime> measure_frame_times(Lab& lab) {
   const Config config = experiment_config(lab.options().seed);
   const double features_ms = measure_features(lab, config.image);
   const PreparedSequence sequence = prepare_sequence(lab.timing_clip(), config);
   const auto backend = make_scalar_backend();
   std::vector<FrameTime> result;
-  for (const int count : iterations) {
+  for (const int count : {40, 100, 200, 300, 400, 500}) {
     const RegistrationConfig search = reference_with(count / 2, count - count / 2);
     Random random(lab.options().seed);
     Pose pose = sequence.start;
@@ -76,20 +70,16 @@ EvaluationCost evaluation_cost(Lab& lab, int width, int height) {
                       lab.options().quick ? 3 : 9, random, lab.options().seconds);
 }
 
-SizeTime measure_size(Lab& lab, int width, int height) {
-  Config config = experiment_config(lab.options().seed);
-  config.image.width = width;
-  config.image.height = height;
-  return {width, height, measure_features(lab, config.image), evaluation_cost(lab, width, height)};
-}
-
 std::vector<SizeTime> measure_sizes(Lab& lab) {
   constexpr std::array<std::array<int, 2>, 6> kSizes = {
       {{160, 120}, {256, 256}, {320, 240}, {480, 480}, {512, 512}, {640, 480}}};
   std::vector<SizeTime> times;
   times.reserve(kSizes.size());
-  for (const auto& size : kSizes) {
-    times.push_back(measure_size(lab, size[0], size[1]));
+  for (const auto& [width, height] : kSizes) {
+    Config config = experiment_config(lab.options().seed);
+    config.image.width = width;
+    config.image.height = height;
+    times.push_back({measure_features(lab, config.image), evaluation_cost(lab, width, height)});
   }
   return times;
 }
@@ -113,12 +103,11 @@ Table background_time_table(Lab& lab) {
     for (int repeat = 0; repeat < 3; ++repeat) {
       for (const cv::Mat& picture : pictures) {
         const double start = lab.options().seconds();
-        const cv::Mat foreground = subtractor->foreground(picture);
+        const cv::Mat foreground = subtractor(picture);
         times.push_back(kMilliseconds * (lab.options().seconds() - start));
       }
     }
-    table.rows.push_back(
-        {std::string(kSubtractionNames[static_cast<std::size_t>(method)]), number(median_of(times))});
+    table.rows.push_back(row_of(kSubtractionNames[static_cast<std::size_t>(method)], median_of(times)));
   }
   return beside(table, published_values("T3-1"));
 }
@@ -127,8 +116,7 @@ Table frame_time_table(const std::vector<FrameTime>& times) {
   Table table{
       "Table 3-2: one frame at 160x120, ms", {"iterations", "features ms", "search ms", "frame ms"}, {}};
   for (const FrameTime& t : times) {
-    table.rows.push_back(
-        {std::to_string(t.iterations), number(t.features_ms), number(t.search_ms), number(t.total_ms())});
+    table.rows.push_back(row_of(t.iterations, t.features_ms, t.search_ms, t.total_ms()));
   }
   return beside(table, published_values("T3-2"));
 }
@@ -136,9 +124,9 @@ Table frame_time_table(const std::vector<FrameTime>& times) {
 Table size_time_table(const std::vector<SizeTime>& times) {
   Table table{"Table 3-3: by working size", {"size", "features ms", "F us", "D_C us", "D_C : F"}, {}};
   for (const SizeTime& t : times) {
-    table.rows.push_back({size_name(t.width, t.height), number(t.features_ms),
-                          number(kMilliseconds * t.cost.region_ms), number(kMilliseconds * t.cost.edge_ms),
-                          number(t.cost.edge_ms / t.cost.region_ms)});
+    table.rows.push_back(row_of(size_name(t.cost.width, t.cost.height), t.features_ms,
+                                kMilliseconds * t.cost.region_ms, kMilliseconds * t.cost.edge_ms,
+                                t.cost.edge_ms / t.cost.region_ms));
   }
   return beside(table, published_values("T3-3"));
 }
@@ -157,32 +145,27 @@ Finding background_times(Lab& lab) {
 }
 
 Finding frame_times(Lab& lab) {
-  constexpr std::array<int, 6> kIterations = {40, 100, 200, 300, 400, 500};
-  const std::vector<FrameTime> times = measure_frame_times(lab, kIterations);
-  Finding finding;
-  finding.tables = {frame_time_table(times)};
+  const std::vector<FrameTime> times = measure_frame_times(lab);
   const double per_500 = times.back().total_ms();
-  finding.notes = {"With 500 evaluations a frame takes " + number(per_500) + " ms: " + number(1e3 / per_500) +
-                   " frames a second on one thread, features and search in sequence."};
-  finding.verdict = verdict({times.back().search_ms > 3.0 * times.front().search_ms},
-                            "the time grows in proportion to the evaluations, as published; a frame is " +
-                                number(93.0 / per_500) + " times as fast as platform 1.");
-  return finding;
+  return {
+      .tables = {frame_time_table(times)},
+      .notes = {"With 500 evaluations a frame takes " + number(per_500) + " ms: " + number(1e3 / per_500) +
+                " frames a second on one thread, features and search in sequence."},
+      .verdict = verdict({times.back().search_ms > 3.0 * times.front().search_ms},
+                         "the time grows in proportion to the evaluations, as published; a frame is " +
+                             number(93.0 / per_500) + " times as fast as platform 1.")};
 }
 
 Finding size_times(Lab& lab) {
   const std::vector<SizeTime> times = measure_sizes(lab);
-  Finding finding;
-  finding.tables = {size_time_table(times)};
-  finding.notes = {
-      "The time of an evaluation grows more slowly than the number of pixels: part of it is projecting the "
-      "mesh, which has the same number of triangles at every size."};
   const double first = times.front().cost.edge_ms / times.front().cost.region_ms;
   const double last = times.back().cost.edge_ms / times.back().cost.region_ms;
-  finding.verdict = verdict({first > last, times.back().features_ms > times.front().features_ms},
-                            "D_C costs " + number(first) + " of an F at 160x120 and " + number(last) +
-                                " at 640x480 (thesis: 1.06 and 0.77).");
-  return finding;
+  return {.tables = {size_time_table(times)},
+          .notes = {"The time of an evaluation grows more slowly than the number of pixels: part of it is "
+                    "projecting the mesh, which has the same number of triangles at every size."},
+          .verdict = verdict({first > last, times.back().features_ms > times.front().features_ms},
+                             "D_C costs " + number(first) + " of an F at 160x120 and " + number(last) +
+                                 " at 640x480 (thesis: 1.06 and 0.77).")};
 }
 
 Finding overlap_times(Lab& lab) {
@@ -195,26 +178,17 @@ Finding overlap_times(Lab& lab) {
   Finding finding;
   finding.tables = {overlap_time_table(options)};
   const auto& rows = finding.tables.front().rows;
-  const auto column = [&](std::size_t i) {
-    std::vector<double> values;
-    std::transform(rows.begin(), rows.end(), std::back_inserter(values),
-                   [i](const auto& row) { return std::stod(row[i]); });
-    return values;
-  };
-  const std::vector<double> count = column(0);
-  const std::vector<double> scalar = column(1);
-  const std::vector<double> simd = column(2);
-  const std::vector<double> plain = column(3);
+  const auto last = [&](std::size_t column) { return std::stod(rows.back()[column]); };
   finding.notes = {
       "From the poses to the histograms: placing the model, drawing it and counting the overlap. "
       "`telemime-lab bench --engine-only` measures the other back ends, devices among them, and all "
       "threads."};
-  finding.verdict = verdict(
-      {simd.back() < scalar.back(), scalar.back() > 2.0 * scalar.front()},
-      number(count.back()) + " histograms take " + number(scalar.back()) + " ms with scalar code and " +
-          number(simd.back()) + " ms with vector instructions on one thread, " +
-          number(plain.back() / simd.back()) + " times as fast as the thesis's CPU and " +
-          number(column(5).back() / simd.back()) + " times as fast as its first GPU.");
+  finding.verdict =
+      verdict({last(2) < last(1), last(1) > 2.0 * std::stod(rows.front()[1])},
+              rows.back()[0] + " histograms take " + number(last(1)) + " ms with scalar code and " +
+                  number(last(2)) + " ms with vector instructions on one thread, " +
+                  number(last(3) / last(2)) + " times as fast as the thesis's CPU and " +
+                  number(last(5) / last(2)) + " times as fast as its first GPU.");
   return finding;
 }
 

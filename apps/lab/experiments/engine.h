@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "lab/experiments/table.h"
+#include "telemime/body/limits.h"
+#include "telemime/core/random.h"
 #include "telemime/likelihood/all.h"
 
 namespace telemime {
@@ -34,7 +37,6 @@ std::vector<std::string> missing_backends();
 
 /// The working images of all tables: 160x120, 320x240, 640x480.
 std::vector<Camera> engine_cameras();
-std::string size_name(const Camera& camera);
 
 /// One person, one image, and poses around the pose in it as a search would try them.
 struct EngineScene {
@@ -76,9 +78,10 @@ Table time_table(std::span<const Throughput> cells);
 /// Upload, kernel and download times of a batch on a device; no rows when no back end reports them.
 Table device_table(std::span<const Throughput> cells);
 
-/// The time of each stage of `simd` in one evaluation, on one thread, at the three image sizes: the time up
-/// to a stage minus the time up to the previous one.
-Table stage_table(const EngineOptions& options);
+/// The time of each stage of `simd` and of `scalar` in one evaluation, on one thread, at the three image
+/// sizes: the time up to a stage minus the time up to the previous one.
+Table simd_stage_table(const EngineOptions& options);
+Table scalar_stage_table(const EngineOptions& options);
 
 /// One evaluation with each set of vector instructions that this processor has, on one thread.
 Table instruction_set_table(const EngineOptions& options);
@@ -98,6 +101,43 @@ std::unique_ptr<Backend> make_literal_opencv();
 
 /// The same optimised for speed: vertices projected by hand, segment after segment by one depth for each,
 /// class and contour in one image, memory used again.
-std::unique_ptr<Backend> make_opencv_baseline();
+std::unique_ptr<Backend> make_fast_opencv();
+
+/// Poses with every angle uniform within the limits, 1.0 to 1.6 m from the camera; poses with an arm inside
+/// the body (kInvalidInterpenetration) are redrawn. Throws Error(usage) when the limits allow hardly any
+/// other.
+std::vector<Pose> valid_poses(const Body& body, const JointLimits& limits, std::size_t count, Random& random);
+
+/// Three people: the default, a taller one with other proportions, a smaller one with longer sleeves.
+std::array<Shape, 3> different_people();
+
+/// Rank correlation of two equally long lists (C. Spearman, Am. J. Psychology 15, 1904), in [-1, 1]: the
+/// correlation of their ranks, equal values taking the mean of theirs. 0 when all values of a list are equal.
+/// Throws Error(usage) for other lengths.
+double spearman(std::span<const double> a, std::span<const double> b);
+
+/// Differences of two back ends' scores.
+struct Agreement {
+  std::size_t poses = 0;
+  double region_max = 0.0, region_mean = 0.0;    ///< |dF|
+  double contour_max = 0.0, contour_mean = 0.0;  ///< |dD_C|, px
+};
+
+/// `tested` against `reference` at 160x120 over `poses` random valid poses of the three people, each against
+/// pictures of other poses.
+Agreement compare_scores(Backend& reference, Backend& tested, std::size_t poses, std::uint64_t seed);
+
+/// How two back ends rank poses near the true one: rank correlations over frames.
+struct RankAgreement {
+  double region_min = 1.0, region_mean = 0.0;
+  double contour_min = 1.0, contour_mean = 0.0;
+};
+
+/// `frames` pictures of random valid poses; 200 poses about each, a few degrees and centimetres away.
+RankAgreement compare_ranks(Backend& reference, Backend& tested, std::size_t frames, std::uint64_t seed);
+
+/// Every back end of the options but `scalar` against it.
+Table agreement_table(const EngineOptions& options);
+Table ranking_table(const EngineOptions& options);
 
 }  // namespace telemime
