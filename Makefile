@@ -46,8 +46,8 @@ test: deps-test configure ## build and run the tests (the long ones: ctest --pre
 	@ctest --preset release -j $(TEST_JOBS)
 
 bench: deps-test configure ## run the benchmarks
-	@cmake --build --preset release -j $(JOBS)
-	@scripts/each.sh build/release/bench
+	@cmake --build --preset release --target telemime-lab -j $(JOBS)
+	@build/release/telemime-lab bench
 
 experiments: deps-test configure ## measure the thesis's tables and figures again: out/experiments/report.html
 	@scripts/deps.sh plots
