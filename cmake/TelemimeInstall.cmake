@@ -21,6 +21,10 @@ if(TARGET telemime)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/avatars/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime/avatars")
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime")
+if(TELEMIME_MODELS)
+  install(DIRECTORY "${PROJECT_BINARY_DIR}/models/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime/models"
+          FILES_MATCHING PATTERN "*.tflite")
+endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
         DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/telemime")
 
@@ -29,5 +33,5 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/telemimeConfig.cmake.
                               PATH_VARS CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/telemimeConfig.cmake" "${PROJECT_BINARY_DIR}/telemimeConfigVersion.cmake"
-              "${PROJECT_SOURCE_DIR}/cmake/FindOpenCV.cmake"
+              "${PROJECT_SOURCE_DIR}/cmake/FindOpenCV.cmake" "${PROJECT_SOURCE_DIR}/cmake/FindXNNPACK.cmake"
         DESTINATION "${package_dir}")

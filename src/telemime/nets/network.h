@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "telemime/nets/network_graph.h"
+
+namespace telemime {
+
+/// A small neural network that runs on one thread of the processor (XNNPACK). The same input gives the same
+/// bytes on the same processor. Not to be used by two threads at once; two networks are independent.
+class Network {
+ public:
+  /// From the bytes of a TensorFlow Lite file. `outputs`: names of the outputs to compute, in this order; all
+  /// if empty. What other outputs alone need is not computed. Throws Error(config) if the file is damaged,
+  /// needs an operator that is not supported or has no output of that name.
+  explicit Network(std::span<const std::byte> file, std::span<const std::string> outputs = {});
+  Network(Network&&) noexcept;
+  Network& operator=(Network&&) noexcept;
+  ~Network();
+
+  const TensorShape& input_shape() const;
+  std::size_t output_count() const;
+  const TensorShape& output_shape(std::size_t output) const;
+
+  /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage) if
+  /// the input has another size than input_shape().
+  std::span<const std::span<const float>> run(std::span<const float> input);
+
+ private:
+  struct Runtime;
+  std::unique_ptr<Runtime> runtime_;
+};
+
+}  // namespace telemime

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/nets/picture_region.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace telemime {
+namespace {
+
+// From the centre of a cell of a grid over the region to a pixel of the picture.
+cv::Matx23d picture_from_cell(const PictureRegion& region, cv::Size grid) {
+  const Eigen::Matrix2d turn = region.rotation();
+  const double dx = region.width / grid.width;
+  const double dy = region.height / grid.height;
+  const Eigen::Vector2d first = region.pixel({0.5 / grid.width, 0.5 / grid.height});
+  return {turn(0, 0) * dx, turn(0, 1) * dy, first.x(), turn(1, 0) * dx, turn(1, 1) * dy, first.y()};
+}
+
+}  // namespace
+
+Eigen::Matrix2d PictureRegion::rotation() const {
+  Eigen::Matrix2d turn;
+  turn << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return turn;
+}
+
+Eigen::Vector2d PictureRegion::pixel(const Eigen::Vector2d& own) const {
+  return centre + rotation() * Eigen::Vector2d((own.x() - 0.5) * width, (own.y() - 0.5) * height);
+}
+
+PictureRegion whole_picture(const cv::Mat& picture) {
+  return {.centre = {0.5 * (picture.cols - 1), 0.5 * (picture.rows - 1)},
+          .width = static_cast<double>(picture.cols),
+          .height = static_cast<double>(picture.rows)};
+}
+
+PictureRegion square_around(const cv::Mat& picture) {
+  PictureRegion region = whole_picture(picture);
+  region.width = region.height = std::max(region.width, region.height);
+  return region;
+}
+
+PictureRegion region_of_axis(const Eigen::Vector2d& centre, const Eigen::Vector2d& top) {
+  constexpr double kMargin = 1.25;
+  const Eigen::Vector2d axis = top - centre;
+  const double side = 2.0 * axis.norm() * kMargin;
+  const double angle = 0.5 * std::numbers::pi - std::atan2(-axis.y(), axis.x());
+  return {.centre = centre, .width = side, .height = side, .angle = angle};
+}
+
+std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& region,
+                                 const InputFormat& format) {
+  cv::Mat crop;
+  cv::warpAffine(picture, crop, picture_from_cell(region, format.size), format.size,
+                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
+                 format.repeats_border ? cv::BORDER_REPLICATE : cv::BORDER_CONSTANT);
+  const float scale = (format.white - format.black) / 255.0F;
+  std::vector<float> input(3 * static_cast<std::size_t>(format.size.area()));
+  float* out = input.data();
+  for (int y = 0; y < crop.rows; ++y) {
+    for (const auto* in = crop.ptr<cv::Vec3b>(y); in != crop.ptr<cv::Vec3b>(y) + crop.cols; ++in) {
+      *out++ = format.black + scale * static_cast<float>((*in)[2]);
+      *out++ = format.black + scale * static_cast<float>((*in)[1]);
+      *out++ = format.black + scale * static_cast<float>((*in)[0]);
+    }
+  }
+  return input;
+}
+
+cv::Mat picture_mask(std::span<const float> cells, cv::Size size, const PictureRegion& region,
+                     cv::Size picture) {
+  cv::Mat mask(size, CV_8UC1);
+  std::transform(cells.begin(), cells.end(), mask.begin<std::uint8_t>(),
+                 [](float cell) { return cv::saturate_cast<std::uint8_t>(255.0F * cell); });
+  cv::Mat result;
+  cv::warpAffine(mask, result, picture_from_cell(region, size), picture, cv::INTER_LINEAR,
+                 cv::BORDER_CONSTANT);
+  return result;
+}
+
+}  // namespace telemime

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+namespace telemime {
+
+/// A rectangle of a picture that a network sees: turned about its centre, stretched to the network's input.
+struct PictureRegion {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< pixels of the picture
+  double width = 0.0;                                ///< pixels
+  double height = 0.0;                               ///< pixels
+  double angle = 0.0;                                ///< radians, clockwise as seen
+
+  /// From the region's own coordinates, [0, 1] from edge to edge, to a pixel of the picture.
+  Eigen::Vector2d pixel(const Eigen::Vector2d& own) const;
+  /// The turn from the region's axes to the picture's.
+  Eigen::Matrix2d rotation() const;
+};
+
+/// The whole picture.
+PictureRegion whole_picture(const cv::Mat& picture);
+
+/// The smallest square about the middle of the picture that contains it.
+PictureRegion square_around(const cv::Mat& picture);
+
+/// The square about `centre` in which the person is upright whose body axis goes from `centre` to `top`, at
+/// the distance of 1 / 2.5 of a side (thesis of the detector: a circle around the person, 1.25 times as
+/// large).
+PictureRegion region_of_axis(const Eigen::Vector2d& centre, const Eigen::Vector2d& top);
+
+/// How a region becomes the input of a network.
+struct InputFormat {
+  cv::Size size;               ///< pixels
+  float black = 0.0F;          ///< value of 0
+  float white = 1.0F;          ///< value of 255
+  bool repeats_border = true;  ///< outside the picture its border pixels are repeated; otherwise it is black
+};
+
+/// The region of a BGR picture (CV_8UC3) by bilinear interpolation, as [height, width, RGB].
+std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& region,
+                                 const InputFormat& format);
+
+/// A probability in [0, 1] for each cell of a region as an image of the picture's size (CV_8UC1, 255 is 1);
+/// 0 outside of the region. `cells` has size.area() elements, row-major.
+cv::Mat picture_mask(std::span<const float> cells, cv::Size size, const PictureRegion& region,
+                     cv::Size picture);
+
+}  // namespace telemime
