@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/nets/find_pose.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <utility>
+#include <vector>
+
+#include "telemime/capture/source.h"
+#include "telemime/evaluation/truth.h"
+#include "telemime/nets/models/table.h"
+#include "telemime/nets/person_mask.h"
+#include "telemime/nets/pose_detector.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kModels = TELEMIME_BUILD_MODELS;
+const fs::path kDemo = TELEMIME_SOURCE_DIR "/data/demo";
+
+class FindPose : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<std::string> names = {"pose_detection", "pose_landmark_full", "selfie_segmentation"};
+    if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+      std::cout << missing << '\n';
+      GTEST_SKIP() << missing;
+    }
+  }
+};
+
+std::vector<cv::Mat> frames_of(const fs::path& clip, std::size_t count) {
+  const std::unique_ptr<Source> source = open_source(clip.string());
+  std::vector<cv::Mat> frames;
+  for (std::optional<Frame> frame = source->next(); frame && frames.size() < count; frame = source->next()) {
+    frames.push_back(frame->image.clone());
+  }
+  return frames;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+TEST_F(FindPose, LandmarksAreNearTheTrueJoints) {
+  const std::vector<cv::Mat> frames = frames_of(kDemo / "video.mp4", 60);
+  const Truth truth = read_truth(kDemo / "truth.json");
+  PoseNetworks networks = load_pose_networks(kModels);
+  constexpr std::pair<Joint, int> kPairs[] = {{Joint::l_elbow, PoseLandmarkIndex::left_elbow},
+                                              {Joint::r_elbow, PoseLandmarkIndex::right_elbow},
+                                              {Joint::l_wrist, PoseLandmarkIndex::left_wrist},
+                                              {Joint::r_wrist, PoseLandmarkIndex::right_wrist}};
+  std::vector<double> distances;
+  std::vector<double> across;  // positive where the left elbow is on the right of the picture
+  std::optional<PictureRegion> region;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const std::optional<PoseLandmarks> found = find_pose(frames[i], networks, region);
+    ASSERT_TRUE(found) << "frame " << i;
+    region = found->next_region;
+    for (const auto& [joint, landmark] : kPairs) {
+      const auto& position = truth.frames[i][static_cast<std::size_t>(joint)];
+      ASSERT_TRUE(position);
+      const PoseLandmark& point = found->points[landmark];
+      distances.push_back((point.pixel - truth.camera.project(*position)).norm());
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(point.covariance).eigenvalues()[0], 0.0);
+    }
+    across.push_back(found->points[PoseLandmarkIndex::left_elbow].world.x() -
+                     found->points[PoseLandmarkIndex::right_elbow].world.x());
+  }
+  EXPECT_LT(median(distances), 5.0);  // pixels of 320 x 240; landmarks are on the skin, joints in the body
+  EXPECT_GT(median(across), 0.3);     // m
+}
+
+TEST_F(FindPose, FollowsTheRegionOfTheFrameBefore) {
+  const std::vector<cv::Mat> frames = frames_of(kDemo / "video.mp4", 2);
+  PoseNetworks networks = load_pose_networks(kModels);
+  const auto first = find_pose(frames[0], networks);
+  ASSERT_TRUE(first);
+  const auto followed = find_pose(frames[1], networks, first->next_region);
+  const auto detected = find_pose(frames[1], networks);
+  ASSERT_TRUE(followed && detected);
+  EXPECT_LT((followed->region.centre - first->next_region.centre).norm(), 1e-9);
+  for (const int index : {PoseLandmarkIndex::left_shoulder, PoseLandmarkIndex::right_elbow}) {
+    EXPECT_LT((followed->points[index].pixel - detected->points[index].pixel).norm(), 4.0);
+  }
+}
+
+TEST_F(FindPose, SearchesAgainWhereNobodyIsLeft) {
+  const cv::Mat frame = frames_of(kDemo / "video.mp4", 1)[0];
+  PoseNetworks networks = load_pose_networks(kModels);
+  const PictureRegion corner{.centre = {10.0, 10.0}, .width = 30.0, .height = 30.0};
+  const auto found = find_pose(frame, networks, corner);
+  ASSERT_TRUE(found);
+  EXPECT_GT((found->region.centre - corner.centre).norm(), 50.0);
+}
+
+TEST_F(FindPose, NobodyInAnEmptyPicture) {
+  PoseNetworks networks = load_pose_networks(kModels);
+  EXPECT_FALSE(find_pose(cv::Mat(240, 320, CV_8UC3, cv::Scalar(90, 90, 90)), networks));
+  EXPECT_TRUE(detect_poses(cv::Mat(240, 320, CV_8UC3, cv::Scalar(90, 90, 90)), networks.detector).empty());
+}
+
+TEST_F(FindPose, SameFrameSameLandmarks) {
+  const std::vector<cv::Mat> frames = frames_of(kDemo / "video.mp4", 3);
+  PoseNetworks networks = load_pose_networks(kModels);
+  PoseNetworks others = load_pose_networks(kModels);
+  find_pose(frames[2], networks);
+  const auto a = find_pose(frames[1], networks);
+  const auto b = find_pose(frames[1], others);
+  ASSERT_TRUE(a && b);
+  for (std::size_t i = 0; i < PoseLandmarks::kCount; ++i) {
+    EXPECT_EQ(a->points[i].pixel, b->points[i].pixel);
+    EXPECT_EQ(a->points[i].covariance, b->points[i].covariance);
+  }
+}
+
+TEST_F(FindPose, MasksCoverThePersonAlone) {
+  const cv::Mat frame = frames_of(kDemo / "video.mp4", 1)[0];
+  PoseNetworks networks = load_pose_networks(kModels, PoseModel::full, true);
+  Network segmenter = load_person_segmenter(kModels, MaskModel::square);
+  const auto found = find_pose(frame, networks);
+  ASSERT_TRUE(found);
+  const auto& points = found->points;
+  const Eigen::Vector2d chest =
+      0.5 * (points[PoseLandmarkIndex::left_shoulder].pixel + points[PoseLandmarkIndex::right_hip].pixel);
+  for (const cv::Mat& mask : {found->mask, find_person_mask(frame, segmenter)}) {
+    ASSERT_EQ(mask.size(), frame.size());
+    EXPECT_GT(mask.at<std::uint8_t>(cv::Point(cvRound(chest.x()), cvRound(chest.y()))), 200);
+    EXPECT_LT(mask.at<std::uint8_t>(5, 5), 50);
+  }
+}
+
+TEST_F(FindPose, FindsEverybodyInTheRealClips) {
+  const char* const variable = std::getenv("TELEMIME_DATA");
+  const fs::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
+  if (!fs::exists(data / "real")) {
+    const std::string reason = "no test data: set TELEMIME_DATA";
+    std::cout << reason << '\n';
+    GTEST_SKIP() << reason;
+  }
+  PoseNetworks networks = load_pose_networks(kModels, PoseModel::lite);
+  for (const char* clip :
+       {"webcam_hello", "seated_stereo", "pose2sim_cam2", "handheld_wave", "room_wave_10fps"}) {
+    std::optional<PictureRegion> region;
+    for (const cv::Mat& frame : frames_of(data / "real" / clip / "clip.mp4", 20)) {
+      const auto found = find_pose(frame, networks, region);
+      ASSERT_TRUE(found) << clip;
+      region = found->next_region;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telemime
