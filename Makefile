@@ -7,7 +7,7 @@ JOBS ?= $(shell nproc)
 TEST_JOBS ?= $(shell echo $$(($(JOBS) + 1)))
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
-ASAN_QUICK = core capture outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
+ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
 TARGETS := help deps build demo test bench experiments accuracy lint asan asan-quick tsan fuzz install count clean

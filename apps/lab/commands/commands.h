@@ -14,6 +14,9 @@ void add_bench_command(CLI::App& app);
 /// `telemime-lab experiments ID...`: tables and figures of the thesis, measured again.
 void add_experiments_command(CLI::App& app);
 
+/// `telemime-lab landmarks CLIP --out DIR`: pictures of what the networks find in a clip.
+void add_landmarks_command(CLI::App& app);
+
 /// `telemime-lab learn FOLDER... --out FILE`: the particle filter's parameters from sequences with truth.
 void add_learn_command(CLI::App& app);
 

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   telemime::add_experiments_command(app);
   telemime::add_bench_command(app);
   telemime::add_synth_command(app);
+  telemime::add_landmarks_command(app);
   telemime::add_learn_command(app);
   telemime::add_tune_command(app);
   try {
