@@ -15,6 +15,7 @@
 
 #include "telemime/capture/source.h"
 #include "telemime/evaluation/truth.h"
+#include "telemime/nets/hand_landmarks.h"
 #include "telemime/nets/models/table.h"
 #include "telemime/nets/person_mask.h"
 #include "telemime/nets/pose_detector.h"
@@ -30,7 +31,9 @@ const fs::path kDemo = TELEMIME_SOURCE_DIR "/data/demo";
 class FindPose : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::vector<std::string> names = {"pose_detection", "pose_landmark_full", "selfie_segmentation"};
+    const std::vector<std::string> names = {"pose_detection",     "pose_landmark_full",
+                                            "pose_landmark_lite", "selfie_segmentation",
+                                            "hand_recrop",        "hand_landmark_full"};
     if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
       std::cout << missing << '\n';
       GTEST_SKIP() << missing;
@@ -139,6 +142,29 @@ TEST_F(FindPose, MasksCoverThePersonAlone) {
     EXPECT_GT(mask.at<std::uint8_t>(cv::Point(cvRound(chest.x()), cvRound(chest.y()))), 200);
     EXPECT_LT(mask.at<std::uint8_t>(5, 5), 50);
   }
+}
+
+TEST_F(FindPose, HandsBeginAtTheWristsOfThePose) {
+  const std::vector<cv::Mat> frames = frames_of(kDemo / "video.mp4", 10);
+  PoseNetworks networks = load_pose_networks(kModels);
+  HandNetworks hands = load_hand_networks(kModels);
+  int found = 0;
+  for (const cv::Mat& frame : frames) {
+    const auto pose = find_pose(frame, networks);
+    ASSERT_TRUE(pose);
+    const auto& points = pose->points;
+    const double forearm =
+        (points[PoseLandmarkIndex::left_wrist].pixel - points[PoseLandmarkIndex::left_elbow].pixel).norm();
+    for (const HandSide side : {HandSide::left, HandSide::right}) {
+      const bool left = side == HandSide::left;
+      if (const auto hand = find_hand(frame, *pose, side, hands)) {
+        ++found;
+        const int wrist = left ? PoseLandmarkIndex::left_wrist : PoseLandmarkIndex::right_wrist;
+        EXPECT_LT((hand->points[0].pixel - points[wrist].pixel).norm(), 0.4 * forearm);
+      }
+    }
+  }
+  EXPECT_GE(found, 10);
 }
 
 TEST_F(FindPose, FindsEverybodyInTheRealClips) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "telemime/core/errors.h"
+
 namespace telemime {
 namespace {
 
@@ -52,6 +54,9 @@ PictureRegion region_of_axis(const Eigen::Vector2d& centre, const Eigen::Vector2
 
 std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& region,
                                  const InputFormat& format) {
+  if (picture.empty() || picture.type() != CV_8UC3) {
+    throw Error(ErrorKind::usage, "a network was given no picture in colour with 8 bits per channel");
+  }
   cv::Mat crop;
   cv::warpAffine(picture, crop, picture_from_cell(region, format.size), format.size,
                  cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,

@@ -27,9 +27,8 @@ PictureRegion whole_picture(const cv::Mat& picture);
 /// The smallest square about the middle of the picture that contains it.
 PictureRegion square_around(const cv::Mat& picture);
 
-/// The square about `centre` in which the person is upright whose body axis goes from `centre` to `top`, at
-/// the distance of 1 / 2.5 of a side (thesis of the detector: a circle around the person, 1.25 times as
-/// large).
+/// The square around a person whose hips are at `centre` and who is upright in it: the circle about `centre`
+/// through `top` contains the person, and a quarter is added to it.
 PictureRegion region_of_axis(const Eigen::Vector2d& centre, const Eigen::Vector2d& top);
 
 /// How a region becomes the input of a network.
@@ -40,7 +39,8 @@ struct InputFormat {
   bool repeats_border = true;  ///< outside the picture its border pixels are repeated; otherwise it is black
 };
 
-/// The region of a BGR picture (CV_8UC3) by bilinear interpolation, as [height, width, RGB].
+/// The region of a BGR picture (CV_8UC3) by bilinear interpolation, as [height, width, RGB]. Throws
+/// Error(usage) if the picture is empty or of another type.
 std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& region,
                                  const InputFormat& format);
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
+#include "telemime/core/errors.h"
+
 namespace telemime {
 namespace {
 
@@ -60,6 +62,12 @@ TEST(NetworkInput, BorderIsRepeatedOrBlack) {
   EXPECT_FLOAT_EQ(network_input(picture, region, format)[0], 1.0F);
   format.repeats_border = false;
   EXPECT_FLOAT_EQ(network_input(picture, region, format)[0], -1.0F);
+}
+
+TEST(NetworkInput, RefusesOtherPictures) {
+  EXPECT_THROW(network_input(cv::Mat(), PictureRegion{}, kBytes), Error);
+  const cv::Mat grey(4, 4, CV_8UC1, cv::Scalar(9));
+  EXPECT_THROW(network_input(grey, whole_picture(grey), kBytes), Error);
 }
 
 TEST(PictureMask, CoversTheRegionAlone) {
