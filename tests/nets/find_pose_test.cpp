@@ -15,6 +15,7 @@
 
 #include "telemime/capture/source.h"
 #include "telemime/evaluation/truth.h"
+#include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/hand_landmarks.h"
 #include "telemime/nets/models/table.h"
 #include "telemime/nets/person_mask.h"
@@ -31,9 +32,9 @@ const fs::path kDemo = TELEMIME_SOURCE_DIR "/data/demo";
 class FindPose : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::vector<std::string> names = {"pose_detection",     "pose_landmark_full",
-                                            "pose_landmark_lite", "selfie_segmentation",
-                                            "hand_recrop",        "hand_landmark_full"};
+    const std::vector<std::string> names = {
+        "pose_detection", "pose_landmark_full", "pose_landmark_lite",         "selfie_segmentation",
+        "hand_recrop",    "hand_landmark_full", "face_detection_short_range", "face_landmark"};
     if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
       std::cout << missing << '\n';
       GTEST_SKIP() << missing;
@@ -165,6 +166,27 @@ TEST_F(FindPose, HandsBeginAtTheWristsOfThePose) {
     }
   }
   EXPECT_GE(found, 10);
+}
+
+TEST_F(FindPose, FaceIsAroundTheNoseOfThePose) {
+  const std::vector<cv::Mat> frames = frames_of(kDemo / "video.mp4", 5);
+  PoseNetworks networks = load_pose_networks(kModels);
+  FaceNetworks faces = load_face_networks(kModels);
+  std::optional<PictureRegion> region;
+  for (const cv::Mat& frame : frames) {
+    const auto pose = find_pose(frame, networks);
+    ASSERT_TRUE(pose);
+    const auto face = find_face(frame, head_region(*pose), faces, region);
+    ASSERT_TRUE(face);
+    region = face->next_region;
+    constexpr std::size_t kNoseTip = 1, kRightEyeCorner = 33, kLeftEyeCorner = 263;
+    const auto& points = face->points;
+    const Eigen::Vector2d eyes = points[kLeftEyeCorner].pixel - points[kRightEyeCorner].pixel;
+    EXPECT_GT(eyes.x(), 8.0);  // the person's left is on the right of a picture that is not mirrored
+    EXPECT_LT((points[kNoseTip].pixel - pose->points[PoseLandmarkIndex::nose].pixel).norm(),
+              0.5 * eyes.norm());
+    EXPECT_NEAR(region->centre.x(), points[kNoseTip].pixel.x(), 0.5 * eyes.norm());
+  }
 }
 
 TEST_F(FindPose, FindsEverybodyInTheRealClips) {

@@ -19,9 +19,9 @@ std::optional<PoseLandmarks> find_pose(const cv::Mat& picture, PoseNetworks& net
       return found;
     }
   }
-  for (const PoseDetection& detection : detect_poses(picture, networks.detector)) {
+  for (const Detection& person : detect_poses(picture, networks.detector)) {
     if (std::optional<PoseLandmarks> found =
-            find_landmarks(picture, region_of(detection), networks.landmarker)) {
+            find_landmarks(picture, region_of_person(person), networks.landmarker)) {
       return found;
     }
   }

@@ -2,6 +2,7 @@
 #include "telemime/nets/network.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "telemime/core/errors.h"
 #include "telemime/nets/subgraph.h"
@@ -65,9 +66,8 @@ struct Network::Runtime {
   // A part may belong to one output alone, must be computed, and a joined array must be an output.
   void refuse_unusual_joins(const std::vector<ExternalTensor>& external) const {
     std::vector<int> written;
-    for (const ExternalTensor& each : external) {
-      written.push_back(each.tensor);
-    }
+    std::transform(external.begin(), external.end(), std::back_inserter(written),
+                   [](const ExternalTensor& each) { return each.tensor; });
     std::sort(written.begin(), written.end());
     bool usual = std::adjacent_find(written.begin(), written.end()) == written.end();
     for (const NetworkNode& node : graph.nodes) {

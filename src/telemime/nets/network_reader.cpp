@@ -166,12 +166,13 @@ NetworkGraph keep_outputs(NetworkGraph graph, std::span<const std::string> names
     needed[output] = true;
   }
   std::vector<NetworkNode> nodes;
-  for (auto node = graph.nodes.rbegin(); node != graph.nodes.rend(); ++node) {
-    if (needed[node->output]) {
-      for (const int input : node->inputs) {
+  std::reverse(graph.nodes.begin(), graph.nodes.end());
+  for (NetworkNode& node : graph.nodes) {
+    if (needed[node.output]) {
+      for (const int input : node.inputs) {
         needed[input] = true;
       }
-      nodes.push_back(std::move(*node));
+      nodes.push_back(std::move(node));
     }
   }
   std::reverse(nodes.begin(), nodes.end());
