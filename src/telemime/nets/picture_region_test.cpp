@@ -50,9 +50,10 @@ TEST(NetworkInput, WholePictureIsItselfAsRgb) {
   const cv::Mat picture = coordinates(8, 6);
   const std::vector<float> input = network_input(picture, whole_picture(picture), kBytes);
   ASSERT_EQ(input.size(), 8U * 6U * 3U);
-  EXPECT_FLOAT_EQ(input[3 * (2 * 8 + 5)], 7.0F);
-  EXPECT_FLOAT_EQ(input[3 * (2 * 8 + 5) + 1], 2.0F);
-  EXPECT_FLOAT_EQ(input[3 * (2 * 8 + 5) + 2], 5.0F);
+  constexpr std::size_t kPixel = 3U * (2U * 8U + 5U);  // row 2, column 5
+  EXPECT_FLOAT_EQ(input[kPixel], 7.0F);
+  EXPECT_FLOAT_EQ(input[kPixel + 1], 2.0F);
+  EXPECT_FLOAT_EQ(input[kPixel + 2], 5.0F);
 }
 
 TEST(NetworkInput, BorderIsRepeatedOrBlack) {

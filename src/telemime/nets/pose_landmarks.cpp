@@ -40,7 +40,7 @@ RegionPoint refined(const Eigen::Vector2d& place, std::span<const float> heat_ma
   constexpr double kLeastPeak = 0.5;
   constexpr double kCell = 1.0 / kCells;
   constexpr double kWindowVariance = ((2 * kReach + 1) * (2 * kReach + 1) - 1) / 12.0 * kCell * kCell;
-  const RegionPoint unrefined{.place = place, .covariance = kWindowVariance * Eigen::Matrix2d::Identity()};
+  RegionPoint unrefined{.place = place, .covariance = kWindowVariance * Eigen::Matrix2d::Identity()};
   if (!(place.x() >= 0.0 && place.x() < 1.0 && place.y() >= 0.0 && place.y() < 1.0)) {
     return unrefined;
   }
