@@ -25,6 +25,8 @@ struct EdgeConfig {
 struct ImageConfig {
   int width = 160;
   int height = 120;
+  std::string models;
+  bool landmarks = true;
   std::string cascades;
   int face_width = 320;
   HeadTrackerConfig head;
@@ -34,6 +36,7 @@ struct ImageConfig {
   EdgeConfig edges;
   float background_rate = 0.01F;
   int motion_every = 10;
+  float mask_trust = 8.0F;
 };
 
 SettingTable settings_of(ImageConfig& config);

@@ -10,6 +10,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/image/edges.h"
 #include "telemime/image/person_shape.h"
+#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -32,7 +33,37 @@ bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
 }  // namespace
 
 FeatureExtractor::FeatureExtractor(const ImageConfig& config)
-    : config_((check_settings(config), config)), head_(config.head, config.cascades) {}
+    : config_((check_settings(config), config)), head_(config.head, config.cascades) {
+  const std::filesystem::path models = find_models(config.models);
+  if (config.landmarks && !models.empty()) {
+    finder_ = PersonFinder(models);
+  }
+}
+
+std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) {
+  if (!finder_.has_networks() || found_in_ == frame.index) {
+    return found_;
+  }
+  // Networks see a square of 256 pixels: a larger picture would only cost time.
+  constexpr int kWidest = 640;
+  cv::Mat picture = frame.image;
+  if (picture.cols > kWidest) {
+    cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0, 0,
+               cv::INTER_AREA);
+  }
+  found_ = finder_.find(picture);
+  if (found_) {
+    found_ = scaled_to(std::move(*found_), picture.size(), {config_.width, config_.height});
+  }
+  found_in_ = frame.index;
+  return found_;
+}
+
+std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLandmarks>& landmarks,
+                                                     const WorkingImages& p) {
+  const auto square = landmarks ? face_square(scaled_to(*landmarks, p.grey.size(), p.face.size())) : std::nullopt;
+  return square ? head_.take_over(p.face, *square) : head_.update(p.face, face_search_area(p), skin_test(p));
+}
 
 FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
@@ -112,7 +143,8 @@ void FeatureExtractor::follow_head_outline(const WorkingImages& p, const cv::Mat
 }
 
 BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
-                                                        const std::optional<HeadRegion>& head) {
+                                                        const std::optional<HeadRegion>& head,
+                                                        const cv::Mat& mask) {
   const BackgroundModel& model = calibration_.background;
   // Energy of pixels whose background is unknown: colours of the surroundings, position relative to the
   // head, and the previous silhouette.
@@ -130,7 +162,13 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
       cv::add(unknown, cv::Scalar(kPreviousWeight), unknown, silhouette_);
     }
   }
+  // What the network takes for the person.
+  const cv::Mat by_mask =
+      mask.empty() ? cv::Mat() : mask_energy(mask, config_.mask_trust);
   if (model.empty()) {
+    if (!by_mask.empty()) {
+      unknown += by_mask;
+    }
     return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
   }
   // Compensate changes of light, exposure and white balance, then compare with the model.
@@ -139,6 +177,9 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
   subtract(images.colour, gain);
   BackgroundEnergy out = background_energy(model, images.colour, config_.shadow, unknown);
   out.doubtful = calibration_.doubtful;
+  if (!by_mask.empty()) {
+    out.energy += by_mask;
+  }
   return out;
 }
 
@@ -196,7 +237,11 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
   shape_ = HeadShape{};
-  std::optional<TrackedFace> face = head_.detect(p.face, full_rect(p.face), skin_test(p));
+  const std::optional<PoseLandmarks> landmarks = landmarks_of(frame);
+  const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
+  head_.reset();
+  std::optional<TrackedFace> face =
+      landmarks ? face_of(landmarks, p) : head_.detect(p.face, full_rect(p.face), skin_test(p));
   if (!face && known_background_share() > 0.3) {
     WorkingImages copy = p;
     copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};
@@ -210,8 +255,8 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   }
   // Reject faces that are part of the background.
   std::optional<HeadRegion> head = head_region_of(face, p);
-  const BackgroundEnergy background = background_energy_of(p, head);
-  if (!differs_from_background(background, *head)) {
+  const BackgroundEnergy background = background_energy_of(p, head, mask);
+  if (!landmarks && !differs_from_background(background, *head)) {
     head_.reset();
     return {false, "the detected face belongs to the background (a poster?): sit in front of the camera"};
   }
@@ -220,7 +265,9 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   Segmentation rough;
   for (int turn = 0; turn < 2; ++turn) {
     rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
-    if (!background_complete_) {
+    if (landmarks) {
+      cv::compare(mask, 127, rough.silhouette, cv::CMP_GT);
+    } else if (!background_complete_) {
       // Neither the background nor the colours are known yet: a graph cut separates the person.
       rough.silhouette = cut_person(p.bgr, *head);
     }
@@ -245,15 +292,17 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   FrameFeatures out;
 
   // Head: track the face; a head that the background explains is rejected.
-  const std::optional<TrackedFace> face = head_.update(p.face, face_search_area(p), skin_test(p));
+  out.landmarks = landmarks_of(frame);
+  const std::optional<TrackedFace> face = face_of(out.landmarks, p);
   const HeadShape previous_shape = shape_;
   if (face && head_.replaced()) {
     // Until now the outline gave the face square. The head keeps its size around the detected square.
     shape_ = rebased(shape_, *head_.replaced(), *face);
   }
   out.head = head_region_of(face, p);
-  const BackgroundEnergy background = background_energy_of(p, out.head);
-  if (out.head && !differs_from_background(background, *out.head)) {
+  const BackgroundEnergy background =
+      background_energy_of(p, out.head, out.landmarks ? out.landmarks->mask : cv::Mat());
+  if (out.head && !out.landmarks && !differs_from_background(background, *out.head)) {
     head_.reset();
     out.head.reset();
     shape_ = previous_shape;

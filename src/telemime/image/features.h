@@ -11,6 +11,7 @@
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/image_calibration.h"
+#include "telemime/image/person_finder.h"
 #include "telemime/image/scene_bootstrap.h"
 
 namespace telemime {
@@ -59,11 +60,14 @@ class FeatureExtractor {
     cv::Mat grey;      ///< working size
     cv::Mat face;      ///< grey, at the size of the face detector
     LogColour colour;  ///< working size
+    cv::Size input;    ///< size of the frame
   };
   WorkingImages working_images(const Frame& frame) const;
   std::optional<HeadRegion> head_region_of(const std::optional<TrackedFace>& face,
                                            const WorkingImages& p) const;
-  BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head);
+  BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head,
+                                        const cv::Mat& mask = {});
+  std::optional<TrackedFace> face_of(const std::optional<PoseLandmarks>& landmarks, const WorkingImages& p);
   bool differs_from_background(const BackgroundEnergy& background, const HeadRegion& head) const;
   cv::Rect face_search_area(const WorkingImages& p) const;
   FaceTest skin_test(const WorkingImages& p) const;
@@ -73,7 +77,12 @@ class FeatureExtractor {
   void update_camera_motion(const cv::Mat& grey);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
 
+  std::optional<PoseLandmarks> landmarks_of(const Frame& frame);
+
   ImageConfig config_;
+  PersonFinder finder_;
+  std::int64_t found_in_ = -1;          ///< index of the frame in which `found_` was found
+  std::optional<PoseLandmarks> found_;  ///< in pixels of the working image
   HeadTracker head_;
   HeadShape shape_;
   FaceMemory face_memory_;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "telemime/nets/pose_landmarks.h"
+
 namespace telemime {
 
 /// Class of a pixel of the working image, as estimated by the segmentation.
@@ -35,6 +37,8 @@ struct FrameFeatures {
   cv::Mat edges;       ///< (h x w) CV_8UC1, 255 on edges inside the silhouette
   cv::Mat distance;    ///< (h x w) CV_32FC1, pixels to the nearest edge, capped (see distance_map)
   std::optional<HeadRegion> head;  ///< empty: no head was found
+  /// What the networks see of the person, in pixels of the working image; empty: no networks, or nobody.
+  std::optional<PoseLandmarks> landmarks;
 
   /// The rest is filled in by extract() (tracker/track_frame.h).
   std::int64_t frame = 0;             ///< index of the frame

@@ -35,7 +35,7 @@ double peak(double left, double middle, double right) {
 HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades)
     : config_(config), detector_(cascades) {}
 
-void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect& found, bool fresh) {
+void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect2d& found, bool fresh) {
   const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
   const double side = found.width;
   if (!detected_before_ && face_) {
@@ -94,6 +94,13 @@ void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double bl
   }
   face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
   since_sure_ = 0;
+}
+
+std::optional<TrackedFace> HeadTracker::take_over(const cv::Mat& grey, const cv::Rect2d& square) {
+  replaced_.reset();
+  misses_ = 0;
+  set_detection(grey, square, false);
+  return face_;
 }
 
 std::optional<TrackedFace> HeadTracker::detect(const cv::Mat& grey, const cv::Rect& search,

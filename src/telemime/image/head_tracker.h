@@ -43,6 +43,9 @@ class HeadTracker {
   /// the head), or starts a track there.
   void adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend);
 
+  /// Takes over a face square that a network has found in this image, as if the detector had.
+  std::optional<TrackedFace> take_over(const cv::Mat& grey, const cv::Rect2d& square);
+
   /// The tracked face after the last call.
   const std::optional<TrackedFace>& current() const { return face_; }
 
@@ -59,7 +62,7 @@ class HeadTracker {
   void reset() { face_.reset(); }
 
  private:
-  void set_detection(const cv::Mat& grey, const cv::Rect& found, bool fresh);
+  void set_detection(const cv::Mat& grey, const cv::Rect2d& found, bool fresh);
   double track(const cv::Mat& grey);
 
   HeadTrackerConfig config_;

@@ -4,11 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "telemime/body/body.h"
 #include "telemime/body/mesh.h"
 #include "telemime/core/camera.h"
 #include "telemime/image/frame_features.h"
+#include "telemime/likelihood/body_landmarks.h"
 #include "telemime/likelihood/tiled_planes.h"
 
 namespace telemime {
@@ -29,6 +31,7 @@ struct PreparedFrame {
   cv::Mat distance;                                         ///< (h x w) CV_32FC1, px
   std::array<std::int32_t, kSurfaceClassCount> observed{};  ///< pixels of each class
   double distance_cap = 0.0;                                ///< px, the largest value of the distance map
+  std::optional<BodyLandmarks> landmarks;  ///< empty: no network has looked, or it sees nobody
   TiledPlanes tiles;  ///< labels and distance in tiles, for back ends that read them so
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "telemime/core/errors.h"
+#include "telemime/search/landmark_fit.h"
 
 namespace telemime {
 namespace {
@@ -44,6 +45,30 @@ HeadGeometry head_geometry(const Body& body) {
   return {0.5 * (kCrown - kChin) * size * s.length,
           body.neck_from_root +
               Eigen::Vector3d(0.0, 0.5 * (kCrown + kChin) * size * s.length, kAhead * size * s.height)};
+}
+
+// The pose that explains the frame's landmarks and fits the image best; empty without landmarks.
+std::optional<Pose> best_landmark_pose(Objective& objective, const ObjectiveWeights& weights) {
+  constexpr std::size_t kMost = 8;
+  const auto& landmarks = objective.frame().landmarks;
+  const Body& body = objective.model().body;
+  const Camera& camera = objective.frame().camera;
+  const auto start =
+      landmarks ? pose_from_landmarks(body, camera, *landmarks, objective.limits()) : std::nullopt;
+  if (!start) {
+    return std::nullopt;
+  }
+  std::optional<Pose> best;
+  double best_cost = std::numeric_limits<double>::infinity();
+  for (const LandmarkFit& fit :
+       landmark_proposals(body, camera, *landmarks, {.pose = *start}, objective.limits(), kMost)) {
+    const double cost = objective(fit.pose, weights);
+    if (cost < best_cost) {
+      best = fit.pose;
+      best_cost = cost;
+    }
+  }
+  return best;
 }
 
 // Why the arm cannot be fitted: a part of it is outside the image or in front of the chest. Empty: it can.
@@ -139,6 +164,10 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
   const Camera& camera = objective.frame().camera;
   const HeadGeometry g = head_geometry(body);
   const ObjectiveWeights weights = search_weights(objective.cues());
+  // With landmarks: the cheapest of the poses that explain them.
+  if (const std::optional<Pose> seen = best_landmark_pose(objective, weights)) {
+    return register_pose(objective, *seen, alignment(registration, config.pose_iterations, 0.0), random).pose;
+  }
   const Pose placed = place_at_head(body, head, camera);
   const double z_head = placed.root.z() - g.centre_from_root.z();
   // Translation (thesis 3.3): the distance near the one from the head's height at which head and clothes
@@ -176,6 +205,8 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
                       const JointLimits& limits, const CalibrationConfig& config,
                       const RegistrationConfig& registration, Random& random) {
   Calibration result;
+  // Landmarks see the arms' depth; without them the arms are assumed to be parallel to the image.
+  const double fronto_parallel = frame.landmarks ? 0.0 : config.fronto_parallel;
   result.shape.stature = config.stature.value_or(kDesignStature);
   // Translation and pose with the average body.
   Model model = make_model(result.shape);
@@ -184,12 +215,12 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
     result.pose = initialise_pose(objective, head, config, registration, random);
     result.pose =
         register_pose(objective, result.pose,
-                      alignment(registration, config.pose_iterations, config.fronto_parallel), random)
+                      alignment(registration, config.pose_iterations, fronto_parallel), random)
             .pose;
     result.evaluations += objective.evaluations();
   }
   // Shape adjustment and pose alignment in turn.
-  const RegistrationConfig align = alignment(registration, config.pose_iterations, config.fronto_parallel);
+  const RegistrationConfig align = alignment(registration, config.pose_iterations, fronto_parallel);
   for (int round = 0; round < config.rounds; ++round) {
     const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, limits, config.shape);
     result.evaluations += fit.evaluations;

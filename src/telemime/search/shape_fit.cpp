@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/search/shape_fit.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -83,7 +84,32 @@ void flatten_arm(const Body& body, const JointLimits& limits, Side side, double 
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
-// Left and right limbs have the same scales.
+// Whether no bone of the arms slopes much towards the camera or away from it, as far as a network sees; without
+// one that is assumed.
+bool arms_are_flat(const PreparedFrame& frame) {
+  constexpr double kSlope = 0.35;
+  return !frame.landmarks || std::all_of(frame.landmarks->bones.begin(), frame.landmarks->bones.begin() + 4,
+                                         [](const BoneObservation& bone) {
+                                           return bone.seen && std::abs(bone.along) < kSlope;
+                                         });
+}
+
+// Girths of the arms and the sleeve. Left and right limbs have the same scales.
+Group arm_girths_group() {
+  return {{0.10, 0.10, 0.10, 0.15}, {0.6, 0.6, 0.5, 2.0}, [](const Candidate& from, const Eigen::VectorXd& x) {
+            Candidate to = from;
+            for (const Side side : kSides) {
+              const bool left = side == Side::left;
+              scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], 0.0, x[0], x[0]);
+              scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], 0.0, x[1], x[1]);
+              scale(to.shape[left ? Segment::l_hand : Segment::r_hand], 0.0, x[2], x[2]);
+            }
+            to.shape.sleeve = std::clamp(from.shape.sleeve + x[3], 0.0, 2.0);
+            return to;
+          }};
+}
+
+// The same with the lengths of the arms. Left and right limbs have the same scales.
 Group arms_group(const JointLimits& limits) {
   Group group;
   group.steps = {0.05, 0.10, 0.05, 0.10, 0.05, 0.10, 0.15};
@@ -130,7 +156,8 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
 
 ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
                    const JointLimits& limits, const ShapeFitConfig& config) {
-  const std::array<Group, 3> groups = {trunk_group(), head_group(), arms_group(limits)};
+  const std::array<Group, 3> groups = {trunk_group(), head_group(),
+                                       arms_are_flat(frame) ? arms_group(limits) : arm_girths_group()};
   Candidate best = {shape, pose};
   CueValues weights = step_weights(backend.cues(), &Cue::edge_step);
   weights[cue::kContour] = config.contour_weight;

@@ -8,6 +8,13 @@
 namespace telemime {
 namespace {
 
+// Whether a network sees the person where the body is: then the pose may stand although regions disagree.
+constexpr double kAgrees = 1.5;  // standard deviations
+bool landmarks_agree(const Score& score, const FrameFeatures& features, const Tracker& tracker) {
+  return features.landmarks && tracker.config.cues[cue::kLandmarks].enabled &&
+         score.costs[cue::kLandmarks] < kAgrees;
+}
+
 std::string scale_source(const CalibrationConfig& config) {
   return config.stature ? "the height given" : "an average adult's head (no height was given)";
 }
@@ -28,7 +35,7 @@ void calibrate_person(const FrameFeatures& features, const Tracker& tracker, Tra
                       FrameEstimate& result) {
   const Config& config = tracker.config;
   // A person in profile has a head, too, but no shape that could be fitted.
-  if (!features.head->detected && !features.face_learned) {
+  if (!features.landmarks && !features.head->detected && !features.face_learned) {
     lose("waiting for a face that looks at the camera", tracker, state, result);
     state.steps_until_search = 1.0;
     return;
@@ -37,7 +44,8 @@ void calibrate_person(const FrameFeatures& features, const Tracker& tracker, Tra
                                     config.calibration, config.registration, state.random);
   result.motion.evaluations += fit.evaluations;
   const bool patient = state.waited < config.tracking.calibration_patience;
-  if (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient)) {
+  const bool agrees = landmarks_agree(fit.score, features, tracker);
+  if (!agrees && (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient))) {
     lose("waiting for a better first frame: " + fit.refusal, tracker, state, result);
     return;
   }
@@ -84,21 +92,22 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
                                      tracker.config.registration, state.random);
   const Score score = objective.score(found, objective.cues().needs());
   result.motion.evaluations += objective.evaluations();
-  if (score.region() > tracker.config.tracking.found_region) {
+  if (score.region() > tracker.config.tracking.found_region && !landmarks_agree(score, features, tracker)) {
     lose("somebody is there, but the body does not fit", tracker, state, result);
     return;
   }
   start_tracking(found, score, state, result);
 }
 
-void check_fit(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result) {
   if (!features.person_present) {
     lose("nobody is in the picture", tracker, state, result);
     return;
   }
   const TrackingConfig& config = tracker.config.tracking;
-  const bool bad = result.motion.region_score > config.lost_region || !features.head;
+  const bool bad = (result.motion.region_score > config.lost_region || !features.head) &&
+                   !landmarks_agree(score, features, tracker);
   state.bad_frames = bad ? state.bad_frames + 1 : 0;
   state.bad_for = bad ? state.bad_for + state.steps : 0.0;
   // At a few frames a second one bad frame lasts as long as the patience.

@@ -15,7 +15,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
                  FrameEstimate& result);
 
 /// Loses a person who left the picture, or whom the body has not fitted for TrackingConfig::patience.
-void check_fit(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result);
 
 /// Gives the person up until a search finds them again; `reason` is a sentence part for the user.

@@ -155,7 +155,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
                                          : follow_with_registration(tracker, effort, state, result);
       adopt(state.pose, score, state, result);
       // Lost: nobody in the picture, or a body that no longer fits.
-      check_fit(features, tracker, state, result);
+      check_fit(features, score, tracker, state, result);
     } else if (search_is_due(features.frame, state)) {
       // Found: the first frame that the body can be fitted to (thesis 3.3), or the known person again.
       find_person(features, tracker, state, result);

@@ -24,6 +24,7 @@ inline constexpr std::uint64_t kResampling = 1;
 inline constexpr std::uint64_t kDiffusion = 2;
 inline constexpr std::uint64_t kSimplex = 3;
 inline constexpr std::uint64_t kHeadingSearch = 4;
+inline constexpr std::uint64_t kLandmarkSearch = 5;
 }  // namespace purpose
 
 /// Back ends of the filter: one for batches and one for each thread that runs a local search.

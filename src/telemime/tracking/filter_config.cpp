@@ -55,6 +55,10 @@ SettingTable settings_of(FilterConfig& c) {
              "The same where the trunk is far from upright; at most half of the particles."),
       number("filter.flip_candidates", &c.flip_candidates, {0, 1000}, "",
              "Modes whose best particle is flipped in depth."),
+      number("filter.landmark_searches", &c.landmark_searches, {0, 100}, "",
+             "Poses fitted to the landmarks that are searched further by all cues."),
+      number("filter.landmark_evaluations", &c.landmark_evaluations, {0, 1000000}, "evaluations",
+             "Effort of each of these searches; 0: none."),
   };
   table.rules = {known_heuristics(c.heuristics),
                  {c.mode_least <= c.mode_most, "filter.mode_least must not be above filter.mode_most"}};
@@ -63,7 +67,7 @@ SettingTable settings_of(FilterConfig& c) {
 
 FilterConfig with_effort(FilterConfig config, double share) {
   for (int* number : {&config.particles, &config.mode_least, &config.mode_most, &config.turn_evaluations,
-                      &config.walk_evaluations}) {
+                      &config.walk_evaluations, &config.landmark_evaluations}) {
     *number = std::max(1, static_cast<int>(std::lround(share * *number)));
   }
   return config;

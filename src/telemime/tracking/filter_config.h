@@ -12,7 +12,7 @@ namespace telemime {
 /// reference_filter() gives the values of the thesis.
 struct FilterConfig {
   int particles = 2000;
-  std::string heuristics = "modes,wd,lo,turn,kf";
+  std::string heuristics = "modes,wd,lo,landmarks,turn,kf";
   std::string estimate = "heaviest";
   std::string model;
   double diffusion = 1.0;
@@ -33,6 +33,8 @@ struct FilterConfig {
   int turn_evaluations = 200;
   int walk_evaluations = 1000;
   int flip_candidates = 2;
+  int landmark_searches = 2;
+  int landmark_evaluations = 100;
 };
 
 SettingTable settings_of(FilterConfig& config);

@@ -7,6 +7,7 @@
 
 #include "telemime/likelihood/cues/contour.h"
 #include "telemime/likelihood/cues/cue.h"
+#include "telemime/likelihood/cues/landmarks.h"
 #include "telemime/likelihood/cues/region.h"
 
 namespace telemime {
@@ -15,12 +16,16 @@ namespace telemime {
 inline constexpr std::array kCues = {
     kRegionCue,
     kContourCue,
+    kLandmarkCue,
+    kBoneCue,
 };
 
 /// Positions in every CueTable of the cues that the tracker also uses by name.
 namespace cue {
 inline constexpr std::size_t kRegion = 0;
 inline constexpr std::size_t kContour = 1;
+inline constexpr std::size_t kLandmarks = 2;
+inline constexpr std::size_t kBones = 3;
 }  // namespace cue
 static_assert(kCues[cue::kRegion].name == "region" && kCues[cue::kContour].name == "contour");
 

@@ -8,6 +8,7 @@
 #include "telemime/tracking/heuristics/end_effector.h"
 #include "telemime/tracking/heuristics/heading_search.h"
 #include "telemime/tracking/heuristics/kinematic_flipping.h"
+#include "telemime/tracking/heuristics/landmark_search.h"
 #include "telemime/tracking/heuristics/local_optimisation.h"
 #include "telemime/tracking/heuristics/modes.h"
 #include "telemime/tracking/heuristics/motion_partition.h"
@@ -26,6 +27,8 @@ const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
      Kind::proposal, use_end_effector_space},
     {"lo", "local optimisation of large families", "thesis 4.4.2.2.2", Stage::optimise, Kind::candidates,
      optimise_families},
+    {"landmarks", "poses that explain the landmarks of the frame", "thesis 5.2", Stage::optimise,
+     Kind::candidates, search_landmarks},
     {"turn", "the trunk turned towards the heading the person may have", "this program", Stage::optimise,
      Kind::candidates, search_heading},
     {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::flip_candidates,

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/body/landmark_points.h"
+
+namespace telemime {
+
+const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
+    {"nose", Joint::neck, Segment::head, {0.0, 0.075, 0.095}, 0.012},
+    {"l_eye", Joint::neck, Segment::head, {0.018, 0.093, 0.075}, 0.012},
+    {"r_eye", Joint::neck, Segment::head, {-0.018, 0.093, 0.075}, 0.012},
+    {"l_ear", Joint::neck, Segment::head, {0.045, 0.082, 0.025}, 0.015},
+    {"r_ear", Joint::neck, Segment::head, {-0.045, 0.082, 0.025}, 0.015},
+    {"l_shoulder", Joint::l_shoulder, Segment::chest, {0.0, 0.0, 0.0}, 0.025},
+    {"r_shoulder", Joint::r_shoulder, Segment::chest, {0.0, 0.0, 0.0}, 0.025},
+    {"l_elbow", Joint::l_elbow, Segment::l_upper_arm, {0.0, 0.0, 0.0}, 0.03},
+    {"r_elbow", Joint::r_elbow, Segment::r_upper_arm, {0.0, 0.0, 0.0}, 0.03},
+    {"l_wrist", Joint::l_wrist, Segment::l_forearm, {0.0, 0.0, 0.0}, 0.03},
+    {"r_wrist", Joint::r_wrist, Segment::r_forearm, {0.0, 0.0, 0.0}, 0.03},
+    {"l_pinky", Joint::l_wrist, Segment::l_hand, {0.0, -0.055, -0.02}, 0.04},
+    {"r_pinky", Joint::r_wrist, Segment::r_hand, {0.0, -0.055, -0.02}, 0.04},
+    {"l_index", Joint::l_wrist, Segment::l_hand, {0.0, -0.06, 0.018}, 0.04},
+    {"r_index", Joint::r_wrist, Segment::r_hand, {0.0, -0.06, 0.018}, 0.04},
+    {"l_hip", Joint::root, Segment::chest, {0.06, -0.055, 0.0}, 0.06},
+    {"r_hip", Joint::root, Segment::chest, {-0.06, -0.055, 0.0}, 0.06},
+}};
+
+LandmarkPositions landmark_positions(const Body& body, const Kinematics& k) {
+  LandmarkPositions points;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const LandmarkPoint& p = kLandmarkPoints[i];
+    const SegmentScale& s = body.shape[p.axes];
+    const Eigen::Vector3d offset(p.offset[0] * s.width, p.offset[1] * s.length, p.offset[2] * s.height);
+    points[i] = k.joints[p.origin] + k[p.axes].linear() * (body.shape.stature * offset);
+  }
+  return points;
+}
+
+std::array<Eigen::Vector3d, kLandmarkBoneCount> landmark_bones(const LandmarkPositions& points) {
+  const auto at = [&](Landmark l) -> const Eigen::Vector3d& { return points[static_cast<std::size_t>(l)]; };
+  const auto middle = [&](Landmark a, Landmark b) -> Eigen::Vector3d { return 0.5 * (at(a) + at(b)); };
+  return {at(Landmark::l_elbow) - at(Landmark::l_shoulder),
+          at(Landmark::r_elbow) - at(Landmark::r_shoulder),
+          at(Landmark::l_wrist) - at(Landmark::l_elbow),
+          at(Landmark::r_wrist) - at(Landmark::r_elbow),
+          at(Landmark::l_shoulder) - at(Landmark::r_shoulder),
+          middle(Landmark::l_shoulder, Landmark::r_shoulder) - middle(Landmark::l_hip, Landmark::r_hip),
+          at(Landmark::nose) - middle(Landmark::l_ear, Landmark::r_ear)};
+}
+
+}  // namespace telemime

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/search/landmark_fit.h"
+
+#include <gtest/gtest.h>
+
+#include "telemime/body/arm_ik.h"
+#include "telemime/core/random.h"
+
+namespace telemime {
+namespace {
+
+// What a perfect network would see of a pose, with noise of so many pixels and of so much slope.
+BodyLandmarks observe(const Body& body, const Camera& camera, const Pose& pose, double pixels, double slope,
+                      Random& random) {
+  BodyLandmarks seen;
+  const LandmarkPositions points = landmark_positions(body, forward_kinematics(body, pose));
+  const auto bones = landmark_bones(points);
+  seen.ray = points[static_cast<std::size_t>(Landmark::nose)].normalized();
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const double per_metre = camera.fx / points[i].z();
+    const double sigma = per_metre * kLandmarkPoints[i].sigma;
+    seen.points[i] = {.seen = true,
+                      .pixel = camera.project(points[i]) +
+                               Eigen::Vector2d(random.normal(0, pixels), random.normal(0, pixels)),
+                      .whitening = Eigen::Matrix2d::Identity() / sigma};
+  }
+  for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
+    seen.bones[i] = {.seen = true,
+                     .along = bones[i].dot(seen.ray) / bones[i].norm() + random.normal(0, slope),
+                     .sigma = 0.3};
+  }
+  return seen;
+}
+
+Pose random_gesture(Random& random, const JointLimits& limits) {
+  Pose pose;
+  pose.root = {random.uniform(-0.2, 0.2), random.uniform(0.2, 0.4), random.uniform(0.9, 1.8)};
+  pose[Angle::root_torsion] = random.uniform(-0.5, 0.5);
+  pose[Angle::root_tilt] = random.uniform(-0.1, 0.25);
+  pose[Angle::neck_torsion] = random.uniform(-0.4, 0.4);
+  set_arm_angles(pose, Side::left,
+                 {random.uniform(-1.2, 0.2), random.uniform(-0.8, 0.2), random.uniform(0.0, 1.0),
+                  random.uniform(-2.0, -0.3)});
+  set_arm_angles(pose, Side::right,
+                 {random.uniform(-1.2, 0.2), random.uniform(-0.2, 0.8), random.uniform(-1.0, 0.0),
+                  random.uniform(-2.0, -0.3)});
+  return limits.clamp(pose);
+}
+
+double worst_arm_error(const Body& body, const Pose& a, const Pose& b) {
+  const JointPositions p = forward_kinematics(body, a).joints;
+  const JointPositions q = forward_kinematics(body, b).joints;
+  const Eigen::Vector3d shift = mid_shoulders(p) - mid_shoulders(q);
+  double worst = 0.0;
+  for (const Joint j : {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist}) {
+    worst = std::max(worst, (p[j] - q[j] - shift).norm());
+  }
+  return worst;
+}
+
+TEST(LandmarkFit, FindsAPoseWithoutAnyStart) {
+  const Body body = make_body({});
+  const JointLimits limits = anatomical_limits();
+  const Camera camera = camera_from_field_of_view(320, 240, 60.0);
+  Random random(3);
+  std::vector<double> errors;
+  for (int i = 0; i < 60; ++i) {
+    const Pose truth = random_gesture(random, limits);
+    const BodyLandmarks seen = observe(body, camera, truth, 0.3, 0.1, random);
+    const auto start = pose_from_landmarks(body, camera, seen, limits);
+    ASSERT_TRUE(start.has_value());
+    const auto fits = landmark_proposals(body, camera, seen, {.pose = *start}, limits, 4);
+    ASSERT_FALSE(fits.empty());
+    EXPECT_TRUE(limits.contains(fits[0].pose, 1e-6));
+    errors.push_back(worst_arm_error(body, fits[0].pose, truth));
+  }
+  std::sort(errors.begin(), errors.end());
+  std::cout << errors[30] << " " << errors[54] << " " << errors[59] << "\n";
+  EXPECT_LT(errors[30], 0.06);
+  EXPECT_LT(errors[54], 0.15);
+}
+
+TEST(LandmarkFit, FollowsThroughAnOutlier) {
+  const Body body = make_body({});
+  const JointLimits limits = anatomical_limits();
+  const Camera camera = camera_from_field_of_view(320, 240, 60.0);
+  Random random(5);
+  const Pose truth = random_gesture(random, limits);
+  BodyLandmarks seen = observe(body, camera, truth, 0.0, 0.0, random);
+  seen.points[static_cast<std::size_t>(Landmark::l_wrist)].pixel += Eigen::Vector2d(120.0, -60.0);
+  const LandmarkPrior prior{.pose = truth, .following = 0.1};
+  const LandmarkFit fit = fit_to_landmarks(body, camera, seen, prior, truth, limits);
+  EXPECT_LT(worst_arm_error(body, fit.pose, truth), 0.05);
+}
+
+TEST(LandmarkFit, NeedsAPairOfLandmarks) {
+  EXPECT_FALSE(pose_from_landmarks(make_body({}), Camera{}, BodyLandmarks{}, anatomical_limits()));
+}
+
+}  // namespace
+}  // namespace telemime
