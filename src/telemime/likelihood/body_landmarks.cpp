@@ -26,8 +26,13 @@ constexpr double kHidden = 4.0;
 constexpr double kHeatMap = 0.1;
 // The side of the network's region in metres: the circle about an average body, enlarged by a quarter.
 constexpr double kRegionSide = 2.4;
-// Standard deviation of a bone's slope, by the bone.
-constexpr std::array<double, kLandmarkBoneCount> kSlopes = {0.35, 0.35, 0.4, 0.4, 0.25, 0.2, 0.3};
+// Slope of a bone between joint centres minus the one that the network sees between points of the surface, and
+// standard deviation of that.
+struct Slope {
+  double bias, sigma;
+};
+constexpr std::array<Slope, kLandmarkBoneCount> kSlopes = {
+    {{0.115, 0.23}, {0.115, 0.23}, {-0.115, 0.2}, {-0.115, 0.2}, {0.0, 0.1}, {0.0, 0.2}, {0.0, 0.3}}};
 
 }  // namespace
 
@@ -64,8 +69,8 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera) {
     const double length = bones[i].norm();
     BoneObservation& bone = out.bones[i];
     bone.seen = least >= kLeastVisibility && length > 1e-6;
-    bone.along = bone.seen ? bones[i].z() / length : 0.0;
-    bone.sigma = kSlopes[i] * (1.0 + (kHidden - 1.0) * (1.0 - least));
+    bone.along = bone.seen ? std::clamp(bones[i].z() / length + kSlopes[i].bias, -1.0, 1.0) : 0.0;
+    bone.sigma = kSlopes[i].sigma * (1.0 + (kHidden - 1.0) * (1.0 - least));
   }
   return out;
 }

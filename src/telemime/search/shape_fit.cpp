@@ -84,16 +84,6 @@ void flatten_arm(const Body& body, const JointLimits& limits, Side side, double 
 
 constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
-// Whether no bone of the arms slopes much towards the camera or away from it, as far as a network sees; without
-// one that is assumed.
-bool arms_are_flat(const PreparedFrame& frame) {
-  constexpr double kSlope = 0.35;
-  return !frame.landmarks || std::all_of(frame.landmarks->bones.begin(), frame.landmarks->bones.begin() + 4,
-                                         [](const BoneObservation& bone) {
-                                           return bone.seen && std::abs(bone.along) < kSlope;
-                                         });
-}
-
 // Girths of the arms and the sleeve. Left and right limbs have the same scales.
 Group arm_girths_group() {
   return {{0.10, 0.10, 0.10, 0.15}, {0.6, 0.6, 0.5, 2.0}, [](const Candidate& from, const Eigen::VectorXd& x) {
@@ -157,7 +147,7 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
 ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
                    const JointLimits& limits, const ShapeFitConfig& config) {
   const std::array<Group, 3> groups = {trunk_group(), head_group(),
-                                       arms_are_flat(frame) ? arms_group(limits) : arm_girths_group()};
+                                       frame.landmarks ? arm_girths_group() : arms_group(limits)};
   Candidate best = {shape, pose};
   CueValues weights = step_weights(backend.cues(), &Cue::edge_step);
   weights[cue::kContour] = config.contour_weight;

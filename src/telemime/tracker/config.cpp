@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -42,6 +43,42 @@ std::vector<std::string> back_end_choices() {
     names.emplace_back(kind.name);
   }
   return names;
+}
+
+std::string cue_list() {
+  std::string names;
+  for (const Cue& cue : kCues) {
+    names.append(names.empty() ? "" : ", ").append(cue.name);
+  }
+  return names;
+}
+
+// Which of the built-in cues a list names. Throws Error(usage) for an unknown name or an empty list.
+std::array<bool, kCues.size()> named_cues(const std::string& names) {
+  std::array<bool, kCues.size()> named{};
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto found =
+        std::find_if(kCues.begin(), kCues.end(), [&](const Cue& cue) { return cue.name == name; });
+    if (found == kCues.end()) {
+      throw Error(ErrorKind::usage, "unknown cue '" + name + "'",
+                  "Choose from " + cue_list() + ", separated by commas.");
+    }
+    named[static_cast<std::size_t>(found - kCues.begin())] = true;
+  }
+  if (std::none_of(named.begin(), named.end(), [](bool n) { return n; })) {
+    throw Error(ErrorKind::usage, "no cue is named", "Choose from " + cue_list() + ", separated by commas.");
+  }
+  return named;
+}
+
+SettingRule known_cues(const std::string& names) {
+  try {
+    named_cues(names);
+    return {};
+  } catch (const Error& error) {
+    return {false, std::string("cues: ") + error.what()};
+  }
 }
 
 SettingTable settings_of(TrackingConfig& c) {
@@ -87,6 +124,7 @@ SettingTable settings_of(Config& c) {
       flag("offline", c.look_back, "Track a file backward, too: slower, with a more accurate depth."),
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the particle filter; 0: one for each processor."),
+      text("cues", c.cue_names, {}, "What the image is compared by, separated by commas: " + cue_list() + "."),
       text("backend", c.backend, back_end_choices(), "Implementation that evaluates poses."),
       text("limits", c.limits, {}, "Joint limits: anatomical, reference (of the thesis) or a JSON file."),
   };
@@ -99,6 +137,7 @@ SettingTable settings_of(Config& c) {
   table.append(settings_of(c.smoothing));
   std::stable_partition(table.rows.begin(), table.rows.end(),
                         [](const Setting& s) { return s.name.find('.') == std::string::npos; });
+  table.rules.push_back(known_cues(c.cue_names));
   table.rules.push_back(
       {!c.look_back || uses_filter(c), "offline needs the method heuristics or condensation"});
   return table;
@@ -123,6 +162,11 @@ Config resolved(Config config) {
   } else if (!uses_filter(config)) {
     config.registration.method = parse_method(config.tracking.method);
   }
+  const auto named = named_cues(config.cue_names);
+  for (std::size_t i = 0; i < kCues.size(); ++i) {
+    config.cues.enable(i, named[i] && config.cues[i].enabled);
+  }
+  config.image.landmarks = config.image.landmarks && (named[cue::kLandmarks] || named[cue::kBones]);
   return config;
 }
 

@@ -49,6 +49,7 @@ struct Config {
   SmoothingOptions smoothing;
   bool look_back = false;
   TrajectoryConfig offline;
+  std::string cue_names = "regions,contours,landmarks,bones";
   CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file
 
   /// The working image has 320x240 pixels, or as many in the shape of the input (fitted_to).

@@ -12,7 +12,7 @@ inline double mean_edge_distance(const Reductions& r, double cap) {
 }
 
 inline constexpr Cue kContourCue = {
-    .name = "contour",
+    .name = "contours",
     .what = "D_C: mean distance from the model's contour to the nearest edge in the image",
     .unit = CueUnit::pixels,
     .needs = Reduction::contour,

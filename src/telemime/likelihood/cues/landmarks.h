@@ -14,7 +14,7 @@ inline constexpr Cue kLandmarkCue = {
     .needs_kinematics = true,
     .region_step = 0.05,
     .edge_step = 0.05,
-    .sigma = 0.1,
+    .sigma_key = "sigma_landmarks",
     .cost = landmark_cost,
 };
 
@@ -27,7 +27,7 @@ inline constexpr Cue kBoneCue = {
     .needs_kinematics = true,
     .region_step = 0.01,
     .edge_step = 0.01,
-    .sigma = 0.22,
+    .sigma_key = "sigma_bones",
     .cost = bone_cost,
 };
 

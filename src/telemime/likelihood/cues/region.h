@@ -19,7 +19,7 @@ inline double non_overlapping_ratio(const Reductions& r) {
 }
 
 inline constexpr Cue kRegionCue = {
-    .name = "region",
+    .name = "regions",
     .what = "F: share of the skin, clothes and head pixels in which image and model differ",
     .needs = Reduction::overlap,
     .region_step = 1.0,

@@ -27,7 +27,7 @@ inline constexpr std::size_t kContour = 1;
 inline constexpr std::size_t kLandmarks = 2;
 inline constexpr std::size_t kBones = 3;
 }  // namespace cue
-static_assert(kCues[cue::kRegion].name == "region" && kCues[cue::kContour].name == "contour");
+static_assert(kCues[cue::kRegion].name == "regions" && kCues[cue::kContour].name == "contours");
 
 /// One number for each cue, by its position in the table; those behind the last cue are not used.
 inline constexpr std::size_t kMostCues = 8;
