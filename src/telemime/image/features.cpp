@@ -344,6 +344,19 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   // Adapt the background model outside the person. A camera that was moved invalidates it.
   cv::dilate(grown, grown, square, cv::Point(-1, -1), 2);
   cv::bitwise_not(grown, background_mask_);
+  if (out.landmarks) {
+    // Nothing that a network may take for the person becomes background.
+    constexpr double kPerhaps = 50;  // of 255
+    cv::Mat person = out.landmarks->mask > kPerhaps;
+    cv::dilate(person, person, square, cv::Point(-1, -1), 2);
+    background_mask_.setTo(0, person);
+    if (calibration_.background.empty()) {
+      // The background is learned where it is seen, from the first frame on.
+      calibration_.background = learn_background_model(std::span(&p.bgr, 1));
+      calibration_.background.valid.setTo(0);
+      background_complete_ = false;
+    }
+  }
   silhouette_ = out.silhouette;
   constexpr double kCameraMoved = 1.5;
   if (status_.camera_motion > kCameraMoved && !calibration_.background.empty()) {

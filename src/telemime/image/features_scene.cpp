@@ -41,7 +41,9 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t at = i * (clip.size() - 1 - kApart) / std::max<std::size_t>(1, samples.size() - 1);
     cv::Mat scene(config.height, config.width, CV_8UC1, cv::Scalar(255));
-    if (samples[i].head) {
+    if (!samples[i].mask.empty()) {
+      scene.setTo(0, samples[i].mask);
+    } else if (samples[i].head) {
       scene = body_prior(scene.size(), *samples[i].head) < 0;
     }
     const auto moved =
@@ -67,11 +69,22 @@ std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> 
   for (std::size_t i = 0; i < count; ++i) {
     const Frame& frame = clip[count == 1 ? 0 : i * (clip.size() - 1) / (count - 1)];
     const WorkingImages p = working_images(frame);
+    if (finder_.has_networks()) {
+      // The samples are too far apart for a person to be followed from one to the next.
+      finder_.reset();
+      const std::optional<PoseLandmarks> landmarks = landmarks_of(frame);
+      head_.reset();
+      samples.push_back({p.bgr, landmarks ? head_region_of(face_of(landmarks, p), p) : std::nullopt,
+                         landmarks ? landmarks->mask : cv::Mat::zeros(p.grey.size(), CV_8UC1)});
+      continue;
+    }
     samples.push_back(
         {p.bgr,
-         head_region_of(head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p)), p)});
+         head_region_of(head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p)), p), {}});
   }
   head_.reset();
+  finder_.reset();
+  found_in_ = -1;
   return samples;
 }
 
@@ -85,8 +98,9 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   fresh.colours = calibration_.colours;
   SceneReport report;
   const std::vector<SceneSample> samples = scene_samples(clip);
-  const auto with_head =
-      std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
+  const auto with_head = std::count_if(samples.begin(), samples.end(), [](const auto& s) {
+    return s.head.has_value() || (!s.mask.empty() && cv::countNonZero(s.mask) > 0);
+  });
 
   // First choice: a stretch at the start or the end of the clip in which nothing moves.
   constexpr std::size_t kMostImages = 150;
@@ -97,7 +111,9 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     images.push_back(working_image(clip[whole || i < half ? i : clip.size() - 2 * half + i], config_));
   }
   const auto [first, count] = find_still_stretch(images);
-  if (count > 0 && with_head > 0) {
+  const bool any_head =
+      std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
+  if (count > 0 && any_head) {
     const std::span<const cv::Mat> still(images.data() + first, count);
     ImageCalibration candidate = fresh;
     candidate.background = learn_background_model(still);
@@ -108,6 +124,12 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     LogColour colour = log_colour(head->bgr);
     subtract(colour, estimate_gain(candidate.background, colour, {}));
     const auto has_face = [this](const cv::Mat& image) {
+      if (finder_.has_networks()) {
+        finder_.reset();
+        const bool found = finder_.find(image).has_value();
+        finder_.reset();
+        return found;
+      }
       const LogColour colours = log_colour(image);
       const bool found = head_
                              .detect(grey_at_most(image, image.cols), cv::Rect(0, 0, image.cols, image.rows),

@@ -41,7 +41,8 @@ std::size_t still_run(std::span<const cv::Mat> images, bool from_end) {
 
 /// The pixels of the person, dilated by a margin for blur and for errors of the segmentation.
 cv::Mat covered_by_person(const SceneSample& sample) {
-  cv::Mat covered = cut_person(sample.bgr, *sample.head);
+  constexpr double kPerhaps = 50;  // of 255, in a mask
+  cv::Mat covered = sample.mask.empty() ? cut_person(sample.bgr, *sample.head) : sample.mask > kPerhaps;
   const int margin = std::max(1, sample.bgr.cols / 80);
   cv::dilate(covered, covered,
              cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * margin + 1, 2 * margin + 1)));
@@ -64,7 +65,7 @@ Series series_of(std::span<const SceneSample> samples) {
   for (const SceneSample& sample : samples) {
     series.colours.push_back(log_colour(sample.bgr));
     cv::Mat trust(sample.bgr.size(), CV_32FC1, cv::Scalar(no_head));
-    if (sample.head) {
+    if (sample.head || !sample.mask.empty()) {
       trust.setTo(1.0F);
       trust.setTo(kInside, covered_by_person(sample));
     }
@@ -98,8 +99,8 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
   // Start from the noise of one image; means and validity are replaced below, pixel by pixel.
   BackgroundModel model = learn_background_model(one);
   const std::size_t count = samples.size();
-  const auto heads =
-      std::count_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
+  const auto heads = std::count_if(samples.begin(), samples.end(),
+                                   [](const auto& s) { return s.head.has_value() || !s.mask.empty(); });
   const float enough = heads > 0 && heads < 6 ? 0.9F : 1.4F;
   std::vector<float> u(count);
   std::vector<float> v(count);
@@ -156,7 +157,7 @@ ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
   constexpr std::size_t kMost = 3;
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kMost);
   for (std::size_t i = 0; i < samples.size(); i += step) {
-    if (!samples[i].head) {
+    if (!samples[i].head && samples[i].mask.empty()) {
       continue;
     }
     const LogColour image = log_colour(samples[i].bgr);

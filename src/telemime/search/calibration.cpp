@@ -221,7 +221,8 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
   }
   // Shape adjustment and pose alignment in turn.
   const RegistrationConfig align = alignment(registration, config.pose_iterations, fronto_parallel);
-  for (int round = 0; round < config.rounds; ++round) {
+  const int rounds = frame.has_colours ? config.rounds : 0;
+  for (int round = 0; round < rounds; ++round) {
     const ShapeFit fit = fit_shape(backend, frame, result.shape, result.pose, limits, config.shape);
     result.evaluations += fit.evaluations;
     result.shape = fit.shape;
@@ -231,6 +232,10 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
     result.pose = registered.pose;
     result.score = registered.score;
     result.evaluations += objective.evaluations();
+  }
+  if (rounds == 0) {
+    Objective objective(backend, frame, model, limits);
+    result.score = objective.score(result.pose, objective.cues().needs());
   }
   // Whether this frame shows what the fit needs.
   for (const Side side : {Side::left, Side::right}) {

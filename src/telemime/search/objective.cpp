@@ -118,8 +118,9 @@ double add_cue_costs(double cost, const Backend& backend, const PreparedFrame& f
                      const CueValues& weights, const Score& score) {
   const CueTable& cues = backend.cues();
   for (std::size_t i = 0; i < cues.size(); ++i) {
-    if (weights[i] > 0.0 && cues[i].enabled) {
-      cost += weights[i] * score.costs[i] / in_cost_units(cues[i], cues[i].scale, frame.camera);
+    const double reliability = weights[i] > 0.0 ? reliability_of(cues[i], frame) : 0.0;
+    if (reliability > 0.0) {
+      cost += reliability * weights[i] * score.costs[i] / in_cost_units(cues[i], cues[i].scale, frame.camera);
     }
   }
   return cost;

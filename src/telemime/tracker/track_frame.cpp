@@ -19,8 +19,11 @@ constexpr double kRate = 25.0;       // frames a second that the motion model is
 
 // The person's colours, learned from a frame that shows their face. True where colours are known now.
 bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
-  if (request == ColourRequest::keep) {
-    return true;
+  // A person whom landmarks found may be followed before their colours are known: they are learned on the way.
+  constexpr std::int64_t kEvery = 5;
+  const bool known = scene.features.calibration().colours.known();
+  if (request == ColourRequest::keep && (known || frame.index % kEvery != 0)) {
+    return known;
   }
   // A masked face is never found: after a while the head's outline must do, and colours that were learned
   // from somebody still walking are learned again.
@@ -146,7 +149,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   Stopwatch watch;
   FrameEstimate result = begin_estimate(features, state);
   advance_time(features.time, state);
-  if (features.has_colour_model) {
+  if (features.has_colour_model || features.landmarks) {
     // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
     result.prepared = prepare(features, tracker.working_camera);
     if (state.phase == Phase::tracking) {

@@ -48,9 +48,9 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   const CueTable& cues = c.evaluators.cues();
   double squares = 0.0;
   for (std::size_t i = 0; i < cues.size(); ++i) {
-    if (cues[i].enabled) {
+    if (const double reliability = reliability_of(cues[i], c.frame); reliability > 0.0) {
       const double deviation = score.costs[i] / in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
-      squares += deviation * deviation;
+      squares += reliability * deviation * deviation;
     }
   }
   double sum = -0.5 * c.config.trust * squares;

@@ -36,9 +36,17 @@ struct Cue {
   double sigma = 1.0;                 ///< standard deviation of the cost in the filter (thesis equation 4.12)
   std::string_view sigma_key = {};    ///< where the filter's model file has a measured sigma; empty: `sigma`
   bool enabled = true;                ///< false: its cost is computed but does not count
+  /// How far the cue can be trusted in this frame, from 0 (it knows nothing) to 1; null: always 1. Its cost
+  /// counts that much less.
+  double (*reliability)(const PreparedFrame& frame) = nullptr;
   /// Cost of the pose: 0 is a perfect match; finite for every frame and pose.
   double (*cost)(const CueInput& input) = nullptr;
 };
+
+/// Cue::reliability in this frame; 0 for a cue that is switched off.
+inline double reliability_of(const Cue& cue, const PreparedFrame& frame) {
+  return !cue.enabled ? 0.0 : cue.reliability != nullptr ? cue.reliability(frame) : 1.0;
+}
 
 /// `share` (Cue::scale or a sigma) in the unit of the cue's cost.
 inline double in_cost_units(const Cue& cue, double share, const Camera& camera) {

@@ -15,6 +15,7 @@ inline constexpr Cue kLandmarkCue = {
     .region_step = 0.05,
     .edge_step = 0.05,
     .sigma_key = "sigma_landmarks",
+    .reliability = [](const PreparedFrame& frame) { return frame.landmarks ? 1.0 : 0.0; },
     .cost = landmark_cost,
 };
 
@@ -28,6 +29,7 @@ inline constexpr Cue kBoneCue = {
     .region_step = 0.01,
     .edge_step = 0.01,
     .sigma_key = "sigma_bones",
+    .reliability = [](const PreparedFrame& frame) { return frame.landmarks ? 1.0 : 0.0; },
     .cost = bone_cost,
 };
 
