@@ -39,6 +39,7 @@ constexpr std::chrono::seconds kFirstPage{30};
 struct LiveCommand {
   TrackOptions track;
   LiveRequest live;
+  bool guided = false;
   bool unguided = false;
   bool open = false;
   bool no_settings = false;
@@ -62,7 +63,9 @@ std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_b
   options.left_behind = [left_behind] { *left_behind = true; };
   auto source = open_source(input, options);
   command.live.ends = !source->info().live;
-  command.live.guided = source->info().live && !command.unguided;
+  // Where networks find the person nobody needs to step out of the image.
+  const bool needed = !uses_networks(command.live.request.config);
+  command.live.guided = source->info().live && !command.unguided && (command.guided || needed);
   return source->info().live ? std::move(source) : pace(std::move(source));  // a clip on a web server, too
 }
 
@@ -214,7 +217,11 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
 #endif
   command->add_option("--calibration", options->track.request.calibration,
                       "File that `telemime calibrate` wrote.");
-  command->add_flag("--no-guide", options->unguided, "Start without asking the person to leave the image.");
+  auto* const guide = command->add_flag("--guide", options->guided,
+                                        "Ask the person to leave the image first, which improves the fit; the "
+                                        "default where the networks are not installed.");
+  command->add_flag("--no-guide", options->unguided, "Start without asking the person to leave the image.")
+      ->excludes(guide);
   command->add_flag("--open", options->open, "Open the page in the default browser.");
   command->add_flag("--loop", options->loop, "Repeat a file from its start when it ends.");
   command->add_option("--send", live.send, "URLs to send the motion to, for instance vmc://localhost:39539.");

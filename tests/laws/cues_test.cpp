@@ -62,6 +62,10 @@ Pose perturbed(const Pose& pose, const Perturbation& p) {
 class Judge {
  public:
   Judge(const Camera& camera, const FrameFeatures& seen) : frame_(prepare(seen, camera)) {}
+  // A frame in which perfect networks have seen the pose, too.
+  Judge(const Camera& camera, const Pose& truth) : Judge(camera, observe(make_model(Shape{}), truth, camera)) {
+    frame_.landmarks = support::perfect_landmarks(model_, truth, camera);
+  }
   double cost(std::size_t cue, const Pose& pose) {
     Score score;
     backend_->evaluate(frame_, model_, {&pose, 1}, kCues[cue].needs, {&score, 1});
@@ -78,15 +82,23 @@ class EveryCue : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Cues, EveryCue, ::testing::Range(std::size_t{0}, kCues.size()),
                          [](const auto& param) { return std::string(kCues[param.param].name); });
 
+// Slopes in depth say nothing about where a person is, nor about turns in the plane of the image.
+bool sees(std::size_t cue, const std::string& perturbation) {
+  const auto names = [&](const char* part) { return perturbation.find(part) != std::string::npos; };
+  return cue != cue::kBones || names("tilt") || names("torsion") || names("flexion");
+}
+
 TEST_P(EveryCue, TruePoseScoresBetterThanWrongOnes) {
   const Camera camera = camera_from_field_of_view(320, 240, 60.0);
-  const Model model = make_model(Shape{});
   for (const Pose& truth : gestures()) {
-    Judge judge(camera, observe(model, truth, camera));
+    Judge judge(camera, truth);
     const double best = judge.cost(GetParam(), truth);
     for (const Perturbation& p : perturbations()) {
       const double cost = judge.cost(GetParam(), perturbed(truth, p));
-      EXPECT_GT(cost, best) << p.name << " by " << p.by;
+      EXPECT_GE(cost, best - 1e-9) << p.name << " by " << p.by;
+      if (sees(GetParam(), p.name)) {
+        EXPECT_GT(cost, best) << p.name << " by " << p.by;
+      }
     }
   }
 }
@@ -94,7 +106,10 @@ TEST_P(EveryCue, TruePoseScoresBetterThanWrongOnes) {
 TEST_P(EveryCue, GrowsWithTheDistanceFromTheTruth) {
   const Camera camera = camera_from_field_of_view(160, 120, 60.0);
   const Pose truth = gestures().front();
-  Judge judge(camera, observe(make_model(Shape{}), truth, camera));
+  if (!sees(GetParam(), "root x")) {
+    GTEST_SKIP() << "this cue does not see where the person is";
+  }
+  Judge judge(camera, truth);
   double last = judge.cost(GetParam(), truth);
   for (const double away : {0.02, 0.05, 0.1, 0.15}) {
     const double cost = judge.cost(GetParam(), perturbed(truth, {"root x", 0, away}));
@@ -195,10 +210,29 @@ TEST(CueTable, AddedCueCountsInTheObjective) {
   EXPECT_EQ(cost(cues), cost(CueTable{})) << "a disabled cue does not count";
 }
 
+TEST(CueTable, CueWithoutEvidenceDoesNotCount) {
+  const Camera camera = camera_from_field_of_view(80, 60, 60.0);
+  const Model model = make_model(Shape{});
+  const Pose pose = gestures().front();
+  PreparedFrame frame = prepare(observe(model, gestures().back(), camera), camera);
+  EXPECT_EQ(reliability_of(kCues[cue::kLandmarks], frame), 0.0) << "no network has looked";
+  frame.has_colours = false;
+  EXPECT_EQ(reliability_of(kCues[cue::kRegion], frame), 0.0) << "no colours are known";
+  const auto backend = make_scalar_backend();
+  CueValues only_regions{};
+  only_regions[cue::kRegion] = 1.0;
+  Score score;
+  backend->evaluate(frame, model, {&pose, 1}, Reduction::all, {&score, 1});
+  ASSERT_GT(score.region(), 0.1);
+  EXPECT_EQ(add_cue_costs(0.0, *backend, frame, only_regions, score), 0.0);
+  frame.has_colours = true;
+  EXPECT_GT(add_cue_costs(0.0, *backend, frame, only_regions, score), 0.1);
+}
+
 TEST(CueTable, RefusesCuesThatCannotWork) {
   CueTable cues;
   Cue bad = kWristCue;
-  bad.name = "region";
+  bad.name = "regions";
   EXPECT_THROW(cues.add(bad), Error) << "a name that is taken";
   bad = kWristCue;
   bad.cost = nullptr;
@@ -207,7 +241,7 @@ TEST(CueTable, RefusesCuesThatCannotWork) {
   bad.sigma = 0.0;
   EXPECT_THROW(cues.add(bad), Error);
   EXPECT_THROW(CueTable(std::array{kWristCue}), Error) << "the built-in cues are missing";
-  const std::vector<std::string> names = {"a", "b", "c", "d", "e", "f", "g"};
+  const std::vector<std::string> names = {"a", "b", "c", "d", "e"};
   for (std::size_t i = 0; i < names.size(); ++i) {
     Cue one = kWristCue;
     one.name = names[i];

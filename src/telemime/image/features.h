@@ -28,6 +28,9 @@ class FeatureExtractor {
   /// Throws Error(config) for an invalid configuration or missing face cascades.
   explicit FeatureExtractor(const ImageConfig& config);
 
+  /// Whether networks find the person: then the background need not be learned beforehand.
+  bool has_networks() const { return finder_.has_networks(); }
+
   /// Learns the background model from frames without a person. Throws Error(usage) if `frames` is empty.
   void learn_background(std::span<const Frame> frames);
 

@@ -43,7 +43,7 @@ struct FrameFeatures {
   /// The rest is filled in by extract() (tracker/track_frame.h).
   std::int64_t frame = 0;             ///< index of the frame
   double time = 0.0;                  ///< of the frame, s
-  bool has_colour_model = false;      ///< the person's colours are known: the labels can be trusted
+  bool has_colour_model = true;       ///< the person's colours are known: the labels can be trusted
   bool face_learned = false;          ///< the colours were learned in this frame
   bool person_present = false;        ///< a person is in the image
   std::string note;                   ///< why the person's colours are not known

@@ -45,6 +45,8 @@ struct LiveSession::State {
       messages.push_back(learn_scene(request, source->info(), *run));
       scene_known = true;
     }
+    // Networks find the person in any room: the background is learned on the way.
+    scene_known = scene_known || (run->scene.features.has_networks() && !guide);
     phase = scene_known ? LivePhase::person : guide ? LivePhase::empty_room : LivePhase::background;
     exchange.set_calibrated(run->state.calibrated());
     for (const std::string& words : messages) {

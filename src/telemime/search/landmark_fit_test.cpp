@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "telemime/body/arm_ik.h"
 #include "telemime/core/random.h"
 
@@ -75,7 +78,6 @@ TEST(LandmarkFit, FindsAPoseWithoutAnyStart) {
     errors.push_back(worst_arm_error(body, fits[0].pose, truth));
   }
   std::sort(errors.begin(), errors.end());
-  std::cout << errors[30] << " " << errors[54] << " " << errors[59] << "\n";
   EXPECT_LT(errors[30], 0.06);
   EXPECT_LT(errors[54], 0.15);
 }

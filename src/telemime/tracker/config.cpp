@@ -11,6 +11,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
+#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -146,6 +147,10 @@ SettingTable settings_of(Config& c) {
 void add_cue(Config& config, const Cue& cue) {
   config.cues.add(cue);
   config.registration = with_cues(config.registration, config.cues);
+}
+
+bool uses_networks(const Config& config) {
+  return resolved(config).image.landmarks && !find_models(config.image.models).empty();
 }
 
 bool uses_filter(const Config& config) {

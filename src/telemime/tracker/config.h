@@ -64,6 +64,9 @@ void add_cue(Config& config, const Cue& cue);
 /// The table of all settings, the public ones first.
 SettingTable settings_of(Config& config);
 
+/// Whether networks find the person: a cue needs them, and the models are installed.
+bool uses_networks(const Config& config);
+
 /// Does `tracking.method` use the particle filter?
 bool uses_filter(const Config& config);
 
