@@ -12,6 +12,7 @@
 #include "support/rendered_person.h"
 #include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
+#include "telemime/likelihood/testing_landmarks.h"
 #include "telemime/search/two_step.h"
 
 namespace telemime {
@@ -63,8 +64,9 @@ class Judge {
  public:
   Judge(const Camera& camera, const FrameFeatures& seen) : frame_(prepare(seen, camera)) {}
   // A frame in which perfect networks have seen the pose, too.
-  Judge(const Camera& camera, const Pose& truth) : Judge(camera, observe(make_model(Shape{}), truth, camera)) {
-    frame_.landmarks = support::perfect_landmarks(model_, truth, camera);
+  Judge(const Camera& camera, const Pose& truth)
+      : Judge(camera, observe(make_model(Shape{}), truth, camera)) {
+    frame_.landmarks = testing_landmarks::perfect_landmarks(model_.body, truth, camera);
   }
   double cost(std::size_t cue, const Pose& pose) {
     Score score;

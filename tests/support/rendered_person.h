@@ -11,7 +11,6 @@
 #include "telemime/body/testing_poses.h"
 #include "telemime/image/edges.h"
 #include "telemime/likelihood/backend.h"
-#include "telemime/likelihood/body_landmarks.h"
 #include "telemime/render/renderer.h"
 
 /// A person made of the tracker's own model, as a perfect segmentation would see them.
@@ -70,24 +69,6 @@ inline FrameFeatures observe(const Model& model, const Pose& pose, const Camera&
   seen.edges = edges_of(rendering);
   seen.distance = distance_map(seen.edges, kDistanceCap * camera.width / 160.0);
   seen.head = head_of(model.body, k, camera);
-  return seen;
-}
-
-/// What perfect networks would see of the model in this pose: certain landmarks at their true places.
-inline BodyLandmarks perfect_landmarks(const Model& model, const Pose& pose, const Camera& camera) {
-  BodyLandmarks seen;
-  const LandmarkPositions points = landmark_positions(model.body, forward_kinematics(model.body, pose));
-  const auto bones = landmark_bones(points);
-  seen.ray = points[static_cast<std::size_t>(Landmark::nose)].normalized();
-  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const double sigma = kLandmarkPoints[i].sigma * camera.fx / points[i].z();
-    seen.points[i] = {.seen = true,
-                      .pixel = camera.project(points[i]),
-                      .whitening = Eigen::Matrix2d::Identity() / sigma};
-  }
-  for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
-    seen.bones[i] = {.seen = true, .along = bones[i].dot(seen.ray) / bones[i].norm(), .sigma = 0.2};
-  }
   return seen;
 }
 

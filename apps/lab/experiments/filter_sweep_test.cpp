@@ -39,6 +39,9 @@ TEST(TrackFilter, EachCueChangesTheResult) {
   for (const FilterSetup& setup : {small(reference_setup(kAllTogether)), small(our_setup())}) {
     const Trace all = track_filter(sequence, setup, 3);
     for (std::size_t i = 0; i < setup.cues.size(); ++i) {
+      if (reliability_of(setup.cues[i], sequence.frames.front()) == 0.0) {
+        continue;  // no networks have looked at these frames
+      }
       FilterSetup less = setup;
       less.cues.enable(i, false);
       const Trace without = track_filter(sequence, less, 3);

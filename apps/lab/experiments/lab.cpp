@@ -79,6 +79,7 @@ Config experiment_config(std::uint64_t seed) {
   config.seed = seed;
   config.image.width = 160;
   config.image.height = 120;
+  config.cue_names = "regions,contours";  // what the thesis compares
   return config;
 }
 

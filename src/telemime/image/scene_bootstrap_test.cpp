@@ -67,7 +67,8 @@ TEST(StillStretch, IsTheLongestEmptyPart) {
 std::vector<SceneSample> samples_of(const Part& part) {
   std::vector<SceneSample> samples;
   for (const cv::Mat& image : clip_of({part})) {
-    samples.push_back({image, head_at(part.x + part.step * static_cast<int>(samples.size()))});
+    const int x = part.x + part.step * static_cast<int>(samples.size());
+    samples.push_back({.bgr = image, .head = head_at(x), .mask = {}});
   }
   return samples;
 }

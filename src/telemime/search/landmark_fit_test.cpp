@@ -8,29 +8,20 @@
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/core/random.h"
+#include "telemime/likelihood/testing_landmarks.h"
 
 namespace telemime {
 namespace {
 
-// What a perfect network would see of a pose, with noise of so many pixels and of so much slope.
+// What networks see of a pose, with noise of so many pixels and of so much slope.
 BodyLandmarks observe(const Body& body, const Camera& camera, const Pose& pose, double pixels, double slope,
                       Random& random) {
-  BodyLandmarks seen;
-  const LandmarkPositions points = landmark_positions(body, forward_kinematics(body, pose));
-  const auto bones = landmark_bones(points);
-  seen.ray = points[static_cast<std::size_t>(Landmark::nose)].normalized();
-  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const double per_metre = camera.fx / points[i].z();
-    const double sigma = per_metre * kLandmarkPoints[i].sigma;
-    seen.points[i] = {.seen = true,
-                      .pixel = camera.project(points[i]) +
-                               Eigen::Vector2d(random.normal(0, pixels), random.normal(0, pixels)),
-                      .whitening = Eigen::Matrix2d::Identity() / sigma};
+  BodyLandmarks seen = testing_landmarks::perfect_landmarks(body, pose, camera);
+  for (LandmarkObservation& point : seen.points) {
+    point.pixel += Eigen::Vector2d(random.normal(0, pixels), random.normal(0, pixels));
   }
-  for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
-    seen.bones[i] = {.seen = true,
-                     .along = bones[i].dot(seen.ray) / bones[i].norm() + random.normal(0, slope),
-                     .sigma = 0.3};
+  for (BoneObservation& bone : seen.bones) {
+    bone.along += random.normal(0, slope);
   }
   return seen;
 }

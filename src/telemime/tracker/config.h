@@ -31,7 +31,7 @@ struct TrackingConfig {
   double velocity = 0.5;
 };
 
-/// The whole configuration. A setting whose name has no dot is one of the twelve public ones, which are
+/// The whole configuration. A setting whose name has no dot is one of the thirteen public ones, which are
 /// options of the program, too; all others are for experts.
 struct Config {
   std::string quality = "balanced";

@@ -55,6 +55,8 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   FilterModel model;
   model.sigma[cue::kRegion] = 0.0123;
   model.sigma[cue::kContour] = 0.0045;
+  model.sigma[cue::kLandmarks] = 0.12;
+  model.sigma[cue::kBones] = 0.34;
   for (Eigen::Index i = 0; i < model.change.size(); ++i) {
     model.change[i] = 0.001 * static_cast<double>(1 + i);
   }
@@ -64,8 +66,9 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
   model.swivel = 0.2;
   model.spread = {0.004, 0.2, 0.06, 0.13, 0.02, 0.11, 0.07, 0.03};
   const FilterModel read = parse_filter_model(to_json_text(model, "note"), "written");
-  EXPECT_DOUBLE_EQ(read.sigma[cue::kRegion], model.sigma[cue::kRegion]);
-  EXPECT_DOUBLE_EQ(read.sigma[cue::kContour], model.sigma[cue::kContour]);
+  for (std::size_t i = 0; i < kCues.size(); ++i) {
+    EXPECT_DOUBLE_EQ(read.sigma[i], model.sigma[i]) << kCues[i].name;
+  }
   // Written with four digits.
   EXPECT_LT(((read.change - model.change).cwiseAbs().cwiseQuotient(model.change)).maxCoeff(), 0.6e-3);
   EXPECT_EQ(read.motion, model.motion);
@@ -86,7 +89,7 @@ TEST(FilterModel, ReadsBackWhatItWrote) {
 TEST(FilterModel, EveryNumberCounts) {
   // A number that is changed in the file is changed in the model.
   const std::string before = to_json_text(default_filter_model(), "");
-  ASSERT_EQ(all_numbers().size(), 2 + kPoseSize + kPartCount + 3 + 8);
+  ASSERT_EQ(all_numbers().size(), kCues.size() + kPoseSize + kPartCount + 3 + 8);
   for (const auto& place : all_numbers()) {
     Json json = default_json();
     json[place] = 2.0 * json[place].get<double>();

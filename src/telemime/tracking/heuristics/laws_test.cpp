@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "telemime/likelihood/testing_landmarks.h"
 #include "telemime/tracking/heuristics/all.h"
 #include "telemime/tracking/particle_filter.h"
 #include "telemime/tracking/testing_scene.h"
@@ -55,6 +56,7 @@ const std::vector<PreparedFrame>& frames() {
       Pose pose = both_arms_seen();
       pose[Angle::l_shoulder_abduct] += 5 * i * kDegree;
       list.push_back(frame_of_model(scene.model, pose, scene.camera));
+      list.back().landmarks = testing_landmarks::perfect_landmarks(scene.model.body, pose, scene.camera);
     }
     return list;
   }();
@@ -169,8 +171,8 @@ TEST(FilterLaws, WeightsAreNormalisedAndParentsExist) {
 
 TEST(FilterLaws, TheNumberOfParticlesIsKept) {
   for (const Case& c : cases()) {
-    // In the default filter each searched family costs at least mode_least, and each turned trunk adds its
-    // own.
+    // In the default filter each searched family costs at least mode_least; each turned trunk and each pose
+    // from landmarks add their own.
     const int flips = 15 * c.config.flip_candidates;
     const int searched = c.config.blocks ? c.config.modes * c.config.mode_least : 0;
     const bool turns = c.config.heuristics.find("turn") != std::string::npos;
@@ -178,13 +180,17 @@ TEST(FilterLaws, TheNumberOfParticlesIsKept) {
     const int usual = c.config.turn_evaluations;
     const int thorough = std::max(usual, std::min(c.config.walk_evaluations, kParticles / 2));
     const int turned = turns ? usual + 2 * thorough + 3 * 2 : 0;
-    const int most = kParticles + flips + searched + turned;
+    const bool lands = c.config.heuristics.find("landmarks") != std::string::npos;
+    constexpr int kProposed = 8;
+    const int landed = lands ? kProposed + c.config.landmark_searches * c.config.landmark_evaluations : 0;
+    const int most = kParticles + flips + searched + turned + landed;
+    const std::size_t added = (turns ? 3 : 0) + (lands ? kProposed : 0);
     for (const Step& step : run(c.config, 1, 5)) {
       ASSERT_FALSE(step.particles.empty()) << c.name;
-      if (!c.config.blocks && !turns) {
+      if (!c.config.blocks && added == 0) {
         EXPECT_EQ(step.particles.size(), static_cast<std::size_t>(kParticles)) << c.name;
       }
-      EXPECT_LE(step.particles.size(), static_cast<std::size_t>(kParticles) + (turns ? 3 : 0)) << c.name;
+      EXPECT_LE(step.particles.size(), static_cast<std::size_t>(kParticles) + added) << c.name;
       EXPECT_LE(step.result.evaluations, most) << c.name;
       EXPECT_GE(step.result.evaluations, kParticles / 2) << c.name;
     }
