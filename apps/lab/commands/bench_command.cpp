@@ -2,6 +2,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "lab/experiments/engine.h"
 #include "lab/experiments/experiments.h"
 #include "telemime/likelihood/all.h"
+#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -52,6 +54,25 @@ void report_clips(BenchArguments& arguments, const std::function<void(const Tabl
   show(size_time_table(sizes));
   std::cout << "one thread, processor time, medians; 500 evaluations at 160x120: "
             << number(1e3 / frames.back().total_ms()) << " frames a second\n";
+}
+
+// Processor time of one run of each network that is installed.
+Table network_time_table(const std::filesystem::path& models) {
+  constexpr int kRuns = 20;
+  Table table{
+      .title = "networks, one thread, processor time, medians", .columns = {"network", "ms"}, .rows = {}};
+  for (const ModelFile& model : model_table()) {
+    Network network = load_network(models, model.name);
+    const std::vector<float> input(element_count(network.input_shape()), 0.5F);
+    std::vector<double> times;
+    for (int i = 0; i < kRuns; ++i) {
+      const double start = thread_seconds();
+      network.run(input);
+      times.push_back(1e3 * (thread_seconds() - start));
+    }
+    table.rows.push_back({std::string(model.name), number(median_of(times))});
+  }
+  return table;
 }
 
 // Measures the evaluation engine; passes each table to `show` as soon as it is complete.
@@ -103,6 +124,11 @@ void run_bench(BenchArguments arguments) {
     json.push_back(to_json(table));
   };
   if (!arguments.engine_only) {
+    if (const std::filesystem::path models = find_models(); !models.empty()) {
+      show(network_time_table(models));
+    } else {
+      std::cout << "not measured, not installed: the networks\n";
+    }
     report_clips(arguments, show);
     std::cout << '\n';
   }
