@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # One module: a static library from every *.cpp below the module's folder (but a main.cpp), and one test program from
 # every *_test.cpp.
-# The DEPENDS list is the whole set of modules that it may include (checked by tests/layering).
+# It may include the modules in DEPENDS, and theirs (checked by tests/layering).
 
 add_library(telemime_flags INTERFACE)
 target_compile_features(telemime_flags INTERFACE cxx_std_20)

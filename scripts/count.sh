@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 all_most=104000
-library_most=36000
+library_most=39000
 
 lines() {
   git ls-files -z -- "$@" | xargs -0 -r cat | wc -l

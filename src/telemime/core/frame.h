@@ -6,7 +6,8 @@
 
 namespace telemime {
 
-/// One picture as it came from the camera or file. Never changed after it was made.
+/// One picture as it came from the camera or file. Its pixels are never changed; a record may replace or
+/// release the picture.
 struct Frame {
   cv::Mat image;           ///< (height x width) CV_8UC3, BGR, not mirrored
   std::int64_t index = 0;  ///< from 0, counts every input frame

@@ -35,7 +35,7 @@ struct KnownStart {
 };
 
 enum class Phase {
-  waiting,   ///< nobody was calibrated yet
+  waiting,   ///< nobody is calibrated
   tracking,  ///< the person is followed from frame to frame
   lost       ///< the person is known and searched for
 };

@@ -13,7 +13,7 @@ struct CueInput {
   const PreparedFrame& frame;
   const Model& model;
   const Reductions& reductions;            ///< those of Cue::needs are counted, the others are 0
-  const Kinematics* kinematics = nullptr;  ///< of the pose; null unless Cue::needs_kinematics is set
+  const Kinematics* kinematics = nullptr;  ///< of the pose; set if Cue::needs_kinematics is; else unspecified
 };
 
 /// Unit of a cue's cost.
@@ -23,7 +23,8 @@ enum class CueUnit {
 };
 
 /// One source of evidence: how well a pose agrees with a frame. Everything that weighs poses - objectives,
-/// the filter's likelihood, the back ends, the ablation - iterates over a CueTable.
+/// the filter's likelihood, the back ends, the ablation - iterates over a CueTable. Lost and found and the
+/// backward fill also read F by name.
 struct Cue {
   std::string_view name;  ///< unique; names its weights in the configuration
   std::string_view what;  ///< one sentence for help and documentation
