@@ -217,9 +217,10 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
 #endif
   command->add_option("--calibration", options->track.request.calibration,
                       "File that `telemime calibrate` wrote.");
-  auto* const guide = command->add_flag("--guide", options->guided,
-                                        "Ask the person to leave the image first, which improves the fit; the "
-                                        "default where the networks are not installed.");
+  auto* const guide =
+      command->add_flag("--guide", options->guided,
+                        "Ask the person to leave the image first, which improves the fit; the "
+                        "default where the networks are not installed.");
   command->add_flag("--no-guide", options->unguided, "Start without asking the person to leave the image.")
       ->excludes(guide);
   command->add_flag("--open", options->open, "Open the page in the default browser.");

@@ -31,9 +31,9 @@ enum class Landmark : std::size_t {
 };
 inline constexpr std::size_t kLandmarkCount = 17;
 
-/// One landmark on the model: a fixed point of a segment. Networks are annotated on the surface, so that their
-/// joints differ from the joint centres by an offset, which is the same for everybody in proportion to the
-/// stature.
+/// One landmark on the model: a fixed point of a segment. Networks are annotated on the surface, so that
+/// their joints differ from the joint centres by an offset, which is the same for everybody in proportion to
+/// the stature.
 struct LandmarkPoint {
   std::string_view name;
   Joint origin;

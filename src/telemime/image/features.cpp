@@ -48,8 +48,8 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
   constexpr int kWidest = 640;
   cv::Mat picture = frame.image;
   if (picture.cols > kWidest) {
-    cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0, 0,
-               cv::INTER_AREA);
+    cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0,
+               0, cv::INTER_AREA);
   }
   found_ = finder_.find(picture);
   if (found_) {
@@ -61,7 +61,8 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
 
 std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLandmarks>& landmarks,
                                                      const WorkingImages& p) {
-  const auto square = landmarks ? face_square(scaled_to(*landmarks, p.grey.size(), p.face.size())) : std::nullopt;
+  const auto square =
+      landmarks ? face_square(scaled_to(*landmarks, p.grey.size(), p.face.size())) : std::nullopt;
   return square ? head_.take_over(p.face, *square) : head_.update(p.face, face_search_area(p), skin_test(p));
 }
 
@@ -163,8 +164,7 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
     }
   }
   // What the network takes for the person.
-  const cv::Mat by_mask =
-      mask.empty() ? cv::Mat() : mask_energy(mask, config_.mask_trust);
+  const cv::Mat by_mask = mask.empty() ? cv::Mat() : mask_energy(mask, config_.mask_trust);
   if (model.empty()) {
     if (!by_mask.empty()) {
       unknown += by_mask;

@@ -80,7 +80,8 @@ std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> 
     }
     samples.push_back(
         {p.bgr,
-         head_region_of(head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p)), p), {}});
+         head_region_of(head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p)), p),
+         {}});
   }
   head_.reset();
   finder_.reset();

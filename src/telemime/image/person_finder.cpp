@@ -62,10 +62,9 @@ std::optional<cv::Rect2d> face_square(const PoseLandmarks& landmarks) {
   const Eigen::Vector2d eyes = middle(Index::left_eye, Index::right_eye);
   const Eigen::Vector2d mouth = middle(Index::mouth_left, Index::mouth_right);
   const auto between = [&](int a, int b) { return (at(a).pixel - at(b).pixel).norm(); };
-  const double per_metre =
-      std::max({(mouth - eyes).norm() / kEyesToMouth,
-                between(Index::left_eye, Index::right_eye) / kBetweenEyes,
-                between(Index::left_ear, Index::right_ear) / kBetweenEars});
+  const double per_metre = std::max({(mouth - eyes).norm() / kEyesToMouth,
+                                     between(Index::left_eye, Index::right_eye) / kBetweenEyes,
+                                     between(Index::left_ear, Index::right_ear) / kBetweenEars});
   // The detector's square is about 18 cm wide; its centre is a little below the eyes, between the ears.
   constexpr double kSide = 0.183;
   constexpr double kBelowEyes = 0.15;  // of the way to the mouth

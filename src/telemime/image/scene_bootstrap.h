@@ -18,7 +18,8 @@ namespace telemime {
 struct SceneSample {
   cv::Mat bgr;  ///< CV_8UC3
   std::optional<HeadRegion> head;
-  /// Where a network sees the person: CV_8UC1, 255 is certain; zeros: it sees nobody. Empty: no network looked.
+  /// Where a network sees the person: CV_8UC1, 255 is certain; zeros: it sees nobody. Empty: no network
+  /// looked.
   cv::Mat mask;
 };
 

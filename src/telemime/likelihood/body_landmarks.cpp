@@ -12,10 +12,10 @@ using Index = PoseLandmarkIndex;
 
 // The network's index of each landmark.
 constexpr std::array<int, kLandmarkCount> kIndices = {
-    Index::nose,       Index::left_eye,    Index::right_eye,   Index::left_ear,       Index::right_ear,
-    Index::left_shoulder, Index::right_shoulder, Index::left_elbow, Index::right_elbow, Index::left_wrist,
-    Index::right_wrist, Index::left_pinky, Index::right_pinky, Index::left_index, Index::right_index,
-    Index::left_hip,   Index::right_hip};
+    Index::nose,          Index::left_eye,       Index::right_eye,   Index::left_ear,    Index::right_ear,
+    Index::left_shoulder, Index::right_shoulder, Index::left_elbow,  Index::right_elbow, Index::left_wrist,
+    Index::right_wrist,   Index::left_pinky,     Index::right_pinky, Index::left_index,  Index::right_index,
+    Index::left_hip,      Index::right_hip};
 
 // A landmark below this says nothing: the network has guessed it.
 constexpr double kLeastVisibility = 0.3;
@@ -26,8 +26,8 @@ constexpr double kHidden = 4.0;
 constexpr double kHeatMap = 0.1;
 // The side of the network's region in metres: the circle about an average body, enlarged by a quarter.
 constexpr double kRegionSide = 2.4;
-// Slope of a bone between joint centres minus the one that the network sees between points of the surface, and
-// standard deviation of that.
+// Slope of a bone between joint centres minus the one that the network sees between points of the surface,
+// and standard deviation of that.
 struct Slope {
   double bias, sigma;
 };
@@ -49,7 +49,8 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera) {
     to.seen = visible[i] >= kLeastVisibility;
     to.pixel = from.pixel;
     const double sigma = kLandmarkPoints[i].sigma * per_metre * (1.0 + (kHidden - 1.0) * (1.0 - visible[i]));
-    const Eigen::Matrix2d covariance = sigma * sigma * Eigen::Matrix2d::Identity() + kHeatMap * from.covariance;
+    const Eigen::Matrix2d covariance =
+        sigma * sigma * Eigen::Matrix2d::Identity() + kHeatMap * from.covariance;
     to.whitening = covariance.inverse().llt().matrixU();
   }
   // Slopes are relative to the ray through the person, since the network sees a crop.

@@ -31,9 +31,9 @@ struct PreparedFrame {
   cv::Mat distance;                                         ///< (h x w) CV_32FC1, px
   std::array<std::int32_t, kSurfaceClassCount> observed{};  ///< pixels of each class
   double distance_cap = 0.0;                                ///< px, the largest value of the distance map
-  bool has_colours = true;  ///< the colours of the person are known: labels tell classes apart
+  bool has_colours = true;                 ///< the colours of the person are known: labels tell classes apart
   std::optional<BodyLandmarks> landmarks;  ///< empty: no network has looked, or it sees nobody
-  TiledPlanes tiles;  ///< labels and distance in tiles, for back ends that read them so
+  TiledPlanes tiles;                       ///< labels and distance in tiles, for back ends that read them so
 };
 
 /// Prepares the features of a frame. `camera` is that of their working image. Throws Error(usage) when

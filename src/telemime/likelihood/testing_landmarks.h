@@ -14,9 +14,8 @@ inline BodyLandmarks perfect_landmarks(const Body& body, const Pose& pose, const
   seen.ray = points[static_cast<std::size_t>(Landmark::nose)].normalized();
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const double sigma = kLandmarkPoints[i].sigma * camera.fx / points[i].z();
-    seen.points[i] = {.seen = true,
-                      .pixel = camera.project(points[i]),
-                      .whitening = Eigen::Matrix2d::Identity() / sigma};
+    seen.points[i] = {
+        .seen = true, .pixel = camera.project(points[i]), .whitening = Eigen::Matrix2d::Identity() / sigma};
   }
   for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
     seen.bones[i] = {.seen = true, .along = bones[i].dot(seen.ray) / bones[i].norm(), .sigma = 0.3};

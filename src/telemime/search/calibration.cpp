@@ -213,10 +213,9 @@ Calibration calibrate(Backend& backend, const PreparedFrame& frame, const HeadRe
   {
     Objective objective(backend, frame, model, limits);
     result.pose = initialise_pose(objective, head, config, registration, random);
-    result.pose =
-        register_pose(objective, result.pose,
-                      alignment(registration, config.pose_iterations, fronto_parallel), random)
-            .pose;
+    result.pose = register_pose(objective, result.pose,
+                                alignment(registration, config.pose_iterations, fronto_parallel), random)
+                      .pose;
     result.evaluations += objective.evaluations();
   }
   // Shape adjustment and pose alignment in turn.

@@ -16,12 +16,12 @@ namespace {
 // decide what they see.
 PoseVector prior_deviations() {
   PoseVector s;
-  s << 2.0, 2.0, 2.0,                    // root
-      0.6, 0.2, 0.3,                     // torsion, roll and tilt of the root
-      0.4, 0.8, 0.4,                     // roll, torsion and tilt of the neck
-      1.2, 1.2, 1.0, 1.2, 1.2, 1.0,      // shoulders
-      1.2, 1.2,                          // elbows
-      0.4, 0.8, 0.3, 0.4, 0.8, 0.3;      // wrists
+  s << 2.0, 2.0, 2.0,                // root
+      0.6, 0.2, 0.3,                 // torsion, roll and tilt of the root
+      0.4, 0.8, 0.4,                 // roll, torsion and tilt of the neck
+      1.2, 1.2, 1.0, 1.2, 1.2, 1.0,  // shoulders
+      1.2, 1.2,                      // elbows
+      0.4, 0.8, 0.3, 0.4, 0.8, 0.3;  // wrists
   return s;
 }
 
@@ -131,8 +131,7 @@ std::optional<double> distance_from_pairs(const Body& body, const Camera& camera
   for (const auto& [a, b] : kPairs) {
     const double pixels = (pixel(landmarks, a) - pixel(landmarks, b)).norm();
     if (seen(landmarks, a) && seen(landmarks, b) && pixels > 1.0) {
-      const double metres =
-          (rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)]).norm();
+      const double metres = (rest[static_cast<std::size_t>(a)] - rest[static_cast<std::size_t>(b)]).norm();
       const double z = camera.distance_of(metres, pixels);
       nearest = std::min(z, nearest.value_or(z));
     }
@@ -215,7 +214,8 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
     pose.root += shift / count;
   }
   // The arms along their lines in the picture, with the slopes that the network sees.
-  const auto bone_along = [&](Landmark from, Landmark to, LandmarkBone bone) -> std::optional<Eigen::Vector3d> {
+  const auto bone_along = [&](Landmark from, Landmark to,
+                              LandmarkBone bone) -> std::optional<Eigen::Vector3d> {
     if (!seen(landmarks, from) || !seen(landmarks, to)) {
       return std::nullopt;
     }
@@ -232,9 +232,9 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
     const auto upper = bone_along(left ? Landmark::l_shoulder : Landmark::r_shoulder,
                                   left ? Landmark::l_elbow : Landmark::r_elbow,
                                   left ? LandmarkBone::l_upper_arm : LandmarkBone::r_upper_arm);
-    const auto fore = bone_along(left ? Landmark::l_elbow : Landmark::r_elbow,
-                                 left ? Landmark::l_wrist : Landmark::r_wrist,
-                                 left ? LandmarkBone::l_forearm : LandmarkBone::r_forearm);
+    const auto fore =
+        bone_along(left ? Landmark::l_elbow : Landmark::r_elbow, left ? Landmark::l_wrist : Landmark::r_wrist,
+                   left ? LandmarkBone::l_forearm : LandmarkBone::r_forearm);
     if (upper && fore) {
       const Eigen::Vector3d shoulder =
           forward_kinematics(body, pose).joints[left ? Joint::l_shoulder : Joint::r_shoulder];

@@ -86,17 +86,18 @@ constexpr std::array<Side, 2> kSides = {Side::left, Side::right};
 
 // Girths of the arms and the sleeve. Left and right limbs have the same scales.
 Group arm_girths_group() {
-  return {{0.10, 0.10, 0.10, 0.15}, {0.6, 0.6, 0.5, 2.0}, [](const Candidate& from, const Eigen::VectorXd& x) {
-            Candidate to = from;
-            for (const Side side : kSides) {
-              const bool left = side == Side::left;
-              scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], 0.0, x[0], x[0]);
-              scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], 0.0, x[1], x[1]);
-              scale(to.shape[left ? Segment::l_hand : Segment::r_hand], 0.0, x[2], x[2]);
-            }
-            to.shape.sleeve = std::clamp(from.shape.sleeve + x[3], 0.0, 2.0);
-            return to;
-          }};
+  return {
+      {0.10, 0.10, 0.10, 0.15}, {0.6, 0.6, 0.5, 2.0}, [](const Candidate& from, const Eigen::VectorXd& x) {
+        Candidate to = from;
+        for (const Side side : kSides) {
+          const bool left = side == Side::left;
+          scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], 0.0, x[0], x[0]);
+          scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], 0.0, x[1], x[1]);
+          scale(to.shape[left ? Segment::l_hand : Segment::r_hand], 0.0, x[2], x[2]);
+        }
+        to.shape.sleeve = std::clamp(from.shape.sleeve + x[3], 0.0, 2.0);
+        return to;
+      }};
 }
 
 // The same with the lengths of the arms. Left and right limbs have the same scales.

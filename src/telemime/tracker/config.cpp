@@ -125,7 +125,8 @@ SettingTable settings_of(Config& c) {
       flag("offline", c.look_back, "Track a file backward, too: slower, with a more accurate depth."),
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the particle filter; 0: one for each processor."),
-      text("cues", c.cue_names, {}, "What the image is compared by, separated by commas: " + cue_list() + "."),
+      text("cues", c.cue_names, {},
+           "What the image is compared by, separated by commas: " + cue_list() + "."),
       text("backend", c.backend, back_end_choices(), "Implementation that evaluates poses."),
       text("limits", c.limits, {}, "Joint limits: anatomical, reference (of the thesis) or a JSON file."),
   };

@@ -94,7 +94,8 @@ TrackingRun open_run(const TrackRequest& request, const SourceInfo& info,
                      std::vector<std::string>& messages) {
   if (resolved(request.config).image.landmarks && !uses_networks(request.config)) {
     messages.emplace_back(
-        "the networks that find the person are not installed: tracking by regions and contours alone, which needs "
+        "the networks that find the person are not installed: tracking by regions and contours alone, which "
+        "needs "
         "a still background and clothes of another colour than skin (docs/nets.md says how to install them)");
   }
   if (request.calibration.empty()) {

@@ -19,7 +19,8 @@ constexpr double kRate = 25.0;       // frames a second that the motion model is
 
 // The person's colours, learned from a frame that shows their face. True where colours are known now.
 bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
-  // A person whom landmarks found may be followed before their colours are known: they are learned on the way.
+  // A person whom landmarks found may be followed before their colours are known: they are learned on the
+  // way.
   constexpr std::int64_t kEvery = 5;
   const bool known = scene.features.calibration().colours.known();
   if (request == ColourRequest::keep && (known || frame.index % kEvery != 0)) {

@@ -13,8 +13,7 @@ double landmark_cost(const CueInput& input) {
   const LandmarkPositions points = landmark_positions(input.model.body, *input.kinematics);
   double sum = 0.0;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const double squared =
-        landmark_error(landmarks->points[i], input.frame.camera, points[i]).squaredNorm();
+    const double squared = landmark_error(landmarks->points[i], input.frame.camera, points[i]).squaredNorm();
     sum += robust_square(squared, kMostLandmark);
   }
   return std::sqrt(sum / (2.0 * kLandmarkCount));

@@ -9,7 +9,7 @@
 namespace telemime {
 namespace {
 
-constexpr double kFollowing = 0.12;      // m, of elbows and wrists from one frame to the next
+constexpr double kFollowing = 0.12;       // m, of elbows and wrists from one frame to the next
 constexpr std::size_t kMostFollowed = 4;  // proposals about the prediction
 constexpr std::size_t kMostNew = 4;       // proposals from the landmarks alone
 
