@@ -57,8 +57,9 @@ std::vector<double> Grid::plane(std::size_t sequence, double GridCell::*measure)
 std::vector<double> Grid::mean_plane(double GridCell::*measure) const {
   const std::size_t size = steps.size() * steps.size();
   std::vector<double> mean(size, 0.0);
+  const auto repeats = static_cast<double>(cells.size()) / static_cast<double>(size);
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    mean[i % size] += cells[i].*measure / static_cast<double>(cells.size() / size);
+    mean[i % size] += cells[i].*measure / repeats;
   }
   return mean;
 }
