@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the clips of the README's first accuracy table, tracks each with default settings and several seeds, and prints
-# the table. Usage: [BUILD=build/release] [SEEDS="1 2 3"] apps/lab/accuracy.sh [FOLDER]
+# Makes the clips of the README's first accuracy table, tracks each with several seeds, and prints
+# the table. Usage: [BUILD=build/release] [SEEDS="1 2 3"] [OPTIONS="--cues regions,contours"] apps/lab/accuracy.sh [FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build="${BUILD:-build/release}"
 out="${1:-out/accuracy}"
 read -ra seeds <<< "${SEEDS:-1 2 3}"
+read -ra options <<< "${OPTIONS:-}"
 
 # Name of the clip, then the options of `telemime-lab synth`.
 clips=(
@@ -34,7 +35,7 @@ for line in "${clips[@]}"; do
   for seed in "${seeds[@]}"; do
     run="$out/$name/$seed"
     echo "tracking $name with seed $seed" >&2
-    "$build/telemime" track "$clip/video.mkv" "${background[@]}" --seed "$seed" --no-overlay --out "$run" \
+    "$build/telemime" track "$clip/video.mkv" "${background[@]}" "${options[@]}" --seed "$seed" --no-overlay --out "$run" \
       > "$out/$name/log" 2>&1
     "$build/telemime" evaluate "$run/pose.jsonl" --truth "$clip/truth.json" --json "$run/accuracy.json" \
       > /dev/null
