@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -71,19 +70,6 @@ RegionPoint refined(const Eigen::Vector2d& place, std::span<const float> heat_ma
               second / total - mean * mean.transpose() + kCell * kCell / 12.0 * Eigen::Matrix2d::Identity()};
 }
 
-// The region of the next frame: the same one while the person stays in its middle. Landmarks move by some
-// pixels when the network sees the person through another crop, so a crop that follows every frame makes them
-// tremble.
-PictureRegion steadied(const PictureRegion& used, const PictureRegion& wanted) {
-  constexpr double kMostShift = 0.02;   // of the side
-  constexpr double kMostGrowth = 0.04;  // of the side
-  constexpr double kMostTurn = 0.04;    // radians
-  const bool close = (wanted.centre - used.centre).norm() < kMostShift * used.width &&
-                     std::abs(wanted.width - used.width) < kMostGrowth * used.width &&
-                     std::abs(std::remainder(wanted.angle - used.angle, 2.0 * std::numbers::pi)) < kMostTurn;
-  return close ? used : wanted;
-}
-
 }  // namespace
 
 Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model, bool with_mask) {
@@ -128,7 +114,7 @@ std::optional<PoseLandmarks> find_landmarks(const cv::Mat& picture, const Pictur
       landmark.world.z() = world[2];
     }
   }
-  result.next_region = steadied(region, region_of_axis(pixels[kNextCentre], pixels[kNextTop]));
+  result.next_region = region_of_axis(pixels[kNextCentre], pixels[kNextTop]);
 
   // The mask is a logit for each pixel of the input.
   if (outputs.size() > kMask) {
