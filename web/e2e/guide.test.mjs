@@ -22,7 +22,7 @@ setUp(
       new MutationObserver(note).observe(guide, { attributes: true, attributeFilter: ["data-step"] });
     });
   },
-  { args: async () => [(camera = await startCamera(room, 15)).url, ...LIGHT], page: true },
+  { args: async () => [(camera = await startCamera(room, 15)).url, "--guide", ...LIGHT], page: true },
 );
 after(() => camera?.close());
 
