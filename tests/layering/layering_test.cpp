@@ -103,7 +103,7 @@ TEST_F(SmallProject, FindsEachViolation) {
            {"src/telemime/low/CMakeLists.txt", licence("#") + "telemime_module(low DEPENDS attic)\n",
             "depends on itself"},
            {"src/telemime/low/CMakeLists.txt", licence("#") + "telemime_module(low DEPENDS cellar)\n",
-            "'cellar', which is no module"},
+            "'cellar', which is not a module"},
            {"ARCHITECTURE.md", "| `low` | one | high |\n" + rows,
             "the row of module low does not list its DEPENDS"},
            {"ARCHITECTURE.md", rows, "module low has no row"},

@@ -91,7 +91,7 @@ std::set<std::string> depends_of(const std::string& arguments) {
 }
 
 std::string unknown_module(const std::string& module, const std::string& next) {
-  return "module " + module + " depends on '" + next + "', which is no module";
+  return "module " + module + " depends on '" + next + "', which is not a module";
 }
 
 std::string out_of_reach(const std::string& module, const std::string& included) {

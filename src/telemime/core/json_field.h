@@ -58,7 +58,7 @@ class JsonField {
   void equals(std::string_view wanted) const;
   /// A text of at most `longest` bytes.
   std::string text(std::size_t longest = std::string::npos) const;
-  /// A list of exactly so many finite numbers.
+  /// A list of exactly as many finite numbers as are asked for.
   template <std::size_t count>
   std::array<double, count> numbers() const {
     if (!value_->is_array() || value_->size() != count) {

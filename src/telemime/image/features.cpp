@@ -61,8 +61,12 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
 
 std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLandmarks>& landmarks,
                                                      const WorkingImages& p) {
-  const auto square =
-      landmarks ? face_square(scaled_to(*landmarks, p.grey.size(), p.face.size())) : std::nullopt;
+  std::optional<cv::Rect2d> square;
+  if (landmarks) {
+    PoseLandmarks points = *landmarks;
+    points.mask.release();  // the face does not need it
+    square = face_square(scaled_to(std::move(points), p.grey.size(), p.face.size()));
+  }
   return square ? head_.take_over(p.face, *square) : head_.update(p.face, face_search_area(p), skin_test(p));
 }
 

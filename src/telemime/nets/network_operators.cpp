@@ -68,7 +68,7 @@ NetworkNode node_of(NodeKind kind, const FileOperator& from, std::size_t inputs)
 
 const TensorShape& image_shape(const NetworkGraph& graph, int tensor) {
   const TensorShape& shape = graph.tensors[tensor].shape;
-  require(shape.size() == 4, "a window over an array that is no image");
+  require(shape.size() == 4, "a window over an array that is not an image");
   return shape;
 }
 

@@ -26,6 +26,7 @@ PoseVector prior_deviations() {
 }
 
 constexpr std::size_t kFollowed = 4;
+constexpr double kMostFollowed = 8.0;  // that one followed joint costs, however far it is from its prediction
 constexpr std::array<Joint, kFollowed> kFollowedJoints = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist,
                                                           Joint::r_wrist};
 constexpr Eigen::Index kResiduals = 2 * static_cast<Eigen::Index>(kLandmarkCount) +
@@ -80,7 +81,7 @@ void each_robust(const F& f) {
   }
   at += static_cast<Eigen::Index>(kPoseSize);
   for (std::size_t i = 0; i < kFollowed; ++i, at += 3) {
-    f(at, 3, 8.0);
+    f(at, 3, kMostFollowed);
   }
 }
 
@@ -118,8 +119,8 @@ const Eigen::Vector2d& pixel(const BodyLandmarks& landmarks, Landmark l) {
   return landmarks.points[static_cast<std::size_t>(l)].pixel;
 }
 
-// Distance of the person (m) from the pairs of landmarks that are seen: the largest that any pair allows is
-// the least foreshortened.
+// Distance of the person (m) from the pairs of landmarks that are seen: the pair that looks largest is the
+// least foreshortened, so the smallest distance counts.
 std::optional<double> distance_from_pairs(const Body& body, const Camera& camera,
                                           const BodyLandmarks& landmarks) {
   constexpr std::array<std::pair<Landmark, Landmark>, 3> kPairs = {
@@ -165,7 +166,7 @@ LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyL
     const PoseVector gradient = weighted.transpose() * w.cwiseProduct(r);
     // Damp more until the step gains something.
     bool gained = false;
-    double before = cost;
+    const double before = cost;
     for (int attempt = 0; attempt < 6 && !gained; ++attempt) {
       Eigen::Matrix<double, kPoseSize, kPoseSize> damped = normal;
       damped.diagonal() *= 1.0 + damping;

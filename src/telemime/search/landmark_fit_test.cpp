@@ -13,7 +13,7 @@
 namespace telemime {
 namespace {
 
-// What networks see of a pose, with noise of so many pixels and of so much slope.
+// What networks see of a pose; the standard deviations of the noise are `pixels` and `slope`.
 BodyLandmarks observe(const Body& body, const Camera& camera, const Pose& pose, double pixels, double slope,
                       Random& random) {
   BodyLandmarks seen = testing_landmarks::perfect_landmarks(body, pose, camera);

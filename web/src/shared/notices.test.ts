@@ -40,7 +40,7 @@ describe("the banner", () => {
 });
 
 describe("too many messages", () => {
-  it("the oldest that is no error is removed", () => {
+  it("removes the oldest that is not an error", () => {
     expect(toRemove([true, false, false, true, false])).toBe(1);
     expect(toRemove([false, true])).toBe(0);
     expect(toRemove([true, true, true])).toBe(0);
