@@ -96,7 +96,8 @@ TrackingRun open_run(const TrackRequest& request, const SourceInfo& info,
     messages.emplace_back(
         "the networks that find the person are not installed: tracking by regions and contours alone, which "
         "needs "
-        "a still background and clothes of another colour than skin (docs/networks.md says how to install them)");
+        "a still background and clothes of another colour than skin (docs/networks.md says how to install "
+        "them)");
   }
   if (request.calibration.empty()) {
     const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
