@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "telemime/body/arm_prior.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/rotations.h"
 
@@ -44,6 +45,29 @@ double depth_of_arms(const Kinematics& k) {
   return sum / 4.0;
 }
 
+// Arms by zones of convenient reach: hands before the chest, low elbows.
+double reach_cost(const Body& body, const Kinematics& k) {
+  const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
+  const double arm = body.upper_arm_length[0] + body.forearm_length[0];
+  double sum = 0.0;
+  for (const bool left : {true, false}) {
+    const Eigen::Vector3d shoulder =
+        chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+    const Eigen::Vector3d elbow = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+    const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+    sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
+    sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
+    // A forearm that points away from the camera is rare: people gesture towards their listener.
+    sum +=
+        2.0 * square(std::min(0.0, (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1] - 0.1) / 0.3);
+    sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
+  }
+  return sum;
+}
+
+// Share of a frame's prior that is not known from the frame before.
+constexpr double kNewEachFrame = 0.5;
+
 }  // namespace
 
 SettingTable settings_of(ObjectiveWeights& w, const std::string& group) {
@@ -80,22 +104,12 @@ Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const J
   return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
 }
 
-double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double heading) {
-  const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
-  const double arm = body.upper_arm_length[0] + body.forearm_length[0];
-  double sum = 0.0;
-  for (const bool left : {true, false}) {
-    const Eigen::Vector3d shoulder =
-        chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-    const Eigen::Vector3d elbow = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-    const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
-    sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
-    sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
-    // A forearm that points away from the camera is rare: people gesture towards their listener.
-    sum +=
-        2.0 * square(std::min(0.0, (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1] - 0.1) / 0.3);
-    sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
-  }
+ArmPrior arm_prior_of(const PreparedFrame& frame) {
+  return frame.landmarks ? ArmPrior::motion_capture : ArmPrior::reach;
+}
+
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double heading, ArmPrior arms) {
+  double sum = arms == ArmPrior::reach ? reach_cost(body, k) : kNewEachFrame * 0.5 * arm_rarity(k);
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
   sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - heading) / 0.5) + bend(Angle::root_roll, 0.25) +
                 bend(Angle::root_tilt, 0.3));
@@ -145,7 +159,7 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
   const Kinematics k = forward_kinematics(model_.body, pose);
   double cost = weights.invalid * (interpenetration(model_.body, k) + 0.5 * outside_limits(limits_, pose));
   if (weights.natural > 0.0) {
-    cost += weights.natural * natural_cost(model_.body, pose, k, prior_.heading);
+    cost += weights.natural * natural_cost(model_.body, pose, k, prior_.heading, arm_prior_of(frame_));
   }
   if (weights.fronto_parallel > 0.0) {
     cost += weights.fronto_parallel * depth_of_arms(k);

@@ -37,11 +37,24 @@ struct ObjectiveWeights {
 /// The settings of one step of the search; `group` is the first part of their names.
 SettingTable settings_of(ObjectiveWeights& weights, const std::string& group);
 
-/// Cost of a pose that people rarely take: 0 at rest, about 1 at the edge of comfort. Hands before the chest
-/// cost less than behind it, low elbows less than high ones; neck, wrists and trunk cost least near the
-/// middle of their range, the trunk where it is turned to `heading` (rad, torsion of the root). Ranges:
-/// Panero & Zelnik, Human Dimension and Interior Space, 1979 (zones of convenient reach).
-double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics, double heading = 0.0);
+/// What is known of the arms without the image.
+enum class ArmPrior {
+  /// Hands before the chest cost less than behind it, low elbows less than high ones (zones of convenient
+  /// reach: Panero & Zelnik, Human Dimension and Interior Space, 1979). It presumes a person who faces the
+  /// camera.
+  reach,
+  motion_capture,  ///< how rare the pose of both arms is among people in motion (arm_rarity)
+};
+
+/// Landmarks show where the arms are in the picture, so that motion capture may decide how they lie in depth.
+/// Colours and outlines alone leave more open.
+ArmPrior arm_prior_of(const PreparedFrame& frame);
+
+/// Cost of a pose that people rarely take: 0 at rest, about 1 at the edge of comfort. Neck, wrists and trunk
+/// cost least near the middle of their range, the trunk where it is turned to `heading` (rad, torsion of the
+/// root).
+double natural_cost(const Body& body, const Pose& pose, const Kinematics& kinematics, double heading = 0.0,
+                    ArmPrior arms = ArmPrior::reach);
 
 /// Mean over elbows and wrists of the squared distance (in 0.15 m) from their predicted positions. Each joint
 /// counts 2 at most, so that an arm that was lost can return.

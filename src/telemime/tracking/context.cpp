@@ -61,7 +61,9 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   const Body& body = c.model.body;
   const Kinematics k = forward_kinematics(body, pose);
   sum -= c.config.invalid * interpenetration(body, k);
-  sum -= c.config.natural > 0.0 ? c.config.natural * natural_cost(body, pose, k, c.heading) : 0.0;
+  sum -= c.config.natural > 0.0
+             ? c.config.natural * natural_cost(body, pose, k, c.heading, arm_prior_of(c.frame))
+             : 0.0;
   if (c.config.temporal > 0.0) {
     sum -= c.config.temporal * distance_from_predicted(k, c.predicted_joints);
   }
