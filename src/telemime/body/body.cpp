@@ -45,7 +45,7 @@ Body make_body(const Shape& shape) {
   body.neck_from_root = {0.0, kRootToNeck * h * chest.length, 0.0};
   body.head_from_neck = {0.0, kNeckToHead * h * head.length, kNeckToHeadForward * h * head.height};
   body.head_top_from_head = {0.0, kHeadToTop * h * head.length, 0.0};
-  const double half = kShoulderHalfWidth * h * chest.width;
+  const double half = kShoulderHalfWidth * h * chest.width * shape.shoulders;
   const double below = -kShoulderBelowNeck * h * chest.length;
   const double forward = kShoulderForward * h * chest.height;
   body.shoulder_from_neck = {Eigen::Vector3d(half, below, forward), Eigen::Vector3d(-half, below, forward)};

@@ -22,6 +22,9 @@ struct Shape {
   std::array<SegmentScale, kSegmentCount> segments{};
   /// End of the sleeves along the arm: 0 shoulder, 1 elbow, 2 wrist; fractions are positions in between.
   double sleeve = 0.5;
+  /// Distance between the shoulder joints over that of a default body whose chest is as wide: clothes and
+  /// flesh widen a chest without moving its joints.
+  double shoulders = 1.0;
 
   SegmentScale& operator[](Segment s) { return segments[static_cast<std::size_t>(s)]; }
   const SegmentScale& operator[](Segment s) const { return segments[static_cast<std::size_t>(s)]; }

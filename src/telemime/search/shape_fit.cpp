@@ -37,15 +37,23 @@ void scale(SegmentScale& s, double length, double height, double width) {
   s.width *= std::exp(width);
 }
 
-Group trunk_group() {
-  return {{0.02, 0.02, 0.04, 0.05, 0.05, 0.05},
-          {0.3, 0.3, 0.4, 0.3, 0.3, 0.4},
-          [](const Candidate& from, const Eigen::VectorXd& x) {
-            Candidate to = from;
-            to.pose.root += Eigen::Vector3d(x[0], x[1], x[2]);
-            scale(to.shape[Segment::chest], x[3], x[4], x[5]);
-            return to;
-          }};
+// With `joints` the shoulder joints are fitted apart from the outline of the chest.
+Group trunk_group(bool joints) {
+  Group group;
+  group.steps = {0.02, 0.02, 0.04, 0.05, 0.05, 0.05};
+  group.reach = {0.3, 0.3, 0.4, 0.3, 0.3, 0.4};
+  if (joints) {
+    group.steps.push_back(0.05);
+    group.reach.push_back(0.4);
+  }
+  group.apply = [joints](const Candidate& from, const Eigen::VectorXd& x) {
+    Candidate to = from;
+    to.pose.root += Eigen::Vector3d(x[0], x[1], x[2]);
+    scale(to.shape[Segment::chest], x[3], x[4], x[5]);
+    to.shape.shoulders *= joints ? std::exp(x[6]) : 1.0;
+    return to;
+  };
+  return group;
 }
 
 Group head_group() {
@@ -130,6 +138,10 @@ Group arms_group(const JointLimits& limits) {
 
 }  // namespace
 
+double shoulder_prior(const Shape& shape, const ShapeFitConfig& config) {
+  return square(std::log(shape.shoulders * shape[Segment::chest].width) / config.length_spread);
+}
+
 double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
   double sum = 0.0;
   for (const SegmentScale& s : shape.segments) {
@@ -147,7 +159,7 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
 
 ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& shape, const Pose& pose,
                    const JointLimits& limits, const ShapeFitConfig& config) {
-  const std::array<Group, 3> groups = {trunk_group(), head_group(),
+  const std::array<Group, 3> groups = {trunk_group(frame.landmarks.has_value()), head_group(),
                                        frame.landmarks ? arm_girths_group() : arms_group(limits)};
   Candidate best = {shape, pose};
   CueValues weights = step_weights(backend.cues(), &Cue::edge_step);
@@ -163,8 +175,10 @@ ShapeFit fit_shape(Backend& backend, const PreparedFrame& frame, const Shape& sh
       const Model model = make_model(c.shape);
       Score s;
       backend.evaluate(frame, model, {&c.pose, 1}, backend.cues().needs(), {&s, 1});
+      const double joints =
+          frame.landmarks ? shoulder_prior(c.shape, config) / static_cast<double>(3 * kSegmentCount) : 0.0;
       return add_cue_costs(0.0, backend, frame, weights, s) +
-             config.prior_weight * shape_prior(c.shape, config);
+             config.prior_weight * (shape_prior(c.shape, config) + joints);
     };
     // Minimise it, and continue from the result with the next group.
     SimplexOptions options;

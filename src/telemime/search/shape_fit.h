@@ -22,6 +22,9 @@ struct ShapeFit {
   int evaluations = 0;
 };
 
+/// The same of the distance between the shoulder joints, which varies over people as lengths do.
+double shoulder_prior(const Shape& shape, const ShapeFitConfig& config);
+
 /// Sum of the squared deviations of all logarithmic scales from the average body, in units of their spreads.
 double shape_prior(const Shape& shape, const ShapeFitConfig& config);
 

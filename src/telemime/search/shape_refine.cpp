@@ -72,6 +72,9 @@ constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) { both(s, Segment::l_hand, Segment::r_hand, x, 0.0); }, 0.10},
     {[](Shape& s, double x) { s[Segment::chest].width *= std::exp(x); }, 0.04},
 }};
+// With landmarks the shoulder joints move and the chest stays.
+constexpr std::pair<LengthChange, double> kShoulders = {
+    [](Shape& s, double x) { s.shoulders *= std::exp(x); }, 0.04};
 
 // Changes the logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
 Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
@@ -97,6 +100,7 @@ class Refiner {
       : keyframes_(keyframes), limits_(limits), spreads_(spreads), config_(config) {
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
       backends_.push_back(make_backend());
+      landmarks_ = landmarks_ || keyframes[i].frame.landmarks;
     }
   }
 
@@ -125,6 +129,7 @@ class Refiner {
   }
 
   int evaluations() const { return evaluations_; }
+  bool landmarks() const { return landmarks_; }
 
  private:
   // Proportions of arms vary less over people than estimates from single frames do.
@@ -134,6 +139,7 @@ class Refiner {
     const SegmentScale& hand = shape[Segment::l_hand];
     double sum = square(std::log(upper.length / fore.length) / spreads_.ratio_spread) +
                  square(std::log(shape[Segment::chest].width) / spreads_.girth_spread);
+    sum += landmarks_ ? shoulder_prior(shape, spreads_) : 0.0;
     for (const SegmentScale* s : {&upper, &fore, &hand}) {
       sum += square(std::log(s->length) / spreads_.length_spread) +
              square(std::log(s->width) / spreads_.girth_spread);
@@ -173,6 +179,7 @@ class Refiner {
   const ShapeRefineConfig& config_;
   std::vector<std::unique_ptr<Backend>> backends_;
   int evaluations_ = 0;
+  bool landmarks_ = false;
 };
 
 // Minimum of the least-squares parabola through the costs at -2, -1, 0, 1, 2, within that range. The costs
@@ -312,7 +319,8 @@ ShapeRefinement refine_shape(const BackendMaker& make_backend, std::span<const K
   result.cost_before = best.cost;
   for (int round = 0; round < config.rounds; ++round) {
     const double scale = std::pow(0.5, round);
-    for (const auto& [change, step] : kLengths) {
+    for (std::size_t i = 0; i < kLengths.size(); ++i) {
+      const auto& [change, step] = i + 1 == kLengths.size() && refiner.landmarks() ? kShoulders : kLengths[i];
       best = search_length(refiner, best, change, scale * step, config.pose_iterations);
     }
     best = search_girths(refiner, best, 0.1 * scale, config.shapes);

@@ -17,7 +17,7 @@ std::filesystem::path scene_of(std::filesystem::path file) {
 }
 
 Json shape_json(const Shape& shape) {
-  Json json = {{"stature_m", shape.stature}, {"sleeve", shape.sleeve}};
+  Json json = {{"stature_m", shape.stature}, {"sleeve", shape.sleeve}, {"shoulders", shape.shoulders}};
   for (std::size_t i = 0; i < kSegmentCount; ++i) {
     const SegmentScale& s = shape.segments[i];
     json["segments"][std::string(kSegmentNames[i])] = {
@@ -30,6 +30,7 @@ Shape shape_from(const JsonField& json) {
   Shape shape;
   shape.stature = json["stature_m"].number(0.5, 3.0);
   shape.sleeve = json["sleeve"].number(0.0, 2.0);
+  shape.shoulders = json.has("shoulders") ? json["shoulders"].number(0.2, 5.0) : 1.0;
   for (std::size_t i = 0; i < kSegmentCount; ++i) {
     const JsonField s = json["segments"][kSegmentNames[i]];
     shape.segments[i] = {s["length"].number(0.2, 5.0), s["height"].number(0.2, 5.0),

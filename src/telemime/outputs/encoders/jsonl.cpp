@@ -48,7 +48,10 @@ Json shape_json(const Shape& shape) {
     segments[std::string(kSegmentNames[s])] = {
         {"length", scale.length}, {"height", scale.height}, {"width", scale.width}};
   }
-  return {{"stature", millimetres(shape.stature)}, {"sleeve", shape.sleeve}, {"segments", segments}};
+  return {{"stature", millimetres(shape.stature)},
+          {"sleeve", shape.sleeve},
+          {"shoulders", shape.shoulders},
+          {"segments", segments}};
 }
 
 Json body_json(const Body& body) {

@@ -29,6 +29,7 @@ Shape read_shape(const JsonField& object) {
   Shape shape;
   shape.stature = object["stature"].number() / kMillimetresPerMetre;
   shape.sleeve = object["sleeve"].number();
+  shape.shoulders = object.has("shoulders") ? object["shoulders"].positive() : 1.0;
   const JsonField segments = object["segments"];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     const JsonField scale = segments[kSegmentNames[s]];
