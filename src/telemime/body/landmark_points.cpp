@@ -3,12 +3,15 @@
 
 namespace telemime {
 
+// Face and hips by anthropometry: Gordon et al., Anthropometric Survey of U.S. Army Personnel, 1988 (tragion,
+// ectoorbitale and pronasale from the top and the back of the head, bitragion breadth, pupils), and de Leva,
+// J. Biomechanics 29, 1996 (mid-shoulder to mid-hip). Drawn people have other faces and other hips.
 const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
-    {"nose", Joint::neck, Segment::head, {0.0000, 0.0818, 0.0465}, 0.010},
-    {"l_eye", Joint::neck, Segment::head, {0.0176, 0.0976, 0.0471}, 0.010},
-    {"r_eye", Joint::neck, Segment::head, {-0.0176, 0.0976, 0.0471}, 0.010},
-    {"l_ear", Joint::neck, Segment::head, {0.0353, 0.0853, 0.0329}, 0.010},
-    {"r_ear", Joint::neck, Segment::head, {-0.0353, 0.0853, 0.0329}, 0.010},
+    {"nose", Joint::neck, Segment::head, {0.0000, 0.0620, 0.1035}, 0.010},
+    {"l_eye", Joint::neck, Segment::head, {0.0185, 0.0812, 0.0776}, 0.010},
+    {"r_eye", Joint::neck, Segment::head, {-0.0185, 0.0812, 0.0776}, 0.010},
+    {"l_ear", Joint::neck, Segment::head, {0.0410, 0.0730, 0.0329}, 0.010},
+    {"r_ear", Joint::neck, Segment::head, {-0.0410, 0.0730, 0.0329}, 0.010},
     {"l_shoulder", Joint::l_shoulder, Segment::chest, {0.0000, 0.0094, 0.0000}, 0.015},
     {"r_shoulder", Joint::r_shoulder, Segment::chest, {0.0000, 0.0094, 0.0000}, 0.015},
     {"l_elbow", Joint::l_elbow, Segment::l_upper_arm, {0.0000, 0.0018, 0.0071}, 0.018},
@@ -19,8 +22,8 @@ const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
     {"r_pinky", Joint::r_wrist, Segment::r_hand, {0.0000, -0.0500, -0.0176}, 0.035},
     {"l_index", Joint::l_wrist, Segment::l_hand, {0.0000, -0.0559, 0.0176}, 0.035},
     {"r_index", Joint::r_wrist, Segment::r_hand, {0.0000, -0.0559, 0.0176}, 0.035},
-    {"l_hip", Joint::root, Segment::chest, {0.0635, -0.0447, 0.0341}, 0.040},
-    {"r_hip", Joint::root, Segment::chest, {-0.0635, -0.0447, 0.0341}, 0.040},
+    {"l_hip", Joint::root, Segment::chest, {0.0635, -0.0100, 0.0060}, 0.040},
+    {"r_hip", Joint::root, Segment::chest, {-0.0635, -0.0100, 0.0060}, 0.040},
 }};
 
 LandmarkPositions landmark_positions(const Body& body, const Kinematics& k) {
