@@ -22,9 +22,10 @@ SettingRule known_heuristics(const std::string& names) {
 SettingTable settings_of(FilterConfig& c) {
   SettingTable table;
   table.rows = {
-      number("particles", &c.particles, {1, 1000000}, "evaluations",
-             "Particles of a frame with the methods heuristics and condensation; searches of turned trunks "
-             "come on top."),
+      number(
+          "particles", &c.particles, {1, 1000000}, "evaluations",
+          "Particles of a frame with the methods heuristics and condensation, without landmarks; searches of "
+          "turned trunks come on top."),
       text("filter.heuristics", c.heuristics, {},
            "Heuristics of the particle filter, separated by commas: " + heuristic_names() + "."),
       text("filter.estimate", c.estimate, {"heaviest", "mean"}, "The pose that represents all particles."),
@@ -59,6 +60,8 @@ SettingTable settings_of(FilterConfig& c) {
              "Poses fitted to the landmarks that are searched further by all cues."),
       number("filter.landmark_evaluations", &c.landmark_evaluations, {0, 1000000}, "evaluations",
              "Effort of each of these searches; 0: none."),
+      number("filter.landmark_share", &c.landmark_share, {0.001, 1}, "",
+             "Share of the particles that a frame with landmarks needs: its proposals are nearer."),
   };
   table.rules = {known_heuristics(c.heuristics),
                  {c.mode_least <= c.mode_most, "filter.mode_least must not be above filter.mode_most"}};
@@ -70,6 +73,11 @@ FilterConfig with_effort(FilterConfig config, double share) {
                       &config.walk_evaluations, &config.landmark_evaluations}) {
     *number = std::max(1, static_cast<int>(std::lround(share * *number)));
   }
+  return config;
+}
+
+FilterConfig with_landmarks(FilterConfig config) {
+  config.particles = std::max(1, static_cast<int>(std::lround(config.landmark_share * config.particles)));
   return config;
 }
 

@@ -34,13 +34,17 @@ struct FilterConfig {
   int walk_evaluations = 1000;
   int flip_candidates = 2;
   int landmark_searches = 2;
-  int landmark_evaluations = 100;
+  int landmark_evaluations = 70;
+  double landmark_share = 0.125;
 };
 
 SettingTable settings_of(FilterConfig& config);
 
 /// The same with this share (above 0, at most 1) of the evaluations.
 FilterConfig with_effort(FilterConfig config, double share);
+
+/// The same for a frame with landmarks: their proposals are near, so that fewer particles are needed.
+FilterConfig with_landmarks(FilterConfig config);
 
 /// The same for frames that are `frames` times 1/25 s apart: diffusion grows and the prediction weighs less.
 /// 1 changes nothing.

@@ -125,7 +125,8 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
   const double frames = input.time_step;
 
   // Predict: the arms continue their last motion; who walks looks where they go.
-  const FilterConfig config = for_time_step(with_effort(config_, input.effort), frames);
+  const FilterConfig enough = input.frame.landmarks ? with_landmarks(config_) : config_;
+  const FilterConfig config = for_time_step(with_effort(enough, input.effort), frames);
   const RegistrationConfig search = for_time_step(search_, frames);
   const Pose predicted =
       predict_pose(state.estimate, state.before, input.velocity * frames / state.time_step_before, limits_);

@@ -64,6 +64,10 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
 }  // namespace
 
 void search_heading(const FilterContext& context, Generation& generation) {
+  // Landmarks show which way the trunk faces; their own proposals cover its turns.
+  if (context.frame.landmarks) {
+    return;
+  }
   constexpr int kStarts = 2;  // evaluated before each search
   const Pose& from = generation.parents[heaviest(generation.parents)].pose;
   const Body& body = context.model.body;
