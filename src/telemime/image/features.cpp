@@ -51,7 +51,7 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
     cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0,
                0, cv::INTER_AREA);
   }
-  found_ = finder_.find(picture);
+  found_ = finder_.find(picture, frame.time);
   if (found_) {
     found_ = scaled_to(std::move(*found_), picture.size(), {config_.width, config_.height});
   }

@@ -127,7 +127,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     const auto has_face = [this](const cv::Mat& image) {
       if (finder_.has_networks()) {
         finder_.reset();
-        const bool found = finder_.find(image).has_value();
+        const bool found = finder_.find(image, 0.0).has_value();
         finder_.reset();
         return found;
       }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 namespace telemime {
@@ -12,19 +13,119 @@ namespace {
 using Index = PoseLandmarkIndex;
 
 constexpr double kVisible = 0.5;
+constexpr double kBodyRadius = 0.95;  // m, PersonPlace::size
 
 }  // namespace
 
 PersonFinder::PersonFinder(const std::filesystem::path& models)
     : networks_(std::make_shared<PoseNetworks>(load_pose_networks(models, PoseModel::full, true))) {}
 
-std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture) {
+PersonPlace place_of(const PoseLandmarks& landmarks) {
+  constexpr double kWidthOverRadius = 2.5;  // of a region: region_of_axis()
+  return {.shoulders = 0.5 * (landmarks.points[Index::left_shoulder].pixel +
+                              landmarks.points[Index::right_shoulder].pixel),
+          .size = landmarks.next_region.width / kWidthOverRadius};
+}
+
+PersonPlace place_of(const Detection& person) {
+  return {.shoulders = person.keypoints[2], .size = (person.keypoints[1] - person.keypoints[0]).norm()};
+}
+
+bool may_be_same(const PersonPlace& before, const PersonPlace& now, double seconds, double error) {
+  constexpr double kSpeed = 2.5;     // m/s, across
+  constexpr double kApproach = 1.0;  // 1/s: how fast the size grows, as a logarithm
+  constexpr double kSizeError = 0.3;
+  const double per_metre = std::max(before.size, now.size) / kBodyRadius;
+  return (now.shoulders - before.shoulders).norm() < (error + kSpeed * seconds) * per_metre &&
+         std::abs(std::log(now.size / before.size)) < kSizeError + kApproach * seconds;
+}
+
+std::vector<std::size_t> order_of_search(std::span<const PersonPlace> places,
+                                         const std::optional<PersonPlace>& followed, cv::Size picture) {
+  const auto cost = [&](const PersonPlace& place) {
+    if (followed) {
+      return (place.shoulders - followed->shoulders).norm() / followed->size +
+             std::abs(std::log(place.size / followed->size));
+    }
+    const double aside = 2.0 * place.shoulders.x() / picture.width - 1.0;
+    return aside * aside - std::log(place.size);
+  };
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return cost(places[a]) < cost(places[b]); });
+  return order;
+}
+
+bool PersonFinder::is_followed(const PoseLandmarks& landmarks, double time) const {
+  constexpr double kError = 0.15;
+  return !followed_ || may_be_same(followed_->place, place_of(landmarks), time - followed_->time, kError);
+}
+
+std::optional<PoseLandmarks> PersonFinder::detected(const cv::Mat& picture, double time) {
+  constexpr double kError = 0.3;
+  const std::vector<Detection> people = detect_poses(picture, networks_->detector);
+  std::vector<PersonPlace> places;
+  places.reserve(people.size());
+  for (const Detection& person : people) {
+    places.push_back(place_of(person));
+  }
+  const std::optional<PersonPlace> before = followed_ ? std::optional(followed_->place) : std::nullopt;
+  for (const std::size_t i : order_of_search(places, before, picture.size())) {
+    if (before && !may_be_same(*before, places[i], time - followed_->time, kError)) {
+      continue;
+    }
+    auto found = find_landmarks(picture, region_of_person(people[i]), networks_->landmarker);
+    if (found && is_followed(*found, time)) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time) {
+  constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
   if (!networks_) {
     return std::nullopt;
   }
-  std::optional<PoseLandmarks> found = find_pose(picture, *networks_, region_);
-  region_ = found ? std::optional(found->next_region) : std::nullopt;
+  if (followed_ && (time < followed_->time || time - followed_->time > kRemembered)) {
+    followed_.reset();
+  }
+  // Where the person was; otherwise wherever the detector sees somebody who may be them.
+  std::optional<PoseLandmarks> found;
+  if (followed_) {
+    found = find_landmarks(picture, followed_->region, networks_->landmarker);
+    if (found && !is_followed(*found, time)) {
+      found.reset();
+    }
+  }
+  if (!found) {
+    found = detected(picture, time);
+  }
+  if (found) {
+    followed_ = {.region = found->next_region, .place = place_of(*found), .time = time};
+    count(picture, followed_->place, time);
+  }
   return found;
+}
+
+void PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, double time) {
+  constexpr double kEvery = 1.0;  // s
+  if (counted_ && time >= *counted_ && time < *counted_ + kEvery) {
+    return;
+  }
+  counted_ = time;
+  people_ = 1;
+  constexpr double kSmallest = 0.4;  // of the size of the person: whoever is farther away is no matter
+  constexpr double kApart = 0.35;    // m
+  for (const Detection& other : detect_poses(picture, networks_->detector)) {
+    const PersonPlace place = place_of(other);
+    const double apart = (place.shoulders - person.shoulders).norm() / person.size * kBodyRadius;
+    if (place.size > kSmallest * person.size && apart > kApart &&
+        find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
+      ++people_;
+    }
+  }
 }
 
 PoseLandmarks scaled_to(PoseLandmarks landmarks, cv::Size from, cv::Size to) {

@@ -5,13 +5,36 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "telemime/nets/find_pose.h"
+#include "telemime/nets/pose_detector.h"
 
 namespace telemime {
 
-/// Finds one person with learned networks and follows them from frame to frame. Copies share the networks:
-/// two of them must not be used at the same time.
+/// Where a person is in a picture and how large.
+struct PersonPlace {
+  Eigen::Vector2d shoulders = Eigen::Vector2d::Zero();  ///< their middle, pixels
+  double size = 1.0;  ///< radius of the circle about the hips that contains the body: about 0.95 m, pixels
+};
+
+PersonPlace place_of(const PoseLandmarks& landmarks);
+PersonPlace place_of(const Detection& person);
+
+/// Whether a person who was at `before` can be at `now` after this time: how far people move, and come
+/// nearer. `error` is that of the places, m.
+bool may_be_same(const PersonPlace& before, const PersonPlace& now, double seconds, double error);
+
+/// The places in the order in which a person is to be looked for there. Nearest first, in place and size, to
+/// the person who is followed; without one the large and central first. Indices.
+std::vector<std::size_t> order_of_search(std::span<const PersonPlace> places,
+                                         const std::optional<PersonPlace>& followed, cv::Size picture);
+
+/// Finds one person with learned networks and follows them from frame to frame. Of several people it takes
+/// the largest and most central, and then stays with that person: somebody who is farther away than a person
+/// can move is not taken for the one who is followed. Copies share the networks: two of them must not be used
+/// at the same time.
 class PersonFinder {
  public:
   /// Without networks: it never finds anybody.
@@ -21,15 +44,30 @@ class PersonFinder {
 
   bool has_networks() const { return networks_ != nullptr; }
 
-  /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels.
-  std::optional<PoseLandmarks> find(const cv::Mat& picture);
+  /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels. `time` is
+  /// that of the picture, s.
+  std::optional<PoseLandmarks> find(const cv::Mat& picture, double time);
+
+  /// People in the picture when they were last counted, at most 1 s ago.
+  int people() const { return people_; }
 
   /// Forgets where the person was.
-  void reset() { region_.reset(); }
+  void reset() { followed_.reset(); }
 
  private:
+  struct Followed {
+    PictureRegion region;  ///< in which to look for the person in the next frame
+    PersonPlace place;
+    double time = 0.0;
+  };
+  bool is_followed(const PoseLandmarks& landmarks, double time) const;
+  std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);
+  void count(const cv::Mat& picture, const PersonPlace& person, double time);
+
   std::shared_ptr<PoseNetworks> networks_;
-  std::optional<PictureRegion> region_;
+  std::optional<Followed> followed_;
+  int people_ = 0;
+  std::optional<double> counted_;  ///< when the people were counted
 };
 
 /// The landmarks in the pixels of the same picture at another size; the mask, too.
