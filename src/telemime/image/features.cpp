@@ -350,10 +350,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   cv::bitwise_not(grown, background_mask_);
   if (out.landmarks) {
     // Nothing that a network may take for the person becomes background.
-    constexpr double kPerhaps = 50;  // of 255
-    cv::Mat person = out.landmarks->mask > kPerhaps;
-    cv::dilate(person, person, square, cv::Point(-1, -1), 2);
-    background_mask_.setTo(0, person);
+    background_mask_.setTo(0, person_area(out.landmarks->mask, 2));
     if (calibration_.background.empty()) {
       // The background is learned where it is seen, from the first frame on.
       calibration_.background = learn_background_model(std::span(&p.bgr, 1));

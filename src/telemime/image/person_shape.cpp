@@ -107,4 +107,12 @@ cv::Mat body_prior(const cv::Size& size, const HeadRegion& head) {
   return prior;
 }
 
+cv::Mat person_area(const cv::Mat& mask, int margin) {
+  constexpr double kPerhaps = 50;  // of 255
+  cv::Mat area;
+  cv::dilate(mask > kPerhaps, area,
+             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * margin + 1, 2 * margin + 1)));
+  return area;
+}
+
 }  // namespace telemime

@@ -16,4 +16,7 @@ cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head);
 /// and chest, 0.4 near them, -0.2 where only arms can be, and -1 where no part of the body can be.
 cv::Mat body_prior(const cv::Size& size, const HeadRegion& head);
 
+/// Where a person mask (CV_8UC1, 255 is certain) may see the person, grown by a margin in pixels: 255.
+cv::Mat person_area(const cv::Mat& mask, int margin);
+
 }  // namespace telemime
