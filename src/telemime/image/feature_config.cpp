@@ -7,19 +7,6 @@
 namespace telemime {
 namespace {
 
-/// Whether the clothes have stripes or prints: two colours of different chroma with more than 10 % each.
-bool patterned(const ColourMixture& clothes) {
-  for (const ColourGaussian& a : clothes) {
-    for (const ColourGaussian& b : clothes) {
-      const float apart = (a.mean.head<2>() - b.mean.head<2>()).norm();
-      if (a.weight > 0.1F && b.weight > 0.1F && apart > 0.3F) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 constexpr int kNarrowest = 40;
 constexpr int kLowest = 30;
 constexpr int kLargest = 1920;
@@ -110,36 +97,6 @@ SettingTable settings_of(ImageConfig& c) {
   };
   table.rules = {{c.edges.low <= c.edges.high, "image.edges.low must not be above image.edges.high"}};
   return table;
-}
-
-std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours) {
-  const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
-  std::vector<std::string> out;
-  if (status.brightness < 12) {
-    out.push_back("the image is black (mean grey level " + std::to_string(std::lround(status.brightness)) +
-                  " of 255): is the lens covered?");
-  } else if (status.brightness < 40) {
-    out.push_back("the image is dark (mean grey level " + std::to_string(std::lround(status.brightness)) +
-                  " of 255): turn on a light");
-  }
-  if (!status.person) {
-    out.emplace_back("no person is visible");
-  }
-  if (status.camera_motion > 0.7) {
-    out.emplace_back("the camera moves, so the background model cannot be used: fix the camera");
-  }
-  if (std::abs(status.light_change) > 0.06) {
-    out.push_back("the light changed by " + percent(std::exp(status.light_change) - 1) +
-                  " since the background was learned");
-  }
-  if (colours.known() && status.person && status.skin_share < 0.13) {
-    out.push_back("little skin of the arms is visible (" + percent(status.skin_share) +
-                  " of arms and clothes): long sleeves or hidden arms reduce the accuracy");
-  }
-  if (patterned(colours.clothes)) {
-    out.emplace_back("the clothes have several colours: plain clothes are easier to distinguish from skin");
-  }
-  return out;
 }
 
 }  // namespace telemime

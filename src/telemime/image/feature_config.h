@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "telemime/core/camera.h"
 #include "telemime/core/settings.h"
@@ -45,20 +44,5 @@ SettingTable settings_of(ImageConfig& config);
 /// number of pixels with square pixels (within 1 %). Heads are recognised by their shape, which an image of
 /// 16:9 squeezed into 4:3 would distort.
 ImageConfig fitted_to(ImageConfig config, const Camera& camera);
-
-/// How well the assumptions of the method held in the last frame.
-struct ImageStatus {
-  bool person = false;            ///< a person is in the image
-  double silhouette_share = 0.0;  ///< of the image
-  double known_background = 0.0;  ///< share of the image whose background is known
-  double camera_motion = 0.0;     ///< pixels per check at 160 columns, averaged
-  double light_change = 0.0;      ///< ln of the current luminance over the learned one, mean over the image
-  double brightness = 0.0;        ///< mean grey level
-  double skin_share = 0.0;        ///< pixels of arms over those of arms and clothes, averaged over time
-  std::vector<std::string> warnings;  ///< messages with a remedy; empty if all assumptions hold
-};
-
-/// The warnings for these values, as messages for the user.
-std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours);
 
 }  // namespace telemime

@@ -295,9 +295,16 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   WorkingImages p = working_images(frame);
   FrameFeatures out;
 
-  // Head: track the face; a head that the background explains is rejected.
+  // Head: track the face; a head that the background explains is rejected. A covered lens shows none.
+  status_.brightness = cv::mean(p.grey)[0];
+  status_.detail = detail_of(p.grey);
   out.landmarks = landmarks_of(frame);
-  const std::optional<TrackedFace> face = face_of(out.landmarks, p);
+  std::optional<TrackedFace> face;
+  if (shows_something(status_)) {
+    face = face_of(out.landmarks, p);
+  } else {
+    head_.reset();
+  }
   const HeadShape previous_shape = shape_;
   if (face && head_.replaced()) {
     // Until now the outline gave the face square. The head keeps its size around the detected square.

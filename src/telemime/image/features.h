@@ -11,6 +11,7 @@
 #include "telemime/image/head_shape.h"
 #include "telemime/image/head_tracker.h"
 #include "telemime/image/image_calibration.h"
+#include "telemime/image/image_status.h"
 #include "telemime/image/person_finder.h"
 #include "telemime/image/scene_bootstrap.h"
 
@@ -91,12 +92,14 @@ class FeatureExtractor {
   FaceMemory face_memory_;
   ImageCalibration calibration_;
   ImageStatus status_;
+  bool seen_ = false;                ///< a frame was extracted
   bool background_complete_ = true;  ///< the background is known at every pixel
   cv::Mat background_mask_;          ///< 255 on the background of the previous frame
   cv::Mat silhouette_;               ///< of the previous frame
   cv::Mat motion_image_;             ///< image of the last camera motion check
   cv::Mat motion_mask_;              ///< background mask of that image
   int frames_since_motion_ = 0;
+  double camera_step_ = 0.0;     ///< motion of the camera in the last check, pixels at 160 columns
   int frames_without_skin_ = 0;  ///< consecutive frames in which the head region had little skin or hair
 };
 

@@ -206,8 +206,14 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
     return cv::countNonZero(features.labels == static_cast<unsigned char>(label)) / total;
   };
   status_.silhouette_share = cv::countNonZero(features.silhouette) / total;
-  status_.person = features.head.has_value() || status_.silhouette_share > 0.02;
-  status_.brightness = cv::mean(p.grey)[0];
+  // Everything differs from the background when a hand covers the lens, or the camera was turned away.
+  const bool outline = status_.silhouette_share > 0.02 && status_.silhouette_share < 0.9;
+  status_.person = shows_something(status_) && (features.head.has_value() || outline);
+  status_.people = features.landmarks ? finder_.people() : 0;
+  const double coloured = coloured_share_of(p.bgr);
+  status_.coloured_share =
+      seen_ ? status_.coloured_share + 0.1 * (coloured - status_.coloured_share) : coloured;
+  seen_ = true;
   status_.known_background = known_background_share();
   background_complete_ = status_.known_background >= 1.0;
   // Share of skin on the arms: the first frames decide quickly, later ones correct slowly.

@@ -147,37 +147,6 @@ TEST(ImageConfig, MissingCascadeIsAnErrorNamingTheFolder) {
   EXPECT_TRUE(testing_errors::names(message, "/no/such/folder")) << message;
 }
 
-TEST(ImageStatus, EachViolatedAssumptionHasAWarning) {
-  ImageStatus status;
-  status.person = true;
-  status.brightness = 120;
-  status.skin_share = 0.3;
-  PersonColours colours;
-  colours.skin = {ColourGaussian{}};
-  EXPECT_TRUE(warnings_of(status, colours).empty());
-  const auto says = [&](const std::string& word) {
-    const auto warnings = warnings_of(status, colours);
-    return std::any_of(warnings.begin(), warnings.end(),
-                       [&](const auto& w) { return w.find(word) != std::string::npos; });
-  };
-  status.camera_motion = 2;
-  EXPECT_TRUE(says("camera moves"));
-  status.skin_share = 0.02;
-  EXPECT_TRUE(says("long sleeves"));
-  status.light_change = -0.3;
-  EXPECT_TRUE(says("light changed by -26 %"));
-  status.brightness = 3;
-  EXPECT_TRUE(says("lens"));
-  status.person = false;
-  EXPECT_TRUE(says("no person"));
-  ColourGaussian white;
-  ColourGaussian blue;
-  white.weight = blue.weight = 0.5F;
-  blue.mean = {-0.4F, 0.5F, 4.0F};
-  colours.clothes = {white, blue};
-  EXPECT_TRUE(says("several colours"));
-}
-
 TEST(FeatureExtractor, BlackImageGivesEmptyFeaturesOfRightSize) {
   FeatureExtractor features(ImageConfig{});
   const Frame black{cv::Mat::zeros(480, 640, CV_8UC3), 0, 0.0};
