@@ -15,10 +15,6 @@
 namespace telemime {
 namespace {
 
-cv::Rect full_rect(const cv::Mat& image) {
-  return {0, 0, image.cols, image.rows};
-}
-
 /// Whether an arm is beside or in front of the head, so that the outline there is not the head's.
 bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
   const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(head.centre.x() - 1.6 * head.radii.x()),
@@ -59,17 +55,6 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
   return found_;
 }
 
-std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLandmarks>& landmarks,
-                                                     const WorkingImages& p) {
-  std::optional<cv::Rect2d> square;
-  if (landmarks) {
-    PoseLandmarks points = *landmarks;
-    points.mask.release();  // the face does not need it
-    square = face_square(scaled_to(std::move(points), p.grey.size(), p.face.size()));
-  }
-  return square ? head_.take_over(p.face, *square) : head_.update(p.face, face_search_area(p), skin_test(p));
-}
-
 FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
     throw Error(ErrorKind::input, "frame " + std::to_string(frame.index) + " has no 8-bit colour image");
@@ -90,61 +75,6 @@ FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& fr
   }
   p.colour = log_colour(p.bgr);
   return p;
-}
-
-std::optional<HeadRegion> FeatureExtractor::head_region_of(const std::optional<TrackedFace>& face,
-                                                           const WorkingImages& p) const {
-  if (!face) {
-    return std::nullopt;
-  }
-  return head_region(*face, shape_, static_cast<double>(config_.width) / p.face.cols,
-                     static_cast<double>(config_.height) / p.face.rows);
-}
-
-cv::Rect FeatureExtractor::face_search_area(const WorkingImages& p) const {
-  if (!background_complete_ || silhouette_.empty()) {
-    return full_rect(p.face);
-  }
-  // With a complete background, a face can only be in or near the silhouette of the previous frame.
-  const cv::Rect box = cv::boundingRect(silhouette_);
-  if (box.empty()) {
-    return {};
-  }
-  const double sx = static_cast<double>(p.face.cols) / config_.width;
-  const double sy = static_cast<double>(p.face.rows) / config_.height;
-  const int margin = p.face.cols / 16;
-  return cv::Rect(static_cast<int>(box.x * sx) - margin, static_cast<int>(box.y * sy) - margin,
-                  static_cast<int>(box.width * sx) + 2 * margin,
-                  static_cast<int>(box.height * sy) + 2 * margin) &
-         full_rect(p.face);
-}
-
-FaceTest FeatureExtractor::skin_test(const WorkingImages& p) const {
-  const double sx = static_cast<double>(config_.width) / p.face.cols;
-  const double sy = static_cast<double>(config_.height) / p.face.rows;
-  return [sx, sy, &colour = p.colour](const cv::Rect& face) {
-    constexpr double kLeastSkin = 0.2;
-    return possible_skin(colour, cv::Rect(static_cast<int>(face.x * sx), static_cast<int>(face.y * sy),
-                                          std::max(1, static_cast<int>(face.width * sx)),
-                                          std::max(1, static_cast<int>(face.height * sy)))) > kLeastSkin;
-  };
-}
-
-void FeatureExtractor::follow_head_outline(const WorkingImages& p, const cv::Mat& silhouette) {
-  if (head_.confirmed()) {
-    return;
-  }
-  if (const auto head = head_from_silhouette(silhouette)) {
-    const double sx = static_cast<double>(config_.width) / p.face.cols;
-    const double sy = static_cast<double>(config_.height) / p.face.rows;
-    const cv::Rect2d square = face_square(*head, shape_, sx, sy);
-    const auto& track = head_.current();
-    const cv::Point2d centre(square.x + 0.5 * square.width, square.y + 0.5 * square.height);
-    if (track && cv::norm(track->centre - centre) > 0.7 * track->side) {
-      head_.reset();
-    }
-    head_.adopt(p.face, square, 0.5);
-  }
 }
 
 BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
@@ -187,56 +117,6 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
   return out;
 }
 
-bool FeatureExtractor::differs_from_background(const BackgroundEnergy& background,
-                                               const HeadRegion& head) const {
-  // The background model explains a face on a poster, but not the head of a person.
-  constexpr float kBackgroundEnergy = -9.0F;
-  int inside = 0;
-  int explained = 0;
-  for (int r = 0; r < background.energy.rows; ++r) {
-    for (int c = 0; c < background.energy.cols; ++c) {
-      const double x = (c - head.centre.x()) / head.radii.x();
-      const double y = (r - head.centre.y()) / head.radii.y();
-      if (x * x + y * y < 0.8) {
-        ++inside;
-        explained += background.energy.at<float>(r, c) < kBackgroundEnergy ? 1 : 0;
-      }
-    }
-  }
-  return inside > 0 && explained * 3 < inside * 2;
-}
-
-void FeatureExtractor::learn_background(std::span<const Frame> frames) {
-  std::vector<cv::Mat> images;
-  for (const Frame& frame : frames) {
-    images.push_back(working_images(frame).bgr);
-  }
-  ImageCalibration fresh;
-  fresh.background = learn_background_model(images);
-  fresh.colours = calibration_.colours;
-  set_calibration(std::move(fresh));
-}
-
-void FeatureExtractor::set_calibration(ImageCalibration calibration) {
-  calibration_ = std::move(calibration);
-  // The model adapts to the light, so it needs planes that it does not share with the caller.
-  BackgroundModel& scene = calibration_.background;
-  for (cv::Mat* plane : {&scene.mean.u, &scene.mean.v, &scene.mean.l, &scene.chroma_variance,
-                         &scene.luminance_variance, &scene.valid, &scene.seen}) {
-    *plane = plane->clone();
-  }
-  if (!calibration_.background.empty() &&
-      calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
-    throw Error(ErrorKind::config, "the background was learned at another working size",
-                "calibrate again, with the same working size and a camera of the same shape");
-  }
-  background_mask_.release();
-  silhouette_.release();
-  motion_image_.release();
-  const cv::Mat& valid = calibration_.background.valid;
-  background_complete_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
-}
-
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
@@ -245,7 +125,8 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
   head_.reset();
   std::optional<TrackedFace> face =
-      landmarks ? face_of(landmarks, p) : head_.detect(p.face, full_rect(p.face), skin_test(p));
+      landmarks ? face_of(landmarks, p)
+                : head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p));
   if (!face && known_background_share() > 0.3) {
     WorkingImages copy = p;
     copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of FeatureExtractor that concern the whole scene: bootstrap, camera motion, status.
+// The parts of FeatureExtractor that concern the whole scene: background, bootstrap, camera motion, status.
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -77,6 +77,38 @@ std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> 
       samples.push_back({p.bgr, landmarks ? head_region_of(face_of(landmarks, p), p) : std::nullopt,
                          landmarks ? landmarks->mask : cv::Mat::zeros(p.grey.size(), CV_8UC1)});
       continue;
+void FeatureExtractor::learn_background(std::span<const Frame> frames) {
+  std::vector<cv::Mat> images;
+  for (const Frame& frame : frames) {
+    images.push_back(working_images(frame).bgr);
+  }
+  ImageCalibration fresh;
+  fresh.background = learn_background_model(images);
+  fresh.colours = calibration_.colours;
+  set_calibration(std::move(fresh));
+}
+
+void FeatureExtractor::set_calibration(ImageCalibration calibration) {
+  calibration_ = std::move(calibration);
+  // The model adapts to the light, so it needs planes that it does not share with the caller.
+  BackgroundModel& scene = calibration_.background;
+  for (cv::Mat* plane : {&scene.mean.u, &scene.mean.v, &scene.mean.l, &scene.chroma_variance,
+                         &scene.luminance_variance, &scene.valid, &scene.seen}) {
+    *plane = plane->clone();
+  }
+  if (!calibration_.background.empty() &&
+      calibration_.background.valid.size() != cv::Size(config_.width, config_.height)) {
+    throw Error(ErrorKind::config, "the background was learned at another working size",
+                "calibrate again, with the same working size and a camera of the same shape");
+  }
+  background_mask_.release();
+  silhouette_.release();
+  motion_image_.release();
+  camera_step_ = 0.0;
+  const cv::Mat& valid = calibration_.background.valid;
+  background_complete_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
+}
+
     }
     samples.push_back(
         {p.bgr,
