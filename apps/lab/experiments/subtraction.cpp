@@ -8,6 +8,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/image/background_model.h"
+#include "telemime/image/light_change.h"
 
 namespace telemime {
 namespace {
@@ -64,7 +65,7 @@ Subtractor robust(std::span<const cv::Mat> pictures) {
     // prior of a person.
     constexpr float kAnything = 3.0F;
     LogColour colour = log_colour(bgr);
-    subtract(colour, estimate_gain(model, colour, *believed));
+    compensate(model, estimate_light(model, colour, *believed), colour);
     cv::Mat mask = cleaned(background_energy(model, colour, ShadowRange{}, {}).energy > kAnything);
     cv::Mat grown;
     cv::dilate(mask, grown, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(7, 7)));

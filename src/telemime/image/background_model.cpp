@@ -6,9 +6,11 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/image/light_change.h"
 
 namespace telemime {
 namespace {
@@ -42,11 +44,17 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> images) {
   // Sum the differences from the first image, not the values: the variance is small compared to the mean.
   const LogColour origin = log_colour(images.front());
   const std::array<const cv::Mat*, 3> zero{&origin.u, &origin.v, &origin.l};
+  // Automatic exposure may change while the images are taken.
+  const std::optional<BackgroundModel> first =
+      images.size() > 1 ? std::optional(learn_background_model(images.first(1))) : std::nullopt;
   for (const cv::Mat& image : images) {
     if (image.size() != size) {
       throw Error(ErrorKind::usage, "the background images differ in size");
     }
-    const LogColour colour = log_colour(image);
+    LogColour colour = log_colour(image);
+    if (first) {
+      compensate(*first, estimate_light(*first, colour, {}), colour);
+    }
     const std::array<const cv::Mat*, 3> planes{&colour.u, &colour.v, &colour.l};
     for (std::size_t i = 0; i < 3; ++i) {
       const cv::Mat d = *planes[i] - *zero[i];
@@ -138,89 +146,6 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
     out.shaded.setTo(0, covered);
   }
   return out;
-}
-
-LogColour estimate_gain(const BackgroundModel& model, const LogColour& image, const cv::Mat& background) {
-  constexpr int kAcross = 8;
-  constexpr int kDown = 6;
-  constexpr std::size_t kCells = 48;
-  static_assert(kCells == std::size_t{kAcross} * std::size_t{kDown});
-  constexpr std::array<float, 3> kLargestLocal{0.06F, 0.06F, 0.12F};
-  const cv::Size size = model.valid.size();
-  // Differences of about 5000 pixels, by grid cell.
-  const int step =
-      std::max(1, static_cast<int>(std::lround(std::sqrt(static_cast<double>(size.area()) / 5000))));
-  std::array<std::array<std::vector<float>, 3>, kCells> differences;
-  for (int r = step / 2; r < size.height; r += step) {
-    const int row_of_cell = r * kDown / size.height * kAcross;
-    for (int c = step / 2; c < size.width; c += step) {
-      if (model.valid.at<unsigned char>(r, c) == 0 ||
-          (!background.empty() && background.at<unsigned char>(r, c) == 0)) {
-        continue;
-      }
-      const int index = row_of_cell + c * kAcross / size.width;
-      auto& cell = differences[static_cast<std::size_t>(index)];
-      cell[0].push_back(image.u.at<float>(r, c) - model.mean.u.at<float>(r, c));
-      cell[1].push_back(image.v.at<float>(r, c) - model.mean.v.at<float>(r, c));
-      cell[2].push_back(image.l.at<float>(r, c) - model.mean.l.at<float>(r, c));
-    }
-  }
-  // The median of all pixels.
-  std::array<std::vector<float>, 3> all_differences;
-  std::array<float, 3> global{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (const auto& cell : differences) {
-      all_differences[i].insert(all_differences[i].end(), cell[i].begin(), cell[i].end());
-    }
-    global[i] = all_differences[i].empty() ? 0.0F : median(all_differences[i]);
-  }
-  // The median of each cell, weighted by its number of pixels.
-  cv::Mat medians = cv::Mat::zeros(kDown, kAcross, CV_32FC3);
-  cv::Mat weights = cv::Mat::zeros(kDown, kAcross, CV_32FC1);
-  for (int cell = 0; cell < kAcross * kDown; ++cell) {
-    auto& planes = differences[static_cast<std::size_t>(cell)];
-    const std::size_t count = planes[0].size();
-    if (count < 12) {
-      continue;
-    }
-    std::array<float, 3> local{};
-    float farthest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      local[i] = median(planes[i]);
-      farthest = std::max(farthest, std::abs(local[i] - global[i]) / kLargestLocal[i]);
-    }
-    // A difference larger than that of a lamp means that an object is in the cell.
-    if (farthest > 1) {
-      continue;
-    }
-    const auto weight = static_cast<float>(count);
-    weights.at<float>(cell / kAcross, cell % kAcross) = weight;
-    medians.at<cv::Vec3f>(cell / kAcross, cell % kAcross) = weight * cv::Vec3f(local[0], local[1], local[2]);
-  }
-  // Smooth over neighbouring cells; where they have few pixels, the global median counts more.
-  cv::Mat near;
-  cv::Mat near_weight;
-  cv::GaussianBlur(medians, near, cv::Size(3, 3), 0.7, 0.7, cv::BORDER_CONSTANT);
-  cv::GaussianBlur(weights, near_weight, cv::Size(3, 3), 0.7, 0.7, cv::BORDER_CONSTANT);
-  cv::Mat grid = cv::Mat::zeros(kDown, kAcross, CV_32FC3);
-  for (int cell = 0; !all_differences[0].empty() && cell < kAcross * kDown; ++cell) {
-    const int r = cell / kAcross;
-    const int c = cell % kAcross;
-    // Weight of the global median in pixels. Before the background is known, a cell may show only the person,
-    // so the global median alone counts.
-    const float far = background.empty() ? 1e9F : 3.0F;
-    for (int i = 0; i < 3; ++i) {
-      const float mean = global[static_cast<std::size_t>(i)];
-      grid.at<cv::Vec3f>(r, c)[i] =
-          (near.at<cv::Vec3f>(r, c)[i] + far * mean) / (near_weight.at<float>(r, c) + far);
-    }
-  }
-  // Interpolate the grid to the image.
-  cv::Mat wide;
-  cv::resize(grid, wide, size, 0, 0, cv::INTER_LINEAR);
-  std::array<cv::Mat, 3> planes;
-  cv::split(wide, planes.data());
-  return {planes[0], planes[1], planes[2]};
 }
 
 void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate) {

@@ -20,8 +20,9 @@ struct BackgroundModel {
   bool empty() const { return valid.empty(); }
 };
 
-/// Mean and variance of each pixel over images without a person (CV_8UC3, same size). All pixels are valid.
-/// Thesis 3.4.1, with logarithmic colours. Throws Error(usage) if `images` is empty or sizes differ.
+/// Mean and variance of each pixel over images without a person (CV_8UC3, same size), in the light of the
+/// first. All pixels are valid. Thesis 3.4.1, with logarithmic colours. Throws Error(usage) if `images` is
+/// empty or sizes differ.
 BackgroundModel learn_background_model(std::span<const cv::Mat> images);
 
 /// Energy of each pixel under the background model: -2 ln of the density over [u, v, l], without the constant
@@ -40,16 +41,11 @@ struct ShadowRange {
   float prior_cost = 1.0F;
 };
 
-/// Energies of all pixels. The gain (estimate_gain) must have been subtracted from `image`. Invalid pixels
-/// get their energy from `unknown` (CV_32FC1; may be empty if all pixels are valid).
+/// Energies of all pixels. Changes of light must have been compensated in `image` (compensate in
+/// light_change.h). Invalid pixels get their energy from `unknown` (CV_32FC1; may be empty if all pixels are
+/// valid).
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& image,
                                    const ShadowRange& shadow, const cv::Mat& unknown);
-
-/// Estimates what a lamp, a large shadow, or the gain and white balance of the camera added to the image. The
-/// estimate is the median of image - model in each cell of a coarse grid, over the pixels that are valid and
-/// where `background` (CV_8UC1; empty: everywhere) is not 0, smoothed over the grid and interpolated to the
-/// image. Cells with too few such pixels use their neighbours; without any such pixel the gain is 0.
-LogColour estimate_gain(const BackgroundModel& model, const LogColour& image, const cv::Mat& background);
 
 /// Moves the mean of the model towards the image by `rate` in [0, 1] where `where` (CV_8UC1) is not 0.
 /// Invalid pixels become valid after 12 consecutive frames there with a steady colour.

@@ -9,11 +9,20 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/image/edges.h"
+#include "telemime/image/light_change.h"
 #include "telemime/image/person_shape.h"
 #include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
+
+/// ln of how much brighter a grey surface of medium brightness is.
+double relative_light(const LightChange& light) {
+  constexpr double kMedium = 100.0;  // grey levels
+  const double offset = (light.offset[0] + light.offset[1] + light.offset[2]) / 3;
+  const double now = std::exp(cv::mean(light.gain.l)[0]) * kMedium + offset;
+  return std::log(std::max(now, 1.0) / kMedium);
+}
 
 /// Whether an arm is beside or in front of the head, so that the outline there is not the head's.
 bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
@@ -81,9 +90,19 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
                                                         const std::optional<HeadRegion>& head,
                                                         const cv::Mat& mask) {
   const BackgroundModel& model = calibration_.background;
+  const cv::Size size = images.grey.size();
+  // Compensate changes of light, exposure and white balance: all colours were learned in the light of the
+  // model.
+  if (!model.empty()) {
+    // In the first frame, the mask alone knows where the background is.
+    const cv::Mat background =
+        background_mask_.empty() && !mask.empty() ? ~person_area(mask, 3) : background_mask_;
+    const LightChange light = estimate_light(model, images.colour, background);
+    status_.light_change = relative_light(light);
+    compensate(model, light, images.colour);
+  }
   // Energy of pixels whose background is unknown: colours of the surroundings, position relative to the
   // head, and the previous silhouette.
-  const cv::Size size = images.grey.size();
   cv::Mat unknown;
   if (!background_complete_ || model.empty()) {
     unknown = energy(calibration_.surroundings, images.colour);
@@ -105,10 +124,7 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
     }
     return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
   }
-  // Compensate changes of light, exposure and white balance, then compare with the model.
-  const LogColour gain = estimate_gain(model, images.colour, background_mask_);
-  status_.light_change = cv::mean(gain.l)[0];
-  subtract(images.colour, gain);
+  // Compare with the model.
   BackgroundEnergy out = background_energy(model, images.colour, config_.shadow, unknown);
   out.doubtful = calibration_.doubtful;
   if (!by_mask.empty()) {

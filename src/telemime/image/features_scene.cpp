@@ -9,6 +9,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/image/features.h"
 #include "telemime/image/person_shape.h"
+#include "telemime/image/light_change.h"
 
 namespace telemime {
 namespace {
@@ -155,7 +156,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     const auto head =
         std::find_if(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
     LogColour colour = log_colour(head->bgr);
-    subtract(colour, estimate_gain(candidate.background, colour, {}));
+    compensate(candidate.background, estimate_light(candidate.background, colour, {}), colour);
     const auto has_face = [this](const cv::Mat& image) {
       if (finder_.has_networks()) {
         finder_.reset();

@@ -55,12 +55,6 @@ Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned 
   return {r - g, b - g, (b + g + r) / 3};
 }
 
-void subtract(LogColour& image, const LogColour& gain) {
-  image.u -= gain.u;
-  image.v -= gain.v;
-  image.l -= gain.l;
-}
-
 float median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -26,9 +26,6 @@ LogColour log_colour(const cv::Mat& bgr);
 /// Converts one colour to [u, v, l].
 Eigen::Vector3f log_colour_of(unsigned char blue, unsigned char green, unsigned char red);
 
-/// Subtracts the planes of `gain` from those of `image` (same size).
-void subtract(LogColour& image, const LogColour& gain);
-
 /// Upper median of at least one value; reorders the values.
 float median(std::vector<float>& values);
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include "telemime/image/light_change.h"
 
 #include "telemime/image/person_shape.h"
 
@@ -41,12 +42,30 @@ std::size_t still_run(std::span<const cv::Mat> images, bool from_end) {
 
 /// The pixels of the person, dilated by a margin for blur and for errors of the segmentation.
 cv::Mat covered_by_person(const SceneSample& sample) {
-  constexpr double kPerhaps = 50;  // of 255, in a mask
-  cv::Mat covered = sample.mask.empty() ? cut_person(sample.bgr, *sample.head) : sample.mask > kPerhaps;
   const int margin = std::max(1, sample.bgr.cols / 80);
-  cv::dilate(covered, covered,
-             cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(2 * margin + 1, 2 * margin + 1)));
-  return covered;
+  return person_area(sample.mask.empty() ? cut_person(sample.bgr, *sample.head) : sample.mask, margin);
+}
+
+/// The colours of the samples, with the changes of light, exposure and white balance between them
+/// compensated: as if all had the light of the sample in the middle of the range of brightness.
+std::vector<LogColour> compensated(std::span<const SceneSample> samples, std::span<const cv::Mat> scenes) {
+  std::vector<LogColour> colours;
+  std::vector<std::pair<double, std::size_t>> brightness;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    colours.push_back(log_colour(samples[i].bgr));
+    brightness.emplace_back(cv::mean(colours.back().l, scenes[i])[0], i);
+  }
+  const auto middle = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() / 2);
+  std::nth_element(brightness.begin(), middle, brightness.end());
+  const std::size_t reference = middle->second;
+  const std::vector<cv::Mat> one{samples[reference].bgr};
+  const BackgroundModel model = learn_background_model(one);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i != reference) {
+      compensate(model, estimate_light(model, colours[i], scenes[i] & scenes[reference]), colours[i]);
+    }
+  }
+  return colours;
 }
 
 /// The samples as colours with the trust in each pixel as background.
@@ -61,15 +80,20 @@ Series series_of(std::span<const SceneSample> samples) {
   const bool any_head =
       std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
   const float no_head = any_head ? 0.0F : 0.5F;
+  std::vector<cv::Mat> scenes;
   Series series;
   for (const SceneSample& sample : samples) {
-    series.colours.push_back(log_colour(sample.bgr));
+    cv::Mat scene(sample.bgr.size(), CV_8UC1, cv::Scalar(255));
     cv::Mat trust(sample.bgr.size(), CV_32FC1, cv::Scalar(no_head));
+      const cv::Mat covered = covered_by_person(sample);
     if (sample.head || !sample.mask.empty()) {
       trust.setTo(1.0F);
-      trust.setTo(kInside, covered_by_person(sample));
+      trust.setTo(kInside, covered);
+      scene.setTo(0, covered);
     }
+    scenes.push_back(scene);
     series.trust.push_back(trust);
+  series.colours = compensated(samples, scenes);
   }
   return series;
 }
@@ -152,6 +176,7 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
 }
 
 ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
+  const Series series = series_of(samples);
   // Sample pixels outside the person in three images.
   std::vector<Eigen::Vector3f> colours;
   constexpr std::size_t kMost = 3;
@@ -160,12 +185,12 @@ ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
     if (!samples[i].head && samples[i].mask.empty()) {
       continue;
     }
-    const LogColour image = log_colour(samples[i].bgr);
-    const cv::Mat covered = covered_by_person(samples[i]);
+    const LogColour& image = series.colours[i];
+    const cv::Mat& trust = series.trust[i];
     const int stride = std::max(1, samples[i].bgr.cols / 80);
-    for (int r = 0; r < covered.rows; r += stride) {
-      for (int c = 0; c < covered.cols; c += stride) {
-        if (covered.at<unsigned char>(r, c) == 0) {
+    for (int r = 0; r < trust.rows; r += stride) {
+      for (int c = 0; c < trust.cols; c += stride) {
+        if (trust.at<float>(r, c) >= 1.0F) {
           colours.emplace_back(image.u.at<float>(r, c), image.v.at<float>(r, c), image.l.at<float>(r, c));
         }
       }
