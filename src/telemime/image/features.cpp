@@ -264,7 +264,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   }
   silhouette_ = out.silhouette;
   constexpr double kCameraMoved = 1.5;
-  if (status_.camera_motion > kCameraMoved && !calibration_.background.empty()) {
+  if (std::max(status_.camera_motion, camera_step_) > kCameraMoved && !calibration_.background.empty()) {
     calibration_.background.valid.setTo(0);
     calibration_.background.seen.setTo(0);
   } else if (!calibration_.background.empty() && config_.background_rate > 0) {

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/image/camera_motion.h"
 #include "telemime/image/features.h"
-#include "telemime/image/person_shape.h"
 #include "telemime/image/light_change.h"
+#include "telemime/image/person_shape.h"
 
 namespace telemime {
 namespace {
@@ -31,53 +32,51 @@ cv::Mat grey_at_most(const cv::Mat& image, int width) {
   return grey;
 }
 
-/// Whether the camera moves: motion of the background between frames 8 apart, spread over the clip.
+/// Index of a sample in the clip that it was taken from.
+std::size_t frame_of_sample(std::size_t sample, std::size_t samples, std::size_t frames) {
+  return samples == 1 ? 0 : sample * (frames - 1) / (samples - 1);
+}
+
+/// The pixels outside the person, with a margin for the motion of a few frames.
+cv::Mat around_person(const SceneSample& sample) {
+  cv::Mat scene(sample.bgr.size(), CV_8UC1, cv::Scalar(255));
+  if (!sample.mask.empty()) {
+    scene.setTo(0, person_area(sample.mask, std::max(1, sample.bgr.cols / 40)));
+  } else if (sample.head) {
+    scene = body_prior(scene.size(), *sample.head) < 0;
+  }
+  return scene;
+}
+
+/// Whether the camera moves: motion that the background has in common between frames 8 apart, in at least a
+/// quarter of the places of the clip that can tell.
 bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samples,
                   const ImageConfig& config) {
   std::vector<double> motions;
   constexpr std::size_t kApart = 8;
+  constexpr std::size_t kFewest = 3;
   if (clip.size() <= kApart) {
     return false;
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::size_t at = i * (clip.size() - 1 - kApart) / std::max<std::size_t>(1, samples.size() - 1);
-    cv::Mat scene(config.height, config.width, CV_8UC1, cv::Scalar(255));
-    if (!samples[i].mask.empty()) {
-      scene.setTo(0, samples[i].mask);
-    } else if (samples[i].head) {
-      scene = body_prior(scene.size(), *samples[i].head) < 0;
-    }
-    const auto moved =
-        scene_motion(grey_at_most(working_image(clip[at], config), config.width),
-                     grey_at_most(working_image(clip[at + kApart], config), config.width), scene);
-    if (moved) {
-      motions.push_back(*moved * 160.0 / config.width);
+    const std::size_t at = frame_of_sample(i, samples.size(), clip.size());
+    const std::size_t other = at + kApart < clip.size() ? at + kApart : at - kApart;
+    const auto shared = shared_motion(grey_at_most(samples[i].bgr, config.width),
+                                      grey_at_most(working_image(clip[other], config), config.width),
+                                      around_person(samples[i]));
+    if (shared) {
+      motions.push_back(shared->pixels * 160.0 / config.width);
     }
   }
-  if (motions.empty()) {
+  if (motions.size() < kFewest) {
     return false;
   }
   std::sort(motions.begin(), motions.end());
-  return motions[motions.size() * 3 / 4] > 0.7;
+  return motions[motions.size() * 3 / 4] > kCameraMoves;
 }
 
 }  // namespace
 
-std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> clip) {
-  constexpr std::size_t kSamples = 20;
-  std::vector<SceneSample> samples;
-  const std::size_t count = std::min(kSamples, clip.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const Frame& frame = clip[count == 1 ? 0 : i * (clip.size() - 1) / (count - 1)];
-    const WorkingImages p = working_images(frame);
-    if (finder_.has_networks()) {
-      // The samples are too far apart for a person to be followed from one to the next.
-      finder_.reset();
-      const std::optional<PoseLandmarks> landmarks = landmarks_of(frame);
-      head_.reset();
-      samples.push_back({p.bgr, landmarks ? head_region_of(face_of(landmarks, p), p) : std::nullopt,
-                         landmarks ? landmarks->mask : cv::Mat::zeros(p.grey.size(), CV_8UC1)});
-      continue;
 void FeatureExtractor::learn_background(std::span<const Frame> frames) {
   std::vector<cv::Mat> images;
   for (const Frame& frame : frames) {
@@ -110,6 +109,21 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   background_complete_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
 }
 
+std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> clip) {
+  constexpr std::size_t kSamples = 20;
+  std::vector<SceneSample> samples;
+  const std::size_t count = std::min(kSamples, clip.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Frame& frame = clip[frame_of_sample(i, count, clip.size())];
+    const WorkingImages p = working_images(frame);
+    if (finder_.has_networks()) {
+      // The samples are too far apart for a person to be followed from one to the next.
+      finder_.reset();
+      const std::optional<PoseLandmarks> landmarks = landmarks_of(frame);
+      head_.reset();
+      samples.push_back({p.bgr, landmarks ? head_region_of(face_of(landmarks, p), p) : std::nullopt,
+                         landmarks ? landmarks->mask : cv::Mat::zeros(p.grey.size(), CV_8UC1)});
+      continue;
     }
     samples.push_back(
         {p.bgr,
@@ -198,7 +212,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     fresh.background.valid.setTo(0);
     status_.camera_motion = 2.0;
     report.source = SceneSource::colours_only;
-    report.sentence = "the camera moves: the person is separated from the background by colour alone";
+    report.sentence = "the camera moves, so no background was learned: fix the camera for better poses";
   }
   report.known =
       cv::countNonZero(fresh.background.valid) / static_cast<double>(fresh.background.valid.total());
@@ -222,11 +236,12 @@ void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
   }
   frames_since_motion_ = 0;
   if (!motion_image_.empty()) {
-    if (const auto moved = scene_motion(motion_image_, grey, motion_mask_ & background_mask_)) {
-      // A moving curtain is not a moving camera: clip large steps and average over several checks.
-      const double step = std::min(*moved * 160.0 / config_.width, 5.0);
-      status_.camera_motion += 0.3 * (step - status_.camera_motion);
-    }
+    const auto shared = shared_motion(motion_image_, grey, motion_mask_ & background_mask_);
+    camera_step_ = shared ? shared->pixels * 160.0 / config_.width : 0.0;
+    // Where nothing can be followed, a camera that moved is believed to go on for a while.
+    constexpr double kLargestStep = 5.0;
+    const double weight = shared ? 0.3 : 0.03;
+    status_.camera_motion += weight * (std::min(camera_step_, kLargestStep) - status_.camera_motion);
   }
   motion_image_ = grey;
   motion_mask_ = background_mask_.clone();

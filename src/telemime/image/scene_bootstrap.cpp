@@ -5,9 +5,8 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
-#include "telemime/image/light_change.h"
 
+#include "telemime/image/light_change.h"
 #include "telemime/image/person_shape.h"
 
 namespace telemime {
@@ -80,21 +79,21 @@ Series series_of(std::span<const SceneSample> samples) {
   const bool any_head =
       std::any_of(samples.begin(), samples.end(), [](const auto& s) { return s.head.has_value(); });
   const float no_head = any_head ? 0.0F : 0.5F;
-  std::vector<cv::Mat> scenes;
   Series series;
+  std::vector<cv::Mat> scenes;
   for (const SceneSample& sample : samples) {
-    cv::Mat scene(sample.bgr.size(), CV_8UC1, cv::Scalar(255));
     cv::Mat trust(sample.bgr.size(), CV_32FC1, cv::Scalar(no_head));
-      const cv::Mat covered = covered_by_person(sample);
+    cv::Mat scene(sample.bgr.size(), CV_8UC1, cv::Scalar(255));
     if (sample.head || !sample.mask.empty()) {
+      const cv::Mat covered = covered_by_person(sample);
       trust.setTo(1.0F);
       trust.setTo(kInside, covered);
       scene.setTo(0, covered);
     }
-    scenes.push_back(scene);
     series.trust.push_back(trust);
-  series.colours = compensated(samples, scenes);
+    scenes.push_back(scene);
   }
+  series.colours = compensated(samples, scenes);
   return series;
 }
 
@@ -176,8 +175,8 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
 }
 
 ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
-  const Series series = series_of(samples);
   // Sample pixels outside the person in three images.
+  const Series series = series_of(samples);
   std::vector<Eigen::Vector3f> colours;
   constexpr std::size_t kMost = 3;
   const std::size_t step = std::max<std::size_t>(1, samples.size() / kMost);
@@ -201,33 +200,6 @@ ColourMixture learn_surroundings(std::span<const SceneSample> samples) {
   }
   return fit_mixture(colours, 6,
                      ColourTolerance{.chroma = 0.05F, .luminance = 0.12F, .stretch = 1.2F, .slope = 0.3F});
-}
-
-std::optional<double> scene_motion(const cv::Mat& before, const cv::Mat& after, const cv::Mat& scene) {
-  constexpr std::size_t kFewest = 8;
-  std::vector<cv::Point2f> corners;
-  cv::goodFeaturesToTrack(before, corners, 40, 0.02, 6, scene);
-  if (corners.size() < kFewest) {
-    return std::nullopt;
-  }
-  // Follow the corners by optical flow.
-  std::vector<cv::Point2f> moved;
-  std::vector<unsigned char> found;
-  std::vector<float> error;
-  cv::calcOpticalFlowPyrLK(before, after, corners, moved, found, error, cv::Size(11, 11), 2);
-  std::vector<double> lengths;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (found[i] != 0) {
-      lengths.push_back(std::hypot(moved[i].x - corners[i].x, moved[i].y - corners[i].y));
-    }
-  }
-  if (lengths.size() < kFewest) {
-    return std::nullopt;
-  }
-  // The lower quartile: objects that move in front of a static camera move some corners only.
-  const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
-  std::nth_element(lengths.begin(), quarter, lengths.end());
-  return *quarter;
 }
 
 }  // namespace telemime

@@ -53,10 +53,4 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples);
 /// Colours of the surroundings of the person, up to 6 Gaussians, from the pixels outside the person.
 ColourMixture learn_surroundings(std::span<const SceneSample> samples);
 
-/// Motion of the scene between two images (CV_8UC1, same size), in pixels: the lower quartile of the
-/// displacements of corners where `scene` (CV_8UC1) is not 0, by pyramidal Lucas-Kanade optical flow. A
-/// moving camera moves all corners, a passing arm only some. Empty if fewer than 8 corners can be followed,
-/// as on a bare wall.
-std::optional<double> scene_motion(const cv::Mat& before, const cv::Mat& after, const cv::Mat& scene);
-
 }  // namespace telemime

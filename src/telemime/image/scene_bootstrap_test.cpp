@@ -111,22 +111,5 @@ TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
   EXPECT_GT(mahalanobis2(surroundings, log_colour_of(40, 30, 120)), 25);
 }
 
-TEST(SceneMotion, MeasuresShiftAndIsZeroAtRest) {
-  Random random(6);
-  cv::Mat grey;
-  cv::cvtColor(empty_scene(random), grey, cv::COLOR_BGR2GRAY);
-  const cv::Mat everywhere(grey.size(), CV_8UC1, cv::Scalar(255));
-  cv::Mat moved;
-  const cv::Matx23d by(1, 0, 3, 0, 1, 0);
-  cv::warpAffine(grey, moved, by, grey.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  const auto motion = scene_motion(grey, moved, everywhere);
-  ASSERT_TRUE(motion.has_value());
-  EXPECT_NEAR(*motion, 3.0, 0.5);
-  EXPECT_LT(scene_motion(grey, grey, everywhere).value_or(9), 0.01);
-  EXPECT_FALSE(scene_motion(cv::Mat(60, 80, CV_8UC1, cv::Scalar(9)), cv::Mat(60, 80, CV_8UC1, cv::Scalar(9)),
-                            cv::Mat(60, 80, CV_8UC1, cv::Scalar(255)))
-                   .has_value());
-}
-
 }  // namespace
 }  // namespace telemime
