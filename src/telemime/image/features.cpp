@@ -16,6 +16,32 @@
 namespace telemime {
 namespace {
 
+/// Takes what a network does not take for the person, such as somebody else behind, out of the silhouette. It
+/// is unknown what it is: no cue counts it. Where the network sees only a part of the silhouette, it is not
+/// believed.
+void ignore_strangers(const cv::Mat& mask, cv::Mat& silhouette, cv::Mat& labels) {
+  const cv::Mat strange = silhouette & ~person_area(mask, std::max(2, mask.cols / 40));
+  if (2 * cv::countNonZero(strange) < cv::countNonZero(silhouette)) {
+    silhouette.setTo(0, strange);
+    labels.setTo(static_cast<unsigned char>(Label::ignore), strange);
+  }
+}
+
+/// Whether all of the picture changed: a hand is on the lens, or the camera was turned away.
+bool covers_everything(const cv::Mat& silhouette) {
+  return cv::countNonZero(silhouette) * 10 > static_cast<int>(silhouette.total()) * 9;
+}
+
+/// The silhouette where a network sees the person. What of it are arms or clothes is not known.
+Segmentation silhouette_of_mask(const cv::Mat& mask, Segmentation segmentation) {
+  cv::compare(mask, 127, segmentation.silhouette, cv::CMP_GT);
+  segmentation.labels.setTo(static_cast<unsigned char>(Label::background), segmentation.silhouette == 0);
+  segmentation.labels.setTo(
+      static_cast<unsigned char>(Label::ignore),
+      (segmentation.labels != static_cast<unsigned char>(Label::head)) & segmentation.silhouette);
+  return segmentation;
+}
+
 /// ln of how much brighter a grey surface of medium brightness is.
 double relative_light(const LightChange& light) {
   constexpr double kMedium = 100.0;  // grey levels
@@ -219,6 +245,10 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   // Labels and silhouette.
   Segmentation segmentation =
       segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);
+  const bool colours_help = calibration_.colours.known() && has_colour(status_);
+  if (out.landmarks && !colours_help) {
+    segmentation = silhouette_of_mask(out.landmarks->mask, std::move(segmentation));
+  }
   // The correlation can drift off the head. The colours inside the head region reveal it.
   frames_without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < 0.25
                              ? frames_without_skin_ + 1
@@ -227,16 +257,25 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     head_.reset();
     frames_without_skin_ = 0;
   }
+  if (!out.landmarks && covers_everything(segmentation.silhouette)) {
+    head_.reset();
+    out.head.reset();
+  }
   // Hands in front of the face. This needs an accurate head region: a shifted face differs everywhere.
   constexpr double kReliableMatch = 0.75;
   if (out.head && calibration_.colours.known() && (face->detected || face->match > kReliableMatch)) {
     label_hands_over_face(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels);
   }
   out.labels = segmentation.labels;
-  out.silhouette = segmentation.silhouette;
+  out.silhouette = segmentation.silhouette.clone();
+  if (out.landmarks) {
+    ignore_strangers(out.landmarks->mask, out.silhouette, out.labels);
+  }
 
   // Update the head from the outline of the silhouette.
-  follow_head_outline(p, out.silhouette);
+  if (shows_something(status_) && !covers_everything(out.silhouette)) {
+    follow_head_outline(p, out.silhouette);
+  }
   if (out.head && !arms_near(*out.head, out.labels)) {
     shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
   }
@@ -250,7 +289,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   out.distance = distance_map(out.edges, config_.edges.distance_cap * config_.width / 160.0);
 
   // Adapt the background model outside the person. A camera that was moved invalidates it.
-  cv::dilate(grown, grown, square, cv::Point(-1, -1), 2);
+  cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);
   cv::bitwise_not(grown, background_mask_);
   if (out.landmarks) {
     // Nothing that a network may take for the person becomes background.

@@ -135,7 +135,13 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   features.person_present = scene.features.status().person;
   features.note = learned.note;
   features.face_learned = learned.face_learned;
-  features.has_colour_model = has_colours;
+  // Without colours, skin and clothes are grey alike: regions say nothing, landmarks and outlines do.
+  features.has_colour_model = has_colours && has_colour(scene.features.status());
+  if (!has_colour(scene.features.status()) && !features.landmarks) {
+    features.note =
+        "the image has no colour, and no network sees a person in it: more light or a camera with colours "
+        "helps";
+  }
   if (!features.head) {
     scene.since = frame.index + 1;
   }

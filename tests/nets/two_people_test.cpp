@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// The person finder in pictures of two people, made of frames of the demo clip.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "telemime/capture/source.h"
+#include "telemime/image/features.h"
+#include "telemime/image/person_finder.h"
+#include "telemime/nets/models/table.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kModels = TELEMIME_BUILD_MODELS;
+constexpr int kColumns = 520;
+constexpr int kRows = 240;
+constexpr double kFrame = 0.04;  // s
+
+class TwoPeople : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
+    if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+      GTEST_SKIP() << missing;
+    }
+    const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");
+    for (std::optional<Frame> frame = source->next(); frame && frames_.size() < 12; frame = source->next()) {
+      frames_.push_back(frame->image.clone());
+    }
+    finder_ = PersonFinder(kModels);
+  }
+
+  // The near person on the left, somebody farther away on the right; either may be absent.
+  cv::Mat picture(std::size_t frame, bool near, bool far) const {
+    cv::Mat out(kRows, kColumns, CV_8UC3, cv::Scalar(180, 170, 170));
+    if (near) {
+      frames_[frame].copyTo(out(cv::Rect(0, 0, 320, 240)));
+    }
+    if (far) {
+      cv::Mat small;
+      cv::resize(frames_[frame], small, {200, 150}, 0, 0, cv::INTER_AREA);
+      small.copyTo(out(cv::Rect(320, 60, 200, 150)));
+    }
+    return out;
+  }
+
+  // The room of the near person, empty, beside a grey wall.
+  static cv::Mat empty_picture() {
+    cv::Mat out(kRows, kColumns, CV_8UC3, cv::Scalar(180, 170, 170));
+    open_source(TELEMIME_SOURCE_DIR "/data/demo/background.mp4")
+        ->next()
+        ->image.copyTo(out(cv::Rect(0, 0, 320, 240)));
+    return out;
+  }
+
+  static FeatureExtractor extractor() {
+    ImageConfig config;
+    config.width = kColumns;
+    config.height = kRows;
+    config.models = kModels.string();
+    return FeatureExtractor(config);
+  }
+
+  static bool on_the_left(const std::optional<PoseLandmarks>& person) {
+    return person && place_of(*person).shoulders.x() < 320;
+  }
+
+  std::vector<cv::Mat> frames_;
+  PersonFinder finder_;
+};
+
+TEST_F(TwoPeople, LargeOneIsFoundFirst) {
+  EXPECT_TRUE(on_the_left(finder_.find(picture(0, true, true), 0.0)));
+  EXPECT_EQ(finder_.people(), 2);
+  finder_.reset();
+  EXPECT_TRUE(on_the_left(finder_.find(picture(1, true, false), 2.0)));
+  EXPECT_EQ(finder_.people(), 1);
+}
+
+TEST_F(TwoPeople, FollowedOneIsNotExchanged) {
+  double time = 0.0;
+  for (std::size_t i = 0; i < 4; ++i, time += kFrame) {
+    ASSERT_TRUE(on_the_left(finder_.find(picture(i, true, i > 0), time))) << i;
+  }
+  // Gone: that is a loss, not a motion.
+  for (std::size_t i = 4; i < 6; ++i, time += kFrame) {
+    EXPECT_FALSE(finder_.find(picture(i, false, true), time)) << i;
+  }
+  // Back.
+  EXPECT_TRUE(on_the_left(finder_.find(picture(6, true, true), time)));
+  // Gone for good: the other one may be followed.
+  time += 2.0;
+  const auto other = finder_.find(picture(7, false, true), time);
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(on_the_left(other));
+}
+
+TEST_F(TwoPeople, FarOneIsKeptWhenTheNearOneComes) {
+  double time = 0.0;
+  for (std::size_t i = 0; i < 8; ++i, time += kFrame) {
+    const auto person = finder_.find(picture(i, i > 2, true), time);
+    ASSERT_TRUE(person) << i;
+    EXPECT_FALSE(on_the_left(person)) << i;
+  }
+}
+
+TEST_F(TwoPeople, SomebodyElseIsNoArm) {
+  // Somebody stands behind and touches the outline of the near person.
+  const cv::Mat room = empty_picture();
+  const cv::Rect place(250, 50, 200, 150);
+  const auto crowded = [&](std::size_t i) {
+    cv::Mat out = picture(i, true, false);
+    cv::Mat difference;
+    cv::absdiff(frames_[i], room(cv::Rect(0, 0, 320, 240)), difference);
+    cv::Mat person;
+    cv::cvtColor(difference, person, cv::COLOR_BGR2GRAY);
+    cv::resize(person > 25, person, place.size(), 0, 0, cv::INTER_NEAREST);
+    cv::Mat small;
+    cv::resize(frames_[i], small, place.size(), 0, 0, cv::INTER_AREA);
+    small.copyTo(out(place), person);
+    return out;
+  };
+  FeatureExtractor features = extractor();
+  const std::vector<Frame> empty{{room, 0, 0.0}};
+  features.learn_background(empty);
+  ASSERT_TRUE(features.learn_person({picture(0, true, false), 0, 0.0}).accepted);
+  for (std::size_t i = 1; i < 5; ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    const FrameFeatures seen = features.extract({crowded(i), index, kFrame * static_cast<double>(i)});
+    const cv::Mat other = seen.labels(cv::Rect(335, 0, kColumns - 335, kRows));
+    EXPECT_EQ(cv::countNonZero(other == static_cast<unsigned char>(Label::arms)), 0) << i;
+    EXPECT_EQ(cv::countNonZero(other == static_cast<unsigned char>(Label::clothes)), 0) << i;
+    EXPECT_GT(cv::countNonZero(other == static_cast<unsigned char>(Label::ignore)), 300) << i;
+    const cv::Mat own = seen.labels(cv::Rect(0, 0, 320, kRows));
+    EXPECT_GT(cv::countNonZero(own == static_cast<unsigned char>(Label::arms)), 1000) << i;
+  }
+}
+
+TEST_F(TwoPeople, GreyPictureHasTheOutlineOfTheMask) {
+  const auto grey = [](const cv::Mat& image) {
+    cv::Mat one;
+    cv::cvtColor(image, one, cv::COLOR_BGR2GRAY);
+    cv::Mat three;
+    cv::cvtColor(one, three, cv::COLOR_GRAY2BGR);
+    return three;
+  };
+  FeatureExtractor features = extractor();
+  const std::vector<Frame> empty{{grey(empty_picture()), 0, 0.0}};
+  features.learn_background(empty);
+  const FrameFeatures seen = features.extract({grey(picture(0, true, false)), 0, 0.0});
+  ASSERT_TRUE(seen.landmarks);
+  EXPECT_EQ(cv::countNonZero(seen.silhouette != (seen.landmarks->mask > 127)), 0);
+  EXPECT_GT(cv::countNonZero(seen.edges), 300);
+  EXPECT_FALSE(has_colour(features.status()));
+  EXPECT_EQ(cv::countNonZero(seen.labels == static_cast<unsigned char>(Label::arms)), 0);
+}
+
+}  // namespace
+}  // namespace telemime
