@@ -81,6 +81,8 @@ std::array<float, 3> offset_of(const std::vector<Sample>& samples) {
   if (samples.size() < kClasses * kFewest) {
     return {};
   }
+  constexpr std::size_t kEnough = 1500;
+  const std::size_t step = std::max<std::size_t>(1, samples.size() / kEnough);
   std::array<float, 3> offset{};
   double error_of_gain = 0.0;
   double error_of_line = 0.0;
@@ -88,9 +90,8 @@ std::array<float, 3> offset_of(const std::vector<Sample>& samples) {
     // Medians of classes of the same size and similar grey level: what moved in front of the background is an
     // outlier in each.
     std::vector<std::pair<float, float>> levels;
-    levels.reserve(samples.size());
-    for (const Sample& sample : samples) {
-      levels.emplace_back(sample.before[i], sample.now[i]);
+    for (std::size_t j = 0; j < samples.size(); j += step) {
+      levels.emplace_back(samples[j].before[i], samples[j].now[i]);
     }
     std::sort(levels.begin(), levels.end());
     std::array<double, kClasses> x{};
@@ -235,63 +236,67 @@ void compensate(const BackgroundModel& model, const LightChange& light, LogColou
   const float white = std::log(kMostLevel + kLogColourOffset);
   const float black = std::log(kCrushed + kLogColourOffset);
   const int columns = model.valid.cols;
-  constexpr std::size_t kPlanes = 3;
-  cv::Mat levels(static_cast<int>(kPlanes), columns, CV_32FC1);
-  cv::Mat factors(static_cast<int>(kPlanes), columns, CV_32FC1);
+  constexpr int kPlanes = 3;
+  cv::Mat before(kPlanes, columns,
+                 CV_32FC1);  // logarithms of the image as it is, of the model, of the factors
+  cv::Mat known(kPlanes, columns, CV_32FC1);
+  cv::Mat factors(kPlanes, columns, CV_32FC1);
+  cv::Mat levels(kPlanes, columns, CV_32FC1);
+  const auto split = [columns](const LogColour& from, int row, float sign, cv::Mat& to) {
+    const auto* u = from.u.ptr<float>(row);
+    const auto* v = from.v.ptr<float>(row);
+    const auto* l = from.l.ptr<float>(row);
+    auto* blue = to.ptr<float>(0);
+    auto* green = to.ptr<float>(1);
+    auto* red = to.ptr<float>(2);
+    for (int c = 0; c < columns; ++c) {
+      const float g = l[c] - (u[c] + v[c]) * (1.0F / 3.0F);
+      blue[c] = sign * (g + v[c]);
+      green[c] = sign * g;
+      red[c] = sign * (g + u[c]);
+    }
+  };
   for (int r = 0; r < model.valid.rows; ++r) {
+    split(image, r, 1.0F, before);
+    split(model.mean, r, 1.0F, known);
+    split(light.gain, r, -1.0F, factors);
+    // Exponentials and logarithms of a row at once: OpenCV's are vectorised.
+    cv::exp(before, levels);
+    cv::exp(factors, factors);
+    const auto* valid = model.valid.ptr<unsigned char>(r);
+    for (int i = 0; i < kPlanes; ++i) {
+      auto* level = levels.ptr<float>(i);
+      const auto* factor = factors.ptr<float>(i);
+      const float less = kLogColourOffset + light.offset[static_cast<std::size_t>(i)];
+      for (int c = 0; c < columns; ++c) {
+        const float scaled = (level[c] - less) * factor[c];
+        level[c] = (scaled > 0.0F ? scaled : 0.0F) + kLogColourOffset;
+      }
+    }
+    cv::log(levels, levels);
+    // Where a channel is clipped, now or in the model, anything beyond agrees with the model.
+    for (int i = 0; i < kPlanes; ++i) {
+      auto* now = levels.ptr<float>(i);
+      const auto* raw = before.ptr<float>(i);
+      const auto* mean = known.ptr<float>(i);
+      for (int c = 0; c < columns; ++c) {
+        const bool rises = raw[c] > white || mean[c] < black;
+        const bool falls = raw[c] < black || mean[c] > white;
+        const float at_least = rises && now[c] < mean[c] ? mean[c] : now[c];
+        const float clipped = falls && at_least > mean[c] ? mean[c] : at_least;
+        now[c] = valid[c] != 0 ? clipped : now[c];
+      }
+    }
     auto* u = image.u.ptr<float>(r);
     auto* v = image.v.ptr<float>(r);
     auto* l = image.l.ptr<float>(r);
-    const auto* gu = light.gain.u.ptr<float>(r);
-    const auto* gv = light.gain.v.ptr<float>(r);
-    const auto* gl = light.gain.l.ptr<float>(r);
-    // Exponentials and logarithms of a row at once: OpenCV's are vectorised.
-    std::array<float*, kPlanes> level{};
-    std::array<float*, kPlanes> factor{};
-    for (std::size_t i = 0; i < kPlanes; ++i) {
-      level[i] = levels.ptr<float>(static_cast<int>(i));
-      factor[i] = factors.ptr<float>(static_cast<int>(i));
-    }
+    const auto* blue = levels.ptr<float>(0);
+    const auto* green = levels.ptr<float>(1);
+    const auto* red = levels.ptr<float>(2);
     for (int c = 0; c < columns; ++c) {
-      const Channels logs = logarithms(u[c], v[c], l[c]);
-      const Channels by = logarithms(gu[c], gv[c], gl[c]);
-      for (std::size_t i = 0; i < kPlanes; ++i) {
-        level[i][c] = logs[i];
-        factor[i][c] = -by[i];
-      }
-    }
-    const cv::Mat is_white = levels > white;
-    const cv::Mat is_black = levels < black;
-    cv::exp(levels, levels);
-    cv::exp(factors, factors);
-    for (std::size_t i = 0; i < kPlanes; ++i) {
-      levels.row(static_cast<int>(i)) -= cv::Scalar(kLogColourOffset + light.offset[i]);
-    }
-    levels = cv::max(levels.mul(factors), 0.0);
-    levels += cv::Scalar(kLogColourOffset);
-    cv::log(levels, levels);
-    const auto* valid = model.valid.ptr<unsigned char>(r);
-    for (int c = 0; c < columns; ++c) {
-      Channels now{};
-      const Channels known = logarithms(model.mean.u.at<float>(r, c), model.mean.v.at<float>(r, c),
-                                        model.mean.l.at<float>(r, c));
-      for (std::size_t i = 0; i < kPlanes; ++i) {
-        now[i] = level[i][c];
-        if (valid[c] == 0) {
-          continue;
-        }
-        if (is_white.at<unsigned char>(static_cast<int>(i), c) != 0) {
-          now[i] = std::max(now[i], known[i]);
-        }
-        if (is_black.at<unsigned char>(static_cast<int>(i), c) != 0) {
-          now[i] = std::min(now[i], known[i]);
-        }
-        now[i] = known[i] > white ? std::min(now[i], known[i]) : now[i];
-        now[i] = known[i] < black ? std::max(now[i], known[i]) : now[i];
-      }
-      u[c] = now[2] - now[1];
-      v[c] = now[0] - now[1];
-      l[c] = (now[0] + now[1] + now[2]) / 3;
+      u[c] = red[c] - green[c];
+      v[c] = blue[c] - green[c];
+      l[c] = (blue[c] + green[c] + red[c]) * (1.0F / 3.0F);
     }
   }
 }

@@ -54,7 +54,7 @@ TEST(LightChange, ExposureIsNotForeground) {
   }
 }
 
-TEST(LightChange, BrightnessAndWhiteBalanceAreNotForeground) {
+TEST(LightChange, BrightnessAndTintAreNotForeground) {
   Random random(2);
   const BackgroundModel model = learned_at(random, 1.0);
   for (const double offset : {-55.0, -20.0, 25.0, 50.0}) {
