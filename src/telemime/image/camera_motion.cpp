@@ -8,6 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "telemime/image/log_colour.h"
@@ -20,7 +22,7 @@ constexpr int kGridColumns = 10;
 constexpr int kGridRows = 8;
 constexpr int kInCell = 2;
 constexpr std::size_t kFewestCorners = 10;
-constexpr int kFewestCells = 6;
+constexpr std::size_t kFewestCells = 6;
 constexpr int kWindow = 11;  // pixels, of the optical flow
 
 // Logarithms, less their local mean, over their local contrast: independent of gain and gamma, 8 bits.
@@ -126,14 +128,13 @@ std::vector<Step> followed(const cv::Mat& before, const cv::Mat& after,
   return steps;
 }
 
-int cells_with(const std::vector<Step>& steps, cv::Size size) {
-  std::vector<bool> has(static_cast<std::size_t>(kGridColumns) * kGridRows);
+std::size_t cells_with(const std::vector<Step>& steps, cv::Size size) {
+  std::set<std::pair<int, int>> cells;
   for (const Step& step : steps) {
-    const int row = static_cast<int>(step.from.y()) * kGridRows / size.height;
-    const int column = static_cast<int>(step.from.x()) * kGridColumns / size.width;
-    has[static_cast<std::size_t>(row * kGridColumns + column)] = true;
+    cells.emplace(static_cast<int>(step.from.y()) * kGridRows / size.height,
+                  static_cast<int>(step.from.x()) * kGridColumns / size.width);
   }
-  return static_cast<int>(std::count(has.begin(), has.end(), true));
+  return cells.size();
 }
 
 // x' = scale_and_turn x + shift, as complex numbers.
