@@ -3,15 +3,14 @@
 
 namespace telemime {
 
-// Face and hips by anthropometry: Gordon et al., Anthropometric Survey of U.S. Army Personnel, 1988 (tragion,
-// ectoorbitale and pronasale from the top and the back of the head, bitragion breadth, pupils), and de Leva,
-// J. Biomechanics 29, 1996 (mid-shoulder to mid-hip). Drawn people have other faces and other hips.
+// Hips by anthropometry (de Leva, J. Biomechanics 29, 1996: mid-shoulder to mid-hip); those of drawn people
+// are elsewhere, and a person would lean forward by 20 degrees.
 const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
-    {"nose", Joint::neck, Segment::head, {0.0000, 0.0620, 0.1035}, 0.010},
-    {"l_eye", Joint::neck, Segment::head, {0.0185, 0.0812, 0.0776}, 0.010},
-    {"r_eye", Joint::neck, Segment::head, {-0.0185, 0.0812, 0.0776}, 0.010},
-    {"l_ear", Joint::neck, Segment::head, {0.0410, 0.0730, 0.0329}, 0.010},
-    {"r_ear", Joint::neck, Segment::head, {-0.0410, 0.0730, 0.0329}, 0.010},
+    {"nose", Joint::neck, Segment::head, {0.0000, 0.0818, 0.0465}, 0.010},
+    {"l_eye", Joint::neck, Segment::head, {0.0176, 0.0976, 0.0471}, 0.010},
+    {"r_eye", Joint::neck, Segment::head, {-0.0176, 0.0976, 0.0471}, 0.010},
+    {"l_ear", Joint::neck, Segment::head, {0.0353, 0.0853, 0.0329}, 0.010},
+    {"r_ear", Joint::neck, Segment::head, {-0.0353, 0.0853, 0.0329}, 0.010},
     {"l_shoulder", Joint::l_shoulder, Segment::chest, {0.0000, 0.0094, 0.0000}, 0.015},
     {"r_shoulder", Joint::r_shoulder, Segment::chest, {0.0000, 0.0094, 0.0000}, 0.015},
     {"l_elbow", Joint::l_elbow, Segment::l_upper_arm, {0.0000, 0.0018, 0.0071}, 0.018},

@@ -44,8 +44,8 @@ struct LandmarkPoint {
   double sigma;  ///< standard deviation in the picture of a landmark that is clearly visible, m on the body
 };
 
-/// The landmarks in the order of the enumeration. Face and hips are where anthropometry has them; the arms'
-/// offsets and all deviations were estimated on drawn people with known joints.
+/// The landmarks in the order of the enumeration. Hips are where anthropometry has them; the
+/// other offsets and all deviations were estimated on drawn people with known joints.
 extern const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints;
 
 using LandmarkPositions = std::array<Eigen::Vector3d, kLandmarkCount>;

@@ -58,7 +58,6 @@ inline Shape other_shape() {
   shape[Segment::l_forearm] = shape[Segment::r_forearm] = {0.94, 1.1, 1.05};
   shape[Segment::l_hand] = shape[Segment::r_hand] = {1.03, 0.95, 1.0};
   shape.sleeve = 0.7;
-  shape.shoulders = 1.03;
   return shape;
 }
 

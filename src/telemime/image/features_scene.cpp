@@ -60,6 +60,9 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
   }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t at = frame_of_sample(i, samples.size(), clip.size());
+    if (at < kApart && at + kApart >= clip.size()) {
+      continue;  // a short clip has no frame that far from its middle
+    }
     const std::size_t other = at + kApart < clip.size() ? at + kApart : at - kApart;
     const auto shared = shared_motion(grey_at_most(samples[i].bgr, config.width),
                                       grey_at_most(working_image(clip[other], config), config.width),

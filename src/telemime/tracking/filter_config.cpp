@@ -96,6 +96,7 @@ FilterConfig reference_filter(const std::string& heuristics) {
   config.natural = 0.0;
   config.temporal = 0.0;
   config.blocks = false;
+  config.landmark_share = 1.0;
   return config;
 }
 
