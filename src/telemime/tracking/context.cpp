@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "telemime/body/interpenetration.h"
@@ -12,6 +13,13 @@
 #include "telemime/likelihood/all.h"
 
 namespace telemime {
+namespace {
+
+double squared(double x) {
+  return x * x;
+}
+
+}  // namespace
 
 Evaluators::Evaluators(const std::string& backend, int threads, const CueTable& cues)
     : threads_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
@@ -43,14 +51,21 @@ Random FilterContext::random(std::uint64_t purpose, std::uint64_t index) const {
   return Random(seed, (purpose << 32U) ^ index);
 }
 
+double square_of_unknown_noise(double square, double usual) {
+  return 2.0 * usual * std::log1p(square / usual);
+}
+
 double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
   // Equation 4.12: the costs of the cues are independent and normally distributed.
   const CueTable& cues = c.evaluators.cues();
   double squares = 0.0;
   for (std::size_t i = 0; i < cues.size(); ++i) {
     if (const double reliability = reliability_of(cues[i], c.frame); reliability > 0.0) {
-      const double deviation = score.costs[i] / in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
-      squares += reliability * deviation * deviation;
+      const double sigma = in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
+      const double square = squared(score.costs[i] / sigma);
+      const bool known = !c.frame.landmarks || cues[i].usual <= 0.0;
+      squares +=
+          reliability * (known ? square : square_of_unknown_noise(square, squared(cues[i].usual / sigma)));
     }
   }
   double sum = -0.5 * c.config.trust * squares;

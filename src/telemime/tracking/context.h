@@ -67,8 +67,15 @@ struct FilterContext {
   Random random(std::uint64_t purpose, std::uint64_t index = 0) const;
 };
 
+/// A squared error in standard deviations, as it counts where the standard deviation is that of pictures in
+/// which the square is `usual`, and that of this picture is unknown (the negative log density of Student's t
+/// distribution, but for a constant). Its derivative is 1 at `usual` and falls to 0 beyond.
+double square_of_unknown_noise(double square, double usual);
+
 /// Log likelihood log p(z | x): the sum over all enabled cues of thesis equation 4.12, and the terms that do
-/// not depend on the image (FilterConfig::natural, temporal, invalid).
+/// not depend on the image (FilterConfig::natural, temporal, invalid). In frames with landmarks the noise of
+/// a cue with Cue::usual is taken as unknown: where a room has the colours of the person, F is large in every
+/// pose, and its differences say little.
 double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score);
 
 /// Computes scores and log likelihoods of the particles that are not measured yet.

@@ -44,6 +44,37 @@ TEST(LogLikelihood, IsThatOfTwoGaussians) {
   EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.05 * 13.0, 1e-12);
 }
 
+TEST(LogLikelihood, UnknownNoiseCountsByRatio) {
+  constexpr double kUsual = 100.0;
+  constexpr double kStep = 1e-4;
+  const auto derivative = [&](double square) {
+    return (square_of_unknown_noise(square + kStep, kUsual) - square_of_unknown_noise(square, kUsual)) /
+           kStep;
+  };
+  EXPECT_EQ(square_of_unknown_noise(0.0, kUsual), 0.0);
+  EXPECT_NEAR(derivative(kUsual), 1.0, 1e-5);
+  EXPECT_GT(derivative(0.5 * kUsual), derivative(kUsual));
+  // Far beyond, it is the ratio of two costs that counts, however noisy the picture is.
+  const auto ratio = [&](double noise) {
+    return square_of_unknown_noise(1.2 * noise, kUsual) - square_of_unknown_noise(noise, kUsual);
+  };
+  EXPECT_NEAR(ratio(1e6), ratio(1e7), 1e-2);
+}
+
+TEST(LogLikelihood, RegionsCountLessInANoisyRoom) {
+  Scene scene = image_alone();
+  scene.numbers.sigma[cue::kRegion] = 0.01;
+  const auto gain = [&](double better, double worse) {
+    return log_likelihood(scene.context(), both_arms_seen(), score_of(better, 0.0)) -
+           log_likelihood(scene.context(), both_arms_seen(), score_of(worse, 0.0));
+  };
+  // Colours and outlines alone: equation 4.12 as it is.
+  EXPECT_GT(gain(0.50, 0.51), gain(0.10, 0.11));
+  scene.frame.landmarks.emplace();
+  EXPECT_LT(gain(0.50, 0.51), 0.5 * gain(0.10, 0.11));
+  EXPECT_GT(gain(0.50, 0.51), 0.0);
+}
+
 TEST(LogLikelihood, CountsAddedAndDisabledCues) {
   CueTable cues;
   cues.add({.name = "constant",
