@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/streaming/send_queue.h"
 
-#include <algorithm>
 #include <atomic>
-#include <boost/asio/executor_work_guard.hpp>
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/post.hpp>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -20,36 +16,18 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr milliseconds kFirstPause{100};
-constexpr milliseconds kLongestPause{5000};
-/// A connection that stood this long was a good one: the next failure is a new one.
-constexpr milliseconds kGoodConnection{2000};
 constexpr milliseconds kForever = std::chrono::hours(1);
-
-/// Thrown through the Link when the sender is destroyed. Not a std::exception: nobody else shall catch it.
-struct Stopped {};
 
 struct WaitingFrame {
   MotionFrame frame;
   double taken = 0.0;  ///< ms of the monotonic clock
 };
 
-/// Growing pauses between attempts: none, then 0.1 s, doubled up to 5 s.
-class Pauses {
- public:
-  milliseconds next() {
-    return std::exchange(next_, std::min(std::max(2 * next_, kFirstPause), kLongestPause));
-  }
-  void reset() { next_ = milliseconds{0}; }
-
- private:
-  milliseconds next_{0};
-};
-
 class QueuedSender final : public Sender, private SendLoop {
  public:
   QueuedSender(const SendUrl& url, const MakeLink& make_link)
-      : mirror_(option(url, "mirror", {"0", "1"}) == "1") {
+      : SendLoop([this] { return stopping_.load(); }, kForever),
+        mirror_(option(url, "mirror", {"0", "1"}) == "1") {
     status_.url = url.text;
     status_.words = "connecting";
     link_ = make_link(*this);
@@ -58,9 +36,8 @@ class QueuedSender final : public Sender, private SendLoop {
 
   ~QueuedSender() override {
     stopping_ = true;
-    wake();
+    wake_();
     thread_.join();
-    link_.reset();  // its sockets before the context that they belong to
   }
 
   void begin(const StreamHeader& header) override {
@@ -72,7 +49,7 @@ class QueuedSender final : public Sender, private SendLoop {
       person_ = std::move(person);
       person_is_new_ = true;
     }
-    wake();
+    wake_();
   }
 
   void send(const MotionFrame& frame, double taken) override {
@@ -87,7 +64,7 @@ class QueuedSender final : public Sender, private SendLoop {
       }
       queue_.push_back({frame, taken});
     }
-    wake();
+    wake_();
   }
 
   SenderStatus status() const override {
@@ -97,30 +74,6 @@ class QueuedSender final : public Sender, private SendLoop {
 
  private:
   // SendLoop
-  boost::asio::io_context& io() override { return *io_; }
-
-  bool wait(const std::function<bool()>& done, milliseconds limit) override {
-    const auto end = SteadyClock::now() + limit;
-    while (!done()) {
-      if (stopping_) {
-        throw Stopped{};
-      }
-      if (SteadyClock::now() >= end) {
-        return false;
-      }
-      io_->run_one_until(end);
-    }
-    return true;
-  }
-
-  std::function<void()> waker() override {
-    return [weak = std::weak_ptr(io_)] {
-      if (const auto io = weak.lock()) {
-        boost::asio::post(*io, [] {});
-      }
-    };
-  }
-
   void waiting(const std::string& words) override {
     const std::lock_guard lock(mutex_);
     if (status_.state == SenderState::connecting) {
@@ -146,24 +99,22 @@ class QueuedSender final : public Sender, private SendLoop {
   }
 
   // The thread
-  void wake() {
-    boost::asio::post(*io_, [] {});
-  }
-
   void run() {
+    RetryPauses pauses;
     try {
       for (;;) {
+        SteadyClock::duration worked{};
         try {
           link_->open();
           write_frames();
         } catch (const std::exception& e) {
-          failed(e.what());
+          worked = failed(e.what());
         }
         link_->close();
-        forget_old_handlers();
-        wait([] { return false; }, pauses_.next());
+        discard_handlers();
+        wait([] { return false; }, pauses.next(worked));
       }
-    } catch (const Stopped&) {
+    } catch (const LoopStopped&) {
       link_->close();
     }
   }
@@ -211,33 +162,18 @@ class QueuedSender final : public Sender, private SendLoop {
     status_.sent += arrived ? 1 : 0;
   }
 
-  void failed(const std::string& cause) {
+  /// Returns for how long frames have arrived.
+  SteadyClock::duration failed(const std::string& cause) {
     const std::lock_guard lock(mutex_);
     status_.state = SenderState::failed;
     status_.words = cause + "; trying again";
     status_.receivers = 0;
-    if (good_since_ && SteadyClock::now() - *good_since_ >= kGoodConnection) {
-      pauses_.reset();
-    }
-    good_since_.reset();
-  }
-
-  /// What the closed connection still has to say interests nobody.
-  void forget_old_handlers() {
-    for (;;) {
-      try {
-        if (io_->poll_one() == 0) {
-          return;
-        }
-      } catch (const std::exception&) {
-        continue;
-      }
-    }
+    const auto since = std::exchange(good_since_, std::nullopt);
+    return since ? SteadyClock::now() - *since : SteadyClock::duration{};
   }
 
   const bool mirror_;
-  const std::shared_ptr<boost::asio::io_context> io_ = std::make_shared<boost::asio::io_context>(1);
-  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{io_->get_executor()};
+  const std::function<void()> wake_ = waker();
   mutable std::mutex mutex_;  ///< of the five below; all else is the thread's
   SenderStatus status_;
   std::deque<WaitingFrame> queue_;
@@ -245,7 +181,6 @@ class QueuedSender final : public Sender, private SendLoop {
   bool person_is_new_ = false;
   std::optional<SteadyClock::time_point> good_since_;  ///< when frames began to arrive
   std::unique_ptr<Link> link_;
-  Pauses pauses_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

@@ -1,51 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
-#include <stdexcept>
-#include <string>
 
+#include "telemime/streaming/send_loop.h"
 #include "telemime/streaming/sender.h"
 #include "telemime/streaming/url.h"
 
-namespace boost::asio {
-class io_context;
-}
-
 namespace telemime {
-
-/// The connection is lost or cannot be made. The message gives the reason, without "trying again".
-class LinkBroken : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// What a Link sees of the thread that it lives in. All waiting is done by wait(), which ends when the sender
-/// is destroyed; everything that waits is an asynchronous operation of io().
-class SendLoop {
- public:
-  SendLoop() = default;
-  SendLoop(const SendLoop&) = delete;
-  SendLoop& operator=(const SendLoop&) = delete;
-  virtual ~SendLoop() = default;
-
-  virtual boost::asio::io_context& io() = 0;
-  /// Runs the handlers of io() until `done()` holds: true; false when `limit` has passed before. An exception
-  /// of a handler (LinkBroken) comes out here. Throws something that only the thread itself catches when the
-  /// sender is being destroyed.
-  virtual bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit) = 0;
-  /// Ends a wait() early to have `done` asked again; may be called from any thread, also when the loop is
-  /// gone.
-  virtual std::function<void()> waker() = 0;
-
-  /// What is waited for before anything can be sent, for the status; a failure that stands there stays.
-  virtual void waiting(const std::string& words) = 0;
-  /// Frames arrive. `words` are for the status.
-  virtual void sending(const std::string& words = {}) = 0;
-  virtual void receivers(std::int64_t count) = 0;
-};
 
 /// One kind of output: how it connects and how it writes. Only the sender's thread calls it.
 class Link {

@@ -17,13 +17,12 @@
 
 #include "meeting/hosting/child_process.h"
 #include "telemime/core/errors.h"
+#include "telemime/streaming/send_loop.h"
 
 namespace telemime::meeting {
 namespace {
 
-constexpr int kFirstPause = 200;  // ms
-constexpr int kLongestPause = 5000;
-constexpr int kLongestEnd = 3000;
+constexpr int kLongestEnd = 3000;  // ms
 constexpr int kTick = 20;
 constexpr std::size_t kMostOutput = 2000;  // bytes
 
@@ -75,7 +74,7 @@ BrokerProcess::~BrokerProcess() {
 
 // The system kills the child when this thread ends.
 void BrokerProcess::work() {
-  int pause = kFirstPause;
+  RetryPauses pauses;
   std::string reported;
   for (;;) {
     const auto begun = std::chrono::steady_clock::now();
@@ -106,18 +105,17 @@ void BrokerProcess::work() {
       }
       continue;
     }
-    if (std::chrono::steady_clock::now() - begun > std::chrono::milliseconds(kLongestPause)) {
-      pause = kFirstPause;
+    const auto worked = std::chrono::steady_clock::now() - begun;
+    if (worked >= RetryPauses::kGood) {
       reported.clear();
     }
     if (reason != reported) {  // one that cannot start would repeat it forever
       report_("the broker ended (" + reason + "); restarting it");
       reported = reason;
     }
-    if (wait(pause)) {
+    if (wait(static_cast<int>(pauses.next(worked).count()))) {
       return;
     }
-    pause = std::min(2 * pause, kLongestPause);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "meeting/transport/blocking_loop.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -13,8 +12,6 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kForever = std::chrono::hours(1);
-/// After a connection of this length the pauses between attempts start again.
-constexpr std::chrono::seconds kGoodConnection{2};
 
 std::int64_t steady_us() {
   return std::chrono::duration_cast<std::chrono::microseconds>(SteadyClock::now().time_since_epoch()).count();
@@ -36,7 +33,7 @@ std::uint64_t MeetingRecorder::now() const {
 
 std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
   began_ = steady_us();
-  BlockingLoop loop([&] { return stop_() || writer.failure(); });
+  SendLoop loop([&] { return stop_() || writer.failure(); });
   RetryPauses pauses;
   try {
     while (!stop_()) {
@@ -44,10 +41,7 @@ std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
       if (!attempt(writer)) {
         break;
       }
-      if (SteadyClock::now() - start >= kGoodConnection) {
-        pauses.reset();
-      }
-      loop.wait([] { return false; }, pauses.next());
+      loop.wait([] { return false; }, pauses.next(SteadyClock::now() - start));
       if (way_.is_link()) {  // a meeting that was closed and opened again has new accounts
         try {
           log_in();
@@ -64,7 +58,7 @@ std::uint64_t MeetingRecorder::record(RecordingWriter& writer) {
 
 // Returns true when the connection is lost, and false when the recording ends.
 bool MeetingRecorder::attempt(RecordingWriter& writer) {
-  BlockingLoop loop([&] { return stop_() || writer.failure(); });
+  SendLoop loop([&] { return stop_() || writer.failure(); });
   MqttConnection connection(loop, login_.server, [&](const MqttMessage& message) {
     if (auto topic = read_topic(login_.meeting, message.topic)) {
       writer.add(RecordedMessage{now(), std::move(*topic), message.payload});

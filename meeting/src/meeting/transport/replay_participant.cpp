@@ -16,7 +16,6 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr milliseconds kLongestAnswer{3000};
 constexpr milliseconds kLongestWrite{5000};
 constexpr milliseconds kForever = std::chrono::hours(1);
-constexpr std::chrono::seconds kGoodConnection{2};
 
 }  // namespace
 
@@ -119,20 +118,18 @@ void ReplayParticipant::run() {
         open();
         serve();
         disconnect();
-        pauses.reset();
+        pauses = {};
       } catch (const std::exception& e) {
         const std::lock_guard lock(mutex_);
         status_.ready = false;
         status_.failure = e.what();
         working_ = false;
-        if (SteadyClock::now() - start >= kGoodConnection) {
-          pauses.reset();
-        }
       }
       connection_.close();
       loop_.discard_handlers();
+      const auto pause = pauses.next(SteadyClock::now() - start);
       // If even the first connection failed, the user sees the failure and there is no second attempt.
-      loop_.wait([] { return false; }, first_ ? kForever : pauses.next());
+      loop_.wait([] { return false; }, first_ ? kForever : pause);
     }
   } catch (const LoopStopped&) {
     disconnect();

@@ -14,7 +14,6 @@
 #include <thread>
 
 #include "meeting/protocol/participant_replay.h"
-#include "meeting/transport/blocking_loop.h"
 #include "meeting/transport/login.h"
 #include "meeting/transport/mqtt_connection.h"
 
@@ -84,7 +83,7 @@ class ReplayParticipant {
 
   const BrokerLogin login_;
   std::atomic<bool> stopping_ = false;
-  BlockingLoop loop_;
+  SendLoop loop_;
   const std::function<void()> wake_;
   MqttConnection connection_;
   // Used by the thread only.
