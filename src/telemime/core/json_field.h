@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "telemime/core/errors.h"
 
@@ -42,6 +43,15 @@ class JsonField {
   JsonField operator[](std::size_t index) const;
   /// True if this is an object with this member.
   bool has(std::string_view key) const;
+  /// What `read` gives for a member of an object; nothing if there is none, or if `read` refuses it.
+  template <class Read>
+  auto optional(std::string_view key, const Read& read) const -> std::optional<decltype(read(*this))> {
+    try {
+      return read((*this)[key]);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+  }
   /// The length of a list.
   std::size_t size() const;
 
@@ -82,6 +92,18 @@ class JsonField {
   const JsonSource* source_;
   std::string place_;
 };
+
+/// What `read` gives for a text that someone else wrote; nothing if it is not JSON, or if `read` refuses it.
+template <class Read>
+auto read_if_valid(std::string_view text, const JsonSource& source, const Read& read)
+    -> std::optional<decltype(read(std::declval<const JsonField&>()))> {
+  try {
+    const nlohmann::json value = parse_json(text, source);
+    return read(JsonField(value, source));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
 
 /// The camera in an object: width, height, fx, fy, cx, cy, and `distortion` (5 numbers) when present.
 Camera read_camera(const JsonField& object);

@@ -38,6 +38,18 @@ TEST(JsonField, ReadsValuesThatFit) {
   EXPECT_FALSE(root["on"].has("a"));
 }
 
+TEST(JsonField, MayCountInvalidValuesAsMissing) {
+  const auto a = [](const JsonField& root) {
+    return root.optional("a", [](const JsonField& f) { return f.number(); });
+  };
+  EXPECT_EQ(read_if_valid(R"({"a": 2})", kSource, a).value(), 2.0);
+  EXPECT_FALSE(read_if_valid(R"({"a": "2"})", kSource, a).value());
+  EXPECT_FALSE(read_if_valid("{}", kSource, a).value());
+  for (const char* const bad : {"", "{", "[[[[[]]]]]"}) {
+    EXPECT_FALSE(read_if_valid(bad, kSource, a)) << bad;
+  }
+}
+
 TEST(JsonField, NamesThePlaceOfWhatIsWrong) {
   const std::string text =
       R"({"a": {"b": [1, "x"]}, "text": "long", "zero": 0, "half": 0.5, "huge": 18446744073709551615})";

@@ -8,7 +8,6 @@
 #include "meeting/hosting/provisioning.h"
 #include "meeting/hosting/secrets.h"
 #include "meeting/hosting/service.h"
-#include "meeting/protocol/json.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/web_stream.h"
 
@@ -202,21 +201,21 @@ struct MeetingHost::State {
     if (grant.result != LoginResult::accepted) {
       return plain_text(static_cast<unsigned>(grant.result), text_of(grant.result));
     }
-    Json roles = {"watch"};
+    nlohmann::json roles = {"watch"};
     if (!grant.participant.empty()) {
       roles = {"speak", "board"};
       if (grant.chair) {
         roles.push_back("chair");
       }
     }
-    Json json = {{"user", grant.account.user},
-                 {"password", grant.account.password},
-                 {"participant", nullptr},
-                 {"mqtt", web_broker(host)},
-                 {"tcp", tcp_broker(host)},
-                 {"topic", topic_base(meeting)},
-                 {"roles", roles},
-                 {"looks", options.looks}};
+    nlohmann::json json = {{"user", grant.account.user},
+                           {"password", grant.account.password},
+                           {"participant", nullptr},
+                           {"mqtt", web_broker(host)},
+                           {"tcp", tcp_broker(host)},
+                           {"topic", topic_base(meeting)},
+                           {"roles", roles},
+                           {"looks", options.looks}};
     if (!grant.participant.empty()) {
       json["participant"] = grant.participant;
       json["return"] = grant.rejoin;

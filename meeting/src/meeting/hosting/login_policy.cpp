@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "meeting/hosting/crypto.h"
-#include "meeting/protocol/json.h"
+#include "telemime/core/json_field.h"
 
 namespace telemime::meeting {
 namespace {
 
-constexpr int kDeepestRequest = 3;
 constexpr std::size_t kLongestText = 500;
 
 /// The address, or the network of an IPv6 address.
@@ -26,13 +25,16 @@ std::string network_of(const std::string& text) {
   return boost::asio::ip::make_address_v6(bytes).to_string();
 }
 
-/// Reads an optional string. Returns false when the member exists and is invalid.
-bool read_text(const Json& json, const char* name, std::optional<std::string>& text) {
-  if (member(json, name).is_null()) {
-    return true;
+/// An optional text; null counts as missing.
+std::optional<std::string> text_of(const JsonField& json, const char* name) {
+  if (!json.has(name) || json[name].value().is_null()) {
+    return std::nullopt;
   }
-  text = text_member(json, name);
-  return !text->empty() && text->size() <= kLongestText;
+  const std::string text = json[name].text(kLongestText);
+  if (text.empty()) {
+    json[name].fail("is empty");
+  }
+  return text;
 }
 
 }  // namespace
@@ -63,19 +65,13 @@ bool RateLimit::take(double& left) {
 }
 
 std::optional<LoginRequest> read_login_request(std::string_view body) {
-  const Json json = parse_object(body, kDeepestRequest);
-  LoginRequest request;
-  if (!whole_member(json, "v", 1, 1) || !read_text(json, "invite", request.invite) ||
-      !read_text(json, "return", request.rejoin)) {
-    return std::nullopt;
-  }
-  if (json.contains("watch")) {
-    if (!json["watch"].is_boolean()) {
-      return std::nullopt;
-    }
-    request.watch = json["watch"].get<bool>();
-  }
-  return request;
+  const JsonSource source{.name = "the request", .kind = ErrorKind::input, .remedy = "", .deepest = 3};
+  return read_if_valid(body, source, [](const JsonField& json) {
+    json["v"].integer(1, 1);
+    return LoginRequest{.invite = text_of(json, "invite"),
+                        .rejoin = text_of(json, "return"),
+                        .watch = json.has("watch") && json["watch"].boolean()};
+  });
 }
 
 LoginDecision LoginPolicy::log_in(const std::optional<LoginRequest>& request, const std::string& address,

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "meeting/hosting/crypto.h"
-#include "meeting/protocol/json.h"
+#include "meeting/protocol/outcome.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/files.h"
 
@@ -38,20 +38,20 @@ bool is_secret(const std::string& text) {
 }
 
 MeetingSecrets secrets_of(const fs::path& path, const std::string& content) {
-  const Json json = parse_object(content);
-  MeetingSecrets secrets{
-      .speak = text_member(json, "speak"),
-      .watch = text_member(json, "watch"),
-      .chair = text_member(json, "chair"),
-      .key = text_member(json, "key"),
-      .next = static_cast<unsigned>(whole_member(json, "next", 1, kMostParticipants).value_or(0))};
-  const bool complete = is_secret(secrets.speak) && is_secret(secrets.watch) && is_secret(secrets.chair) &&
-                        is_secret(secrets.key) && secrets.next > 0;
-  if (!complete || secrets.speak == secrets.watch || secrets.speak == secrets.chair ||
-      secrets.watch == secrets.chair) {
+  const auto secrets = read_if_valid(content, kMessageSource, [](const JsonField& json) {
+    return MeetingSecrets{.speak = json["speak"].text(),
+                          .watch = json["watch"].text(),
+                          .chair = json["chair"].text(),
+                          .key = json["key"].text(),
+                          .next = static_cast<unsigned>(json["next"].integer(1, kMostParticipants))};
+  });
+  const bool complete = secrets && is_secret(secrets->speak) && is_secret(secrets->watch) &&
+                        is_secret(secrets->chair) && is_secret(secrets->key);
+  if (!complete || secrets->speak == secrets->watch || secrets->speak == secrets->chair ||
+      secrets->watch == secrets->chair) {
     unusable(path, "telemime meeting did not write it", "Move it away to create a new one, with new links.");
   }
-  return secrets;
+  return *secrets;
 }
 
 }  // namespace
@@ -110,8 +110,9 @@ MeetingSecrets SecretsFile::load() {
 }
 
 void SecretsFile::save(const MeetingSecrets& secrets) const {
-  const Json json = {{"version", 1},           {"speak", secrets.speak}, {"watch", secrets.watch},
-                     {"chair", secrets.chair}, {"key", secrets.key},     {"next", secrets.next}};
+  const nlohmann::ordered_json json = {{"version", 1},           {"speak", secrets.speak},
+                                       {"watch", secrets.watch}, {"chair", secrets.chair},
+                                       {"key", secrets.key},     {"next", secrets.next}};
   write_private_file(path_, json.dump(2) + "\n", /*durable=*/true);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/protocol/meeting_info.h"
 
-#include "meeting/protocol/json.h"
 #include "meeting/protocol/messages.h"
 #include "meeting/protocol/topics.h"
 
@@ -11,9 +10,8 @@ namespace {
 constexpr std::size_t kLongestInfo = 8192;  // bytes
 constexpr std::size_t kLongestTitle = 200;  // bytes
 
-std::optional<std::uint32_t> epoch_of(const Json& json) {
-  const auto epoch = whole_member(json, "epoch", 0, UINT32_MAX);
-  return epoch ? std::optional(static_cast<std::uint32_t>(*epoch)) : std::nullopt;
+std::uint32_t epoch_of(const JsonField& json) {
+  return static_cast<std::uint32_t>(json["epoch"].integer(0, UINT32_MAX));
 }
 
 }  // namespace
@@ -29,24 +27,28 @@ std::string write_meeting_info(const MeetingInfo& meeting) {
 }
 
 std::optional<MeetingInfo> read_meeting_info(std::string_view bytes) {
-  const Json json = bytes.size() <= kLongestInfo ? parse_object(bytes) : Json();
-  const auto epoch = epoch_of(json);
-  MeetingInfo meeting;
-  meeting.title = text_member(json, "title");
-  if (!whole_member(json, "v", 1, 1) || !epoch || meeting.title.size() > kLongestTitle) {
+  if (bytes.size() > kLongestInfo) {
     return std::nullopt;
   }
-  meeting.epoch = *epoch;
-  meeting.seats = static_cast<int>(whole_member(json, "seats", 1, kMostSeats).value_or(meeting.seats));
-  if (const Json& chairs = member(json, "chairs"); chairs.is_array()) {
-    for (const Json& chair : chairs) {
-      if (chair.is_string() && is_topic_segment(chair.get_ref<const std::string&>())) {
-        meeting.chairs.push_back(chair.get<std::string>());
+  return read_if_valid(bytes, kMessageSource, [](const JsonField& json) {
+    json["v"].integer(1, 1);
+    MeetingInfo meeting;
+    meeting.epoch = epoch_of(json);
+    meeting.title = json.optional("title", [](const JsonField& f) { return f.text(); }).value_or("");
+    if (meeting.title.size() > kLongestTitle) {
+      json.fail("has too long a title");
+    }
+    const auto seats = json.optional("seats", [](const JsonField& f) { return f.integer(1, kMostSeats); });
+    meeting.seats = static_cast<int>(seats.value_or(meeting.seats));
+    const nlohmann::json chairs = json.value().value("chairs", nlohmann::json());
+    for (std::size_t i = 0; i < chairs.size() && chairs.is_array(); ++i) {
+      if (chairs[i].is_string() && is_topic_segment(chairs[i].get_ref<const std::string&>())) {
+        meeting.chairs.push_back(chairs[i].get<std::string>());
       }
     }
-  }
-  meeting.locked = member(json, "locked") == true;
-  return meeting;
+    meeting.locked = json.value().value("locked", nlohmann::json()) == true;
+    return meeting;
+  });
 }
 
 std::optional<MeetingInfo> after_change(const MeetingInfo& own, const std::optional<MeetingInfo>& received) {
@@ -59,17 +61,17 @@ std::optional<MeetingInfo> after_change(const MeetingInfo& own, const std::optio
 }
 
 std::optional<std::uint32_t> read_epoch(std::string_view payload) {
-  return epoch_of(parse_object(payload));
+  return read_if_valid(payload, kMessageSource, epoch_of);
 }
 
 std::optional<std::string> page_with_epoch(std::string_view payload, std::uint32_t epoch) {
-  Json json = parse_object(payload);
-  if (!epoch_of(json)) {
-    return std::nullopt;
-  }
-  json["epoch"] = epoch;
-  std::string text = json.dump();
-  return text.size() <= kLongestPayload ? std::optional(std::move(text)) : std::nullopt;
+  const auto text = read_if_valid(payload, kMessageSource, [&](const JsonField& page) {
+    epoch_of(page);
+    nlohmann::json json = page.value();
+    json["epoch"] = epoch;
+    return json.dump();
+  });
+  return text && text->size() <= kLongestPayload ? text : std::nullopt;
 }
 
 }  // namespace telemime::meeting

@@ -2,8 +2,8 @@
 #include "meeting/protocol/messages.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "meeting/protocol/json.h"
 #include "meeting/protocol/topics.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/text.h"
@@ -11,6 +11,8 @@
 
 namespace telemime::meeting {
 namespace {
+
+using Json = nlohmann::ordered_json;  // members keep their order
 
 constexpr int kVersion = 1;
 constexpr int kMetreDecimals = 5;
@@ -21,10 +23,6 @@ constexpr std::size_t kLongestUrl = 2048;
 constexpr std::size_t kHashDigits = 64;
 constexpr std::size_t kMostAttending = 1000;  // the names come from outside, so memory needs a bound
 constexpr std::string_view kHttps = "https://";
-
-[[noreturn]] void reject(const std::string& reason) {
-  throw MessageFault{reason};  // caught by read()
-}
 
 bool is_hash(std::string_view text) {
   return text.size() == kHashDigits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
@@ -52,95 +50,75 @@ bool is_position(const Eigen::Vector3d& position) {
   return position.allFinite() && position.cwiseAbs().maxCoeff() <= kFarthest;
 }
 
-Json parse(std::string_view bytes, std::size_t longest) {
-  if (bytes.empty() || bytes.size() > longest) {
-    reject("it does not have 1 to " + std::to_string(longest) + " bytes");
-  }
-  Json message = parse_object(bytes);
-  if (message.is_null()) {
-    reject("it is not a JSON object");
-  }
-  if (!whole_member(message, "v", kVersion, kVersion)) {
-    reject("it has another version");
-  }
-  return message;
+std::uint16_t session_of(const JsonField& message) {
+  return static_cast<std::uint16_t>(message["session"].integer(1, UINT16_MAX));
 }
 
-std::uint16_t session_of(const Json& message) {
-  const auto session = whole_member(message, "session", 1, UINT16_MAX);
-  if (!session) {
-    reject("session is not a number from 1 to 65535");
+ParticipantKind kind_of(const JsonField& kind) {
+  const std::string text = kind.text();
+  if (text != "tracker" && text != "browser") {
+    kind.fail("is neither tracker nor browser");
   }
-  return static_cast<std::uint16_t>(*session);
+  return text == "tracker" ? ParticipantKind::tracker : ParticipantKind::browser;
 }
 
-ParticipantKind kind_of(const Json& message) {
-  const std::string kind = text_member(message, "kind");
-  if (kind != "tracker" && kind != "browser") {
-    reject("kind is neither tracker nor browser");
-  }
-  return kind == "tracker" ? ParticipantKind::tracker : ParticipantKind::browser;
-}
-
-std::variant<std::monostate, AvatarByLook, AvatarFile> avatar_of(const Json& message) {
-  const Json& avatar = member(message, "avatar");
-  if (avatar.is_null()) {
-    return {};
-  }
-  if (!avatar.is_object()) {
-    reject("avatar is not an object");
-  }
-  if (!avatar.contains("url")) {
-    const std::string look = text_member(avatar, "look");
+std::variant<std::monostate, AvatarByLook, AvatarFile> avatar_of(const JsonField& avatar) {
+  if (!avatar.has("url")) {
+    const std::string look = avatar["look"].text();
     if (!is_topic_segment(look)) {
-      reject("the look of the avatar is not a name");
+      avatar.fail("has a look that is not a name");
     }
     return AvatarByLook{look};
   }
-  const AvatarFile file{text_member(avatar, "url"), text_member(avatar, "sha256"),
-                        whole_member(avatar, "bytes", 1, kLargestAvatar).value_or(0)};
+  const AvatarFile file{avatar["url"].text(), avatar["sha256"].text(),
+                        avatar["bytes"].integer(1, kLargestAvatar)};
   if (!is_file(file)) {
-    reject("the avatar file has no https address, hash or size");
+    avatar.fail("has no https address, hash or size");
   }
   return file;
 }
 
-void read_bones(const Json& message, ParticipantState& state) {
-  const Json& bones = member(message, "bones");
-  if (!bones.is_null() && !bones.is_object()) {
-    reject("bones is not an object");
+void read_bones(const JsonField& bones, ParticipantState& state) {
+  if (!bones.value().is_object()) {
+    bones.fail("must be a JSON object");
   }
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {
-    const auto found = bones.find(std::string(kHumanBoneNames[bone]));
-    if (found == bones.end()) {
+    if (!bones.has(kHumanBoneNames[bone])) {
       continue;
     }
-    const bool three = found->is_array() && found->size() == 3 &&
-                       std::all_of(found->begin(), found->end(), [](const Json& v) { return v.is_number(); });
-    Eigen::Vector3d position = Eigen::Vector3d::Constant(2.0 * kFarthest);
-    for (std::size_t axis = 0; axis < 3 && three; ++axis) {
-      position[static_cast<Eigen::Index>(axis)] = (*found)[axis].get<double>();
+    const JsonField place = bones[kHumanBoneNames[bone]];
+    const auto numbers = place.numbers<3>();
+    state.bones[bone] = Eigen::Vector3d(numbers.data());
+    if (!is_position(*state.bones[bone])) {
+      place.fail("is not within 10 m");
     }
-    if (!is_position(position)) {
-      reject("the position of a bone is not three numbers within 10 m");
-    }
-    state.bones[bone] = position;
   }
 }
 
 /// A number of a message that `valid` accepts; anything else counts as missing.
-std::optional<double> optional_number(const Json& message, const char* name, bool (*valid)(double)) {
-  const Json& value = member(message, name);
-  return value.is_number() && valid(value.get<double>()) ? std::optional(value.get<double>()) : std::nullopt;
+std::optional<double> optional_number(const JsonField& message, const char* name, bool (*valid)(double)) {
+  const auto number = message.optional(name, [](const JsonField& f) { return f.number(); });
+  return number && valid(*number) ? number : std::nullopt;
 }
 
-/// The result of `parse_message`, or the fault that it throws.
+/// Whether an object has the member, and it is not null.
+bool has_value(const JsonField& object, const char* name) {
+  return object.has(name) && !object[name].value().is_null();
+}
+
+/// What `parse_message` gives for a message of at most `longest` bytes, or the reason why it is invalid.
 template <class Message, class Parse>
-Outcome<Message, MessageFault> read(const Parse& parse_message) {
+Outcome<Message, MessageFault> read(std::string_view bytes, std::size_t longest, const Parse& parse_message) {
+  if (bytes.empty() || bytes.size() > longest) {
+    return MessageFault{"it does not have 1 to " + std::to_string(longest) + " bytes"};
+  }
   try {
-    return parse_message();
-  } catch (const MessageFault& fault) {
-    return fault;
+    const nlohmann::json json = parse_json(bytes, kMessageSource);
+    const JsonField message(json, kMessageSource);
+    message["v"].integer(kVersion, kVersion);
+    return parse_message(message);
+  } catch (const Error& fault) {
+    return MessageFault{fault.what()};
   }
 }
 
@@ -230,33 +208,31 @@ std::string write_presence(const ParticipantPresence& presence) {
 }
 
 Outcome<ParticipantState, MessageFault> read_state(std::string_view bytes) {
-  return read<ParticipantState>([&] {
-    const Json message = parse(bytes, kLongestState);
+  return read<ParticipantState>(bytes, kLongestState, [](const JsonField& message) {
     ParticipantState state;
     state.session = session_of(message);
-    state.kind = kind_of(message);
-    state.name = text_member(message, "name");
+    state.kind = kind_of(message["kind"]);
+    state.name = message["name"].text();
     if (!is_participant_name(state.name)) {
-      reject("name is not 1 to 40 characters without control characters");
+      message["name"].fail("is not 1 to 40 characters without control characters");
     }
-    if (const auto seat = whole_member(message, "seat", 0, kMostSeats - 1)) {
-      state.seat = static_cast<int>(*seat);
+    const auto seat =
+        message.optional("seat", [](const JsonField& f) { return f.integer(0, kMostSeats - 1); });
+    state.seat = seat ? std::optional(static_cast<int>(*seat)) : std::nullopt;
+    if (has_value(message, "avatar")) {
+      state.avatar = avatar_of(message["avatar"]);
     }
-    state.avatar = avatar_of(message);
     state.stature = optional_number(message, "stature", is_stature);
-    read_bones(message, state);
+    if (has_value(message, "bones")) {
+      read_bones(message["bones"], state);
+    }
     return state;
   });
 }
 
 Outcome<ParticipantPresence, MessageFault> read_presence(std::string_view bytes) {
-  return read<ParticipantPresence>([&] {
-    const Json message = parse(bytes, kLongestPresence);
-    const Json& here = member(message, "here");
-    if (!here.is_boolean()) {
-      reject("here is neither true nor false");
-    }
-    return ParticipantPresence{here.get<bool>(), session_of(message),
+  return read<ParticipantPresence>(bytes, kLongestPresence, [](const JsonField& message) {
+    return ParticipantPresence{message["here"].boolean(), session_of(message),
                                optional_number(message, "every", is_promise)};
   });
 }

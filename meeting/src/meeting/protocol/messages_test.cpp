@@ -124,15 +124,17 @@ TEST(Messages, NamesHaveOneToFortyCharacters) {
 }
 
 TEST(Messages, ViolationsAreRejectedWithAReason) {
-  EXPECT_NE(refusal(with("v", 2)).find("version"), std::string::npos);
-  EXPECT_NE(refusal(with("v", "1")).find("version"), std::string::npos);
-  EXPECT_NE(refusal(with("session", 0)).find("session"), std::string::npos);
-  EXPECT_NE(refusal(with("session", 65536)).find("session"), std::string::npos);
-  EXPECT_NE(refusal(with("session", -1)).find("session"), std::string::npos);
-  EXPECT_NE(refusal(with("session", 1.5)).find("session"), std::string::npos);
-  EXPECT_NE(refusal(with("kind", "god")).find("kind"), std::string::npos);
-  EXPECT_NE(refusal(with("name", nullptr)).find("name"), std::string::npos);
-  EXPECT_NE(refusal(with("bones", 3)).find("bones"), std::string::npos);
+  for (const auto& [member, value] : {std::pair<std::string, Json>{"v", 2},
+                                      {"v", "1"},
+                                      {"session", 0},
+                                      {"session", 65536},
+                                      {"session", -1},
+                                      {"session", 1.5},
+                                      {"kind", "god"},
+                                      {"name", nullptr},
+                                      {"bones", 3}}) {
+    EXPECT_NE(refusal(with(member, value)).find("'" + member + "'"), std::string::npos) << member << value;
+  }
   for (const char* const place : {"[1,2]", "[1,2,3,4]", "[1,2,\"3\"]", "[1,2,11]", "{\"x\":1}", "null"}) {
     EXPECT_NE(refusal(with("bones", {{"hips", Json::parse(place)}})).find("bone"), std::string::npos)
         << place;
@@ -140,7 +142,7 @@ TEST(Messages, ViolationsAreRejectedWithAReason) {
   EXPECT_NE(refusal("[]").find("JSON"), std::string::npos);
   EXPECT_NE(refusal("").find("bytes"), std::string::npos);
   EXPECT_NE(refusal(std::string(4097, ' ')).find("bytes"), std::string::npos);
-  EXPECT_NE(refusal(std::string(2000, '[') + std::string(2000, ']')).find("JSON"), std::string::npos);
+  EXPECT_NE(refusal(std::string(2000, '[') + std::string(2000, ']')).find("nested"), std::string::npos);
   EXPECT_NE(refusal("{\"v\":1,\"name\":\"\xff\"}").find("JSON"), std::string::npos);
   const std::string text = write_state(ana());
   EXPECT_EQ(refusal(text + std::string(kLongestState - text.size(), ' ')), "");

@@ -4,7 +4,13 @@
 #include <utility>
 #include <variant>
 
+#include "telemime/core/json_field.h"
+
 namespace telemime::meeting {
+
+/// JSON that others write: nested at most 8 levels deep.
+inline const JsonSource kMessageSource{
+    .name = "the message", .kind = ErrorKind::input, .remedy = "", .deepest = 8};
 
 /// The result of reading bytes from an untrusted source: a value, or the reason why there is none. Malformed
 /// input is expected, so it is not an exception.

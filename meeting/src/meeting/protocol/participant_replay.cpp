@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "meeting/protocol/json.h"
 #include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
 #include "meeting/protocol/pose_frame.h"
@@ -120,7 +119,7 @@ std::optional<ReplayStep> ParticipantReplay::state(const RecordedMessage& messag
   if (!state || !follow(state->session)) {
     return std::nullopt;
   }
-  Json json = parse_object(message.payload);
+  nlohmann::json json = parse_json(message.payload, kMessageSource);
   json["session"] = session_;
   std::string text = json.dump();
   if (text.size() > kLongestState) {
@@ -149,16 +148,21 @@ std::optional<ReplayStep> ParticipantReplay::presence(const RecordedMessage& mes
 
 // Readers show each id once. A new first number makes the id new in each replay; equal ids stay equal.
 std::optional<ReplayStep> ParticipantReplay::chat(const RecordedMessage& message) const {
-  Json json = message.payload.size() <= kLongestChat ? parse_object(message.payload) : Json();
-  const std::string id = text_member(json, "id");
-  unsigned number = 0;
-  const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number);
-  if (error != std::errc() || number < 1 || number > UINT16_MAX) {
+  if (message.payload.size() > kLongestChat) {
     return std::nullopt;
   }
-  const std::string rest(end, id.data() + id.size());
-  json["id"] = std::to_string(1 + (number - 1 + chat_shift_) % UINT16_MAX) + rest;
-  return ReplayStep{TopicKind::chat, 0, session_, true, json.dump()};
+  return read_if_valid(message.payload, kMessageSource, [this](const JsonField& chat) {
+    const std::string id = chat["id"].text();
+    unsigned number = 0;
+    const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number);
+    if (error != std::errc() || number < 1 || number > UINT16_MAX) {
+      chat["id"].fail("does not begin with a session");
+    }
+    nlohmann::json json = chat.value();
+    json["id"] =
+        std::to_string(1 + (number - 1 + chat_shift_) % UINT16_MAX) + std::string(end, id.data() + id.size());
+    return ReplayStep{TopicKind::chat, 0, session_, true, json.dump()};
+  });
 }
 
 std::optional<ReplayStep> ParticipantReplay::board(const RecordedMessage& message) const {

@@ -151,7 +151,7 @@ TEST(ParticipantReplay, PagesOfAnotherEpochAreDropped) {
   const auto step = part.step(page(3));
   ASSERT_TRUE(step);
   EXPECT_EQ(step->page, 4);
-  EXPECT_EQ(*page_with_epoch(step->payload, 70), R"({"v":1,"epoch":70,"strokes":[]})");
+  EXPECT_EQ(*page_with_epoch(step->payload, 70), R"({"epoch":70,"strokes":[],"v":1})");
   EXPECT_TRUE(part.step(message(0, TopicKind::board, "", 4))) << "a page may be cleared";
   EXPECT_FALSE(page_with_epoch("[]", 1));
   EXPECT_FALSE(read_epoch(R"({"epoch":-1})"));

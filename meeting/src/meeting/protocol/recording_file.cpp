@@ -6,7 +6,7 @@
 #include <boost/crc.hpp>
 #include <utility>
 
-#include "meeting/protocol/json.h"
+#include "meeting/protocol/outcome.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -89,9 +89,10 @@ bool is_start(const RecordingStart& start) {
 }
 
 std::optional<Record> read_start(Bytes body) {
-  const Json json = parse_object(text_of(body));
-  RecordingStart start{{text_member(json, "tenant"), text_member(json, "room")}, text_member(json, "began")};
-  return is_start(start) ? std::optional<Record>(start) : std::nullopt;
+  const auto start = read_if_valid(text_of(body), kMessageSource, [](const JsonField& json) {
+    return RecordingStart{{json["tenant"].text(), json["room"].text()}, json["began"].text()};
+  });
+  return start && is_start(*start) ? std::optional<Record>(*start) : std::nullopt;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <memory>
 #include <optional>
 
-#include "meeting/protocol/json.h"
+#include "meeting/protocol/outcome.h"
 #include "meeting/transport/login.h"
 #include "meeting/transport/tls.h"
 #include "telemime/core/errors.h"
@@ -193,9 +193,8 @@ class Request {
   std::exception_ptr tls_failure_;
 };
 
-std::string field(const Json& json, const char* name) {
-  std::string text = text_member(json, name);
-  return text.size() <= kLongestField ? text : std::string();
+std::string field(const JsonField& json, const char* name) {
+  return json.optional(name, [](const JsonField& f) { return f.text(kLongestField); }).value_or("");
 }
 
 bool is_topic(std::string_view topic) {
@@ -203,8 +202,7 @@ bool is_topic(std::string_view topic) {
          topic.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-/") == std::string_view::npos;
 }
 
-Credentials credentials_of(const SendUrl& url, const std::string& body) {
-  const Json json = parse_object(body);
+Credentials credentials_in(const JsonField& json) {
   Credentials credentials{.broker = field(json, "tcp"),
                           .user = field(json, "user"),
                           .password = field(json, "password"),
@@ -212,13 +210,14 @@ Credentials credentials_of(const SendUrl& url, const std::string& body) {
                           .participant = field(json, "participant"),
                           .roles = {},
                           .rejoin = field(json, "return")};
-  if (const Json& roles = member(json, "roles"); roles.is_array()) {
-    for (const Json& role : roles) {
-      if (role.is_string()) {
-        credentials.roles.push_back(role.get<std::string>());
-      }
-    }
+  for (std::size_t i = 0; json.has("roles") && i < json["roles"].size(); ++i) {
+    credentials.roles.push_back(json["roles"][i].text());
   }
+  return credentials;
+}
+
+Credentials credentials_of(const SendUrl& url, const std::string& body) {
+  const auto credentials = read_if_valid(body, kMessageSource, credentials_in).value_or(Credentials{});
   if (credentials.user.empty() || credentials.password.empty() || !is_topic(credentials.topic)) {
     fail(url, "the answer of its server is invalid");
   }
@@ -255,7 +254,7 @@ Credentials log_in_by_link(const LinkLogin& login) {
     throw invalid(url.text);
   }
   url.port = url.port.value_or(url.scheme == "https" ? 443 : 80);
-  Json question = {{"v", 1}, {"watch", login.watch}};
+  nlohmann::json question = {{"v", 1}, {"watch", login.watch}};
   if (!url.password.empty()) {
     question["invite"] = url.password;
   }
@@ -263,7 +262,8 @@ Credentials log_in_by_link(const LinkLogin& login) {
     question["return"] = login.rejoin;
   }
   return credentials_of(
-      url, Request(url, login, question.dump(-1, ' ', false, Json::error_handler_t::replace)).answer());
+      url,
+      Request(url, login, question.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).answer());
 }
 
 }  // namespace telemime::meeting

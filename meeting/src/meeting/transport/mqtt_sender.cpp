@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "meeting/protocol/json.h"
+#include "meeting/protocol/outcome.h"
 #include "meeting/transport/senders.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/files.h"
@@ -84,15 +84,16 @@ BrokerKey read_key_file(const std::filesystem::path& file) {
   } catch (const std::runtime_error& e) {
     throw unusable(e.what());
   }
-  const Json json = parse_object(read.content);
-  BrokerKey key{text_member(json, "user"), text_member(json, "password"), ""};
-  if (!is_valid(key)) {
+  auto key = read_if_valid(read.content, kMessageSource, [](const JsonField& json) {
+    return BrokerKey{json["user"].text(), json["password"].text(), ""};
+  });
+  if (!key || !is_valid(*key)) {
     throw unusable("it contains no user and password");
   }
   if ((read.mode & (S_IRWXG | S_IRWXO)) != 0) {
-    key.warning = "other users of this computer can read the key: chmod 600 " + file.string();
+    key->warning = "other users of this computer can read the key: chmod 600 " + file.string();
   }
-  return key;
+  return *key;
 }
 
 std::optional<BrokerKey> key_of(const SendUrl& url, const char* environment) {
