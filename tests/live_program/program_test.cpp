@@ -219,25 +219,6 @@ TEST_F(LiveRun, GuideWaitsForAPageAndReportsIt) {
   EXPECT_TRUE(comes_true([&] { return program.report().state.phase == LivePhase::person; }));
 }
 
-TEST_F(LiveRun, RecordingIsServedInParts) {
-  const LiveProgram program(options(), camera_of(scene_), {});
-  SocketClient page(program.port());
-  page.say(R"({"type":"record","on":true})");
-  receive(page, "status",
-          [](const Json& j) { return !j.at("recording").is_null() && j.at("recording").at("frames") > 5; });
-  page.say(R"({"type":"record","on":false})");
-  receive(page, "status", [](const Json& j) { return !j.at("recordings").empty(); });
-  const std::uint16_t port = program.port();
-  const WebReply whole = ask(port, "/recordings/1/motion.bvh");
-  const WebReply part = ask(port, "/recordings/1/motion.bvh", "Range: bytes=3-8\r\n");
-  EXPECT_EQ(whole.body.substr(0, 9), "HIERARCHY");
-  EXPECT_EQ(part.status, 206);
-  EXPECT_EQ(part.body, "RARCHY");
-  EXPECT_EQ(whole.header("Content-Disposition"), "attachment; filename=\"telemime-1-motion.bvh\"");
-  const WebReply head = ask(port, "/recordings/1/motion.bvh", "", "HEAD");
-  EXPECT_EQ(head.header("Content-Length"), std::to_string(whole.body.size()));
-}
-
 TEST(PageUrl, IsReachableFromThisComputer) {
   WebServerOptions web;
   EXPECT_EQ(page_url(web, 7070), "http://localhost:7070");
