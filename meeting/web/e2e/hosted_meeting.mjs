@@ -48,7 +48,6 @@ export async function startHostedMeeting(command, { title = "Blue room" } = {}) 
     folder,
     url,
     topic: watcher.topic,
-    asked: [],
     invites,
     enter,
     link: (role) => links[role],

@@ -64,7 +64,6 @@ export async function startMeeting({
   const invites = { speak: secret(), watch: secret(), chair: secret() };
   const tokens = new Map(); // return token -> participant
   const taken = new Set();
-  const asked = []; // addresses of all requests, which contain no secrets
   const files = avatarsOf(avatars);
 
   function enter({ invite, return: token, watch }) {
@@ -89,7 +88,6 @@ export async function startMeeting({
 
   const server = createServer((request, response) => {
     const url = new URL(request.url, "http://localhost");
-    asked.push(request.url);
     const send = (code, type, data) => {
       response.writeHead(code, {
         "content-type": type,
@@ -157,7 +155,6 @@ export async function startMeeting({
     broker,
     topic,
     url,
-    asked,
     invites,
     service,
     link: (role) => `${url}#k=${invites[role]}`,

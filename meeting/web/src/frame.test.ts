@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// golden.test.ts has the sizes, the signs and each kind of fault.
 import { describe, expect, it } from "vitest";
 import { about, angleBetween, multiply, type Quat } from "#web/shared/quaternion";
 import { BONES, MAX_FRAME, MAX_BONES, decodeFrame, encodeFrame, type PoseFrame } from "./frame";
@@ -24,10 +25,6 @@ const frame = (change: Partial<PoseFrame> = {}): PoseFrame =>
   });
 
 describe("frames", () => {
-  it("of 13 bones have 111 bytes", () => {
-    expect(encodeFrame(frame()).length).toBe(111);
-    expect(encodeFrame(frame({ bones: [], tracked: false })).length).toBe(26);
-  });
   it("come back as they were, to 15 bits", () => {
     const next = chance(1);
     let worst = 0;
@@ -43,18 +40,6 @@ describe("frames", () => {
       bones.forEach((b, i) => (worst = Math.max(worst, angleBetween(b.rotation, got.bones[i]!.rotation))));
     }
     expect(worst).toBeLessThan(1.5e-4); // rad
-  });
-  it("read a rotation of either sign", () => {
-    for (const rotation of [
-      [0.5, 0.5, 0.5, 0.5],
-      [-0.5, -0.5, -0.5, -0.5],
-      [0, 0, 0, -1],
-      [-1, 0, 0, 0],
-      [0, Math.SQRT1_2, -Math.SQRT1_2, 0],
-    ] as Quat[]) {
-      const got = decodeFrame(encodeFrame(frame({ bones: [{ bone: 4, rotation, confidence: 0 }] })))!;
-      expect(angleBetween(got.bones[0]!.rotation, rotation)).toBeLessThan(1.5e-4);
-    }
   });
   it("take any view of memory", () => {
     const bytes = encodeFrame(frame());
@@ -80,11 +65,6 @@ describe("frames", () => {
 
 describe("malformed frames", () => {
   const good = encodeFrame(frame());
-  const changed = (at: number, value: number): Uint8Array => {
-    const b = good.slice();
-    b[at] = value;
-    return b;
-  };
   it("of every other length", () => {
     for (let n = 0; n < good.length; n++) expect(decodeFrame(good.subarray(0, n))).toBeNull();
     for (const more of [1, 6, MAX_FRAME, 1 << 20]) {
@@ -92,32 +72,6 @@ describe("malformed frames", () => {
       b.set(good);
       expect(decodeFrame(b)).toBeNull();
     }
-  });
-  it("of another version, session, bone count", () => {
-    expect(decodeFrame(good)).not.toBeNull();
-    expect(decodeFrame(changed(0, 2))).toBeNull();
-    const none = changed(2, 0);
-    none[3] = 0;
-    expect(decodeFrame(none)).toBeNull();
-    for (const at of [18, 19]) expect(decodeFrame(changed(at, 0xf8))).toBeNull();
-    expect(decodeFrame(changed(17, 0xff))).toBeNull(); // more bones than bytes
-    expect(decodeFrame(changed(1, 0))).toBeNull(); // lost, with bones
-    expect(decodeFrame(changed(1, 0xfd))).not.toBeNull(); // flags of later versions
-  });
-  it("with all 19 bones", () => {
-    const b = new Uint8Array(26 + 10 + 19 * 6);
-    b.set(good.subarray(0, 16));
-    new DataView(b.buffer).setUint32(16, 0x7ffff, true);
-    expect(decodeFrame(b)).toBeNull();
-  });
-  it("with bits that no rotation has", () => {
-    const first = 26 + 7;
-    expect(decodeFrame(changed(first + 5, good[first + 5]! | 0x80))).toBeNull();
-    const long = good.slice();
-    long.fill(0xff, first, first + 5); // three components of 0.7
-    long[first + 5] = 0x1f;
-    expect(decodeFrame(long)).toBeNull();
-    expect(decodeFrame(changed(32, 0xff))).toBeNull(); // the unused half of the confidences
   });
   it("of noise give only unit rotations", () => {
     const next = chance(3);
