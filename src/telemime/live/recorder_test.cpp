@@ -159,7 +159,6 @@ class NoEnd final : public Encoder {
   std::string begin(const StreamHeader& /*header*/) override { return "head\n"; }
   std::string frame(const MotionFrame& /*frame*/) override { return "frame\n"; }
   std::string end() override { throw std::bad_alloc(); }
-  std::optional<Patch> patch() const override { return std::nullopt; }
 };
 
 TEST_F(Records, WhatFailsAtTheEndIsToldAndTheOtherFilesAreWhole) {

@@ -43,9 +43,9 @@ class Encoder {
   /// One frame. Non-finite numbers are replaced by the last finite ones, and the frame becomes lost.
   virtual std::string frame(const MotionFrame& frame) = 0;
   /// The tail of the file; empty if the format has none.
-  virtual std::string end() = 0;
+  virtual std::string end() { return {}; }
   /// Bytes of the head that changed with the last frame (a frame count); may be empty.
-  virtual std::optional<Patch> patch() const = 0;
+  virtual std::optional<Patch> patch() const { return std::nullopt; }
 };
 
 }  // namespace telemime

@@ -49,8 +49,6 @@ class BapEncoder final : public Encoder {
     return text + "\n";
   }
 
-  std::string end() override { return {}; }
-
   std::optional<Patch> patch() const override {
     return Patch{count_offset_, padded_count(count_, kCountWidth)};
   }

@@ -90,8 +90,6 @@ class BvhEncoder final : public Encoder {
     return text;
   }
 
-  std::string end() override { return {}; }
-
   std::optional<Patch> patch() const override {
     return Patch{count_offset_, padded_count(count_, kCountWidth)};
   }

@@ -54,9 +54,6 @@ class CsvEncoder final : public Encoder {
     return line + "," + std::to_string(frame.evaluations) + "\n";
   }
 
-  std::string end() override { return {}; }
-  std::optional<Patch> patch() const override { return std::nullopt; }
-
  private:
   static void append_place(std::string& line, const Eigen::Vector3d& place) {
     for (const double value : place) {

@@ -157,9 +157,6 @@ class JsonlEncoder final : public Encoder {
     return line(object);
   }
 
-  std::string end() override { return {}; }
-  std::optional<Patch> patch() const override { return std::nullopt; }
-
  private:
   FiniteFrames finite_;
 };

@@ -60,8 +60,6 @@ class TrcEncoder final : public Encoder {
     return line + "\n";
   }
 
-  std::string end() override { return {}; }
-
   std::optional<Patch> patch() const override { return Patch{counts_offset_, counts()}; }
 
  private:
