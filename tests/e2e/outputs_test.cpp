@@ -136,8 +136,8 @@ TEST(Results, OfARunThatWasStoppedAreValid) {
     EXPECT_EQ(pose.complaint, "");
     EXPECT_GE(pose.frames.size(), 3U);
     EXPECT_LT(pose.frames.size(), 2000U);
-    EXPECT_EQ(read_bvh(folder / "out/motion.bvh").frames.size(), pose.frames.size());
-    EXPECT_EQ(read_bap(folder / "out/motion.bap").frames.size(), pose.frames.size());
+    EXPECT_EQ(parse_bvh(bytes_of(folder / "out/motion.bvh"), "bvh").frames.size(), pose.frames.size());
+    EXPECT_EQ(parse_bap(bytes_of(folder / "out/motion.bap"), "bap").frames.size(), pose.frames.size());
     EXPECT_TRUE(nlohmann::json::parse(bytes_of(folder / "out/report.json")).at("interrupted").get<bool>());
   }
 }

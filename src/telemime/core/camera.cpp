@@ -63,10 +63,6 @@ std::optional<Camera> from_plain_json(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool Camera::has_distortion() const {
-  return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
-}
-
 Eigen::Vector2d Camera::project(const Eigen::Vector3d& point) const {
   return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
 }

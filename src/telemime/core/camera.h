@@ -19,8 +19,6 @@ struct Camera {
   /// k1 k2 p1 p2 k3 of OpenCV's model; all zero when the image has no distortion or was undistorted.
   std::array<double, 5> distortion{};
 
-  bool has_distortion() const;
-
   /// Camera-frame point (m) to pixel [u, v], without distortion. z must be positive.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;
 

@@ -102,10 +102,6 @@ const TensorShape& Network::input_shape() const {
   return runtime_->graph.tensors[runtime_->graph.input].shape;
 }
 
-std::size_t Network::output_count() const {
-  return runtime_->graph.outputs.size();
-}
-
 const TensorShape& Network::output_shape(std::size_t output) const {
   return runtime_->graph.tensors[runtime_->graph.outputs.at(output)].shape;
 }

@@ -24,7 +24,6 @@ class Network {
   ~Network();
 
   const TensorShape& input_shape() const;
-  std::size_t output_count() const;
   const TensorShape& output_shape(std::size_t output) const;
 
   /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage) if

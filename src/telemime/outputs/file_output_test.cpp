@@ -55,8 +55,8 @@ TEST_F(FileOutputTest, AFileIsValidAfterEveryFrame) {
     bap.write(frames_[f]);
     // Nothing was closed: this is what a killed run leaves behind.
     const PoseFile json_file = read_pose_jsonl(json.path());
-    const BvhFile bvh_file = read_bvh(bvh.path());
-    const BapFile bap_file = read_bap(bap.path());
+    const BvhFile bvh_file = parse_bvh(read_text_file(bvh.path()), "bvh");
+    const BapFile bap_file = parse_bap(read_text_file(bap.path()), "bap");
     EXPECT_EQ(json_file.frames.size(), f + 1);
     EXPECT_EQ(bvh_file.frames.size(), f + 1);
     EXPECT_EQ(bap_file.stated_frames, static_cast<std::int64_t>(f + 1));

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/files.h"
 #include "telemime/outputs/readers/words.h"
 
 namespace telemime {
@@ -141,10 +140,6 @@ BapFile parse_bap(std::string_view text, const std::string& name) {
     }
   }
   return parser.finish();
-}
-
-BapFile read_bap(const std::filesystem::path& file) {
-  return parse_bap(read_text_file(file), file.string());
 }
 
 BapValues values_of(const BapProfile& profile, const BapFrame& frame, const BapValues& last) {

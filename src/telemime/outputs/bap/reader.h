@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,9 +35,6 @@ struct BapFile {
 /// `name` and the line when something that is not a number stands in the place of one, or when a mask is
 /// longer than 296.
 BapFile parse_bap(std::string_view text, const std::string& name);
-
-/// The same, of a file.
-BapFile read_bap(const std::filesystem::path& file);
 
 /// The values of a profile's parameters in this frame; those that the frame does not have keep their `last`.
 BapValues values_of(const BapProfile& profile, const BapFrame& frame, const BapValues& last);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,9 +32,6 @@ struct BvhFile {
 /// of frames that is not the number found. Throws Error(input) that names `name` and the line for anything
 /// else.
 BvhFile parse_bvh(std::string_view text, const std::string& name);
-
-/// The same, of a file.
-BvhFile read_bvh(const std::filesystem::path& file);
 
 /// Where every joint stands in one frame: world_from_joint, file's unit.
 std::vector<Eigen::Isometry3d> bvh_world(const BvhFile& file, std::size_t frame);

@@ -5,7 +5,6 @@
 
 #include "telemime/body/rotations.h"
 #include "telemime/core/errors.h"
-#include "telemime/core/files.h"
 #include "telemime/outputs/bvh/bvh.h"
 #include "telemime/outputs/numbers.h"
 #include "telemime/outputs/readers/words.h"
@@ -161,10 +160,6 @@ class Parser {
 
 BvhFile parse_bvh(std::string_view text, const std::string& name) {
   return Parser(text, name).run();
-}
-
-BvhFile read_bvh(const std::filesystem::path& file) {
-  return parse_bvh(read_text_file(file), file.string());
 }
 
 std::vector<Eigen::Isometry3d> bvh_world(const BvhFile& file, std::size_t frame) {
