@@ -10,11 +10,19 @@ namespace {
 
 constexpr double kMs = 1000.0;
 
+/// Functions of which std::visit chooses the one for the type.
+template <class... Functions>
+struct OneOf : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+OneOf(Functions...) -> OneOf<Functions...>;
+
 }  // namespace
 
 std::optional<std::string> LiveAnswers::operator()(std::uint64_t client, std::string_view text) {
   try {
-    return std::visit([&](const auto& command) { return carry_out(client, command); }, parse_command(text));
+    return carry_out(client, parse_command(text));
   } catch (const Error& e) {
     return words_message(MessageLevel::error, e.what());
   }
@@ -33,21 +41,48 @@ LiveSession& LiveAnswers::session() const {
   return *session;
 }
 
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Guide& command) {
-  session().guide(command.step);
-  return std::nullopt;
+LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const Command& command) {
+  Answer answer;
+  std::visit(OneOf{[&](const Guide& c) { session().guide(c.step); },
+                   [&](const Recalibrate&) { session().recalibrate(); },
+                   [&](const AddOutput& c) { answer = add_output(client, c.url); },
+                   [&](const SwitchOutputOff& c) { answer = changed(senders_.switch_off(c.url), c.url); },
+                   [&](const RemoveOutput& c) {
+                     const bool known = senders_.remove(c.url);
+                     if (known && hooks_.from_here(client)) {
+                       hooks_.forget(c.url);
+                     }
+                     answer = changed(known, c.url);
+                   },
+                   [&](const Record& c) {
+                     c.on ? recorder_.start() : recorder_.stop();
+                     hooks_.changed();
+                   },
+                   [&](const Forget& c) {
+                     if (recorder_.forget(c.number)) {
+                       hooks_.changed();
+                     } else {
+                       answer = words_message(MessageLevel::error,
+                                              "there is no recording " + std::to_string(c.number));
+                     }
+                   },
+                   [&](const Pictures& c) { hooks_.topic(client, kPicture, c.on); },
+                   [&](const Poses& c) { hooks_.topic(client, kPose, c.on); },
+                   [&](const Drawn& c) {
+                     const double now = kMs * clock_.now();
+                     const std::lock_guard lock(mutex_);
+                     latency_.add(now - c.stamp);
+                   },
+                   [&](const Ping& c) { answer = pong_message(c.id, kMs * clock_.now()); }},
+             command);
+  return answer;
 }
 
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Recalibrate& /*command*/) {
-  session().recalibrate();
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const AddOutput& command) {
+LiveAnswers::Answer LiveAnswers::add_output(std::uint64_t client, const std::string& url) {
   try {
-    senders_.add(command.url);
+    senders_.add(url);
   } catch (const Error& e) {
-    const std::string shown = without_password(command.url);
+    const std::string shown = without_password(url);
     const std::string words = e.what();
     // Name the URL, so that the page can show the message next to it.
     return words_message(MessageLevel::error, words.find(shown) == std::string::npos
@@ -55,64 +90,17 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const AddOutput
                                                   : words);
   }
   if (hooks_.from_here(client)) {
-    hooks_.keep(command.url);
+    hooks_.keep(url);
   }
-  return outputs_changed(true, command.url);
+  return changed(true, url);
 }
 
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const SwitchOutputOff& command) {
-  return outputs_changed(senders_.switch_off(command.url), command.url);
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const RemoveOutput& command) {
-  const bool known = senders_.remove(command.url);
-  if (known && hooks_.from_here(client)) {
-    hooks_.forget(command.url);
-  }
-  return outputs_changed(known, command.url);
-}
-
-LiveAnswers::Answer LiveAnswers::outputs_changed(bool known, const std::string& url) const {
+LiveAnswers::Answer LiveAnswers::changed(bool known, const std::string& url) const {
   if (!known) {
     return words_message(MessageLevel::error, without_password(url) + " is not in the list of outputs");
   }
   hooks_.changed();
   return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Record& command) {
-  command.on ? recorder_.start() : recorder_.stop();
-  hooks_.changed();
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Forget& command) {
-  if (!recorder_.forget(command.number)) {
-    return words_message(MessageLevel::error, "there is no recording " + std::to_string(command.number));
-  }
-  hooks_.changed();
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const Pictures& command) {
-  hooks_.topic(client, kPicture, command.on);
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const Poses& command) {
-  hooks_.topic(client, kPose, command.on);
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Drawn& command) {
-  const double now = kMs * clock_.now();
-  const std::lock_guard lock(mutex_);
-  latency_.add(now - command.stamp);
-  return std::nullopt;
-}
-
-LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t /*client*/, const Ping& command) {
-  return pong_message(command.id, kMs * clock_.now());
 }
 
 }  // namespace telemime

@@ -42,19 +42,10 @@ class LiveAnswers {
 
  private:
   using Answer = std::optional<std::string>;
-  Answer carry_out(std::uint64_t client, const Guide& command);
-  Answer carry_out(std::uint64_t client, const Recalibrate& command);
-  Answer carry_out(std::uint64_t client, const AddOutput& command);
-  Answer carry_out(std::uint64_t client, const SwitchOutputOff& command);
-  Answer carry_out(std::uint64_t client, const RemoveOutput& command);
-  Answer carry_out(std::uint64_t client, const Record& command);
-  Answer carry_out(std::uint64_t client, const Forget& command);
-  Answer carry_out(std::uint64_t client, const Pictures& command);
-  Answer carry_out(std::uint64_t client, const Poses& command);
-  Answer carry_out(std::uint64_t client, const Drawn& command);
-  Answer carry_out(std::uint64_t client, const Ping& command);
+  Answer carry_out(std::uint64_t client, const Command& command);
+  Answer add_output(std::uint64_t client, const std::string& url);
+  Answer changed(bool known, const std::string& url) const;
   LiveSession& session() const;
-  Answer outputs_changed(bool known, const std::string& url) const;
 
   Recorder& recorder_;
   SenderList& senders_;

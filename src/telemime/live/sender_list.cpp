@@ -78,7 +78,7 @@ void SenderList::offer(const std::string& url) {
   }
 }
 
-bool SenderList::switch_off(const std::string& url) {
+bool SenderList::end(const std::string& url, bool remove) {
   const auto meaning = meaning_if_any(url, kinds_);
   std::shared_ptr<Sender> gone;  // destroyed after the lock is released, because it joins a thread
   const std::lock_guard lock(mutex_);
@@ -87,19 +87,9 @@ bool SenderList::switch_off(const std::string& url) {
     return false;
   }
   gone = std::move(entry->sender);
-  return true;
-}
-
-bool SenderList::remove(const std::string& url) {
-  const auto meaning = meaning_if_any(url, kinds_);
-  std::shared_ptr<Sender> gone;  // as above
-  const std::lock_guard lock(mutex_);
-  Entry* const entry = meaning ? find(*meaning) : nullptr;
-  if (entry == nullptr) {
-    return false;
+  if (remove) {
+    entries_.erase(entries_.begin() + (entry - entries_.data()));
   }
-  gone = std::move(entry->sender);
-  entries_.erase(entries_.begin() + (entry - entries_.data()));
   return true;
 }
 

@@ -24,9 +24,9 @@ class SenderList {
   /// Adds an output of an earlier run, off. One that is already listed is not changed. Throws as add() does.
   void offer(const std::string& url);
   /// Stops sending; the output stays in the list. False if it is not listed.
-  bool switch_off(const std::string& url);
+  bool switch_off(const std::string& url) { return end(url, /*remove=*/false); }
   /// Stops sending and removes the output from the list. False if it is not listed.
-  bool remove(const std::string& url);
+  bool remove(const std::string& url) { return end(url, /*remove=*/true); }
 
   void person(const StreamHeader& header);
   /// Sends a frame to every output that is on, as Sender::send.
@@ -41,6 +41,7 @@ class SenderList {
   };
   Entry* find(const std::string& meaning);
   void require_space() const;
+  bool end(const std::string& url, bool remove);
   /// The URL to send to, including a password that the page does not know. Throws if the output cannot be
   /// added. The caller holds the lock.
   std::string url_of_new(const std::string& given, const std::string& meaning);
