@@ -16,23 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An open file descriptor, or -1.
-class Descriptor {
- public:
-  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-  ~Descriptor() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
 /// Throws when a system call failed, unless it was interrupted.
 ssize_t checked(ssize_t result) {
   if (result < 0 && errno != EINTR) {

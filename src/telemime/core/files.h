@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <filesystem>
@@ -11,6 +12,23 @@
 #include "telemime/core/errors.h"
 
 namespace telemime {
+
+/// An open file descriptor, or -1; it is closed with this object.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  ~Descriptor() {
+    if (descriptor_ >= 0) {
+      ::close(descriptor_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
 
 /// The whole content of a file. Throws an Error of this kind that names the file and the reason.
 std::string read_text_file(const std::filesystem::path& file, ErrorKind kind = ErrorKind::input);

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -29,26 +28,6 @@ JsonSource source_of(const fs::path& file) {
       "Correct or delete the file. When an output is added or removed on the page, a new file replaces it, "
       "and this one is renamed to end in \".old\"."};
 }
-
-// An exclusive lock on a folder; no effect on file systems without locks.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder)
-      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-    }
-  }
-  ~FolderLock() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 // The target of a chain of symbolic links, which need not exist, so that writing does not replace the link.
 fs::path at_end_of_links(fs::path file) {
@@ -115,7 +94,10 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
   std::error_code failed;
   const fs::path target = at_end_of_links(fs::absolute(file, failed));
   make_private_folders(target.parent_path());
-  const FolderLock alone(target.parent_path());
+  // An exclusive lock on the folder, as long as it is open; no effect on file systems without locks.
+  const Descriptor folder(::open(target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  while (folder.get() >= 0 && ::flock(folder.get(), LOCK_EX) != 0 && errno == EINTR) {
+  }
   bool unusable = false;
   Json json;
   try {
