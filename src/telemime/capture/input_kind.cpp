@@ -89,23 +89,10 @@ InputKind input_kind(const std::string& input) {
 }
 
 std::string in_words(InputKind kind) {
-  switch (kind) {
-    case InputKind::camera:
-      return "a camera index";
-    case InputKind::device:
-      return "a camera device";
-    case InputKind::stream:
-      return "a stream";
-    case InputKind::folder:
-      return "a folder of images";
-    case InputKind::pattern:
-      return "a pattern of image files";
-    case InputKind::image:
-      return "an image file";
-    case InputKind::video_file:
-      break;
-  }
-  return "a video file";
+  constexpr std::array<const char*, 7> kWords = {
+      "a camera index",           "a camera device", "a stream",    "a folder of images",
+      "a pattern of image files", "an image file",   "a video file"};
+  return kWords.at(static_cast<std::size_t>(kind));
 }
 
 std::string shown_url(const std::string& url) {

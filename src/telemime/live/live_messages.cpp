@@ -36,17 +36,8 @@ std::string_view to_string(LivePhase phase) {
 }
 
 std::string_view to_string(SenderState state) {
-  switch (state) {
-    case SenderState::connecting:
-      return "connecting";
-    case SenderState::sending:
-      return "sending";
-    case SenderState::off:
-      return "off";
-    case SenderState::failed:
-      break;
-  }
-  return "failed";
+  constexpr std::array<std::string_view, 4> kNames = {"connecting", "sending", "failed", "off"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 Json recorded(const Recording& r) {

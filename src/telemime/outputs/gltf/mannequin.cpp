@@ -22,41 +22,24 @@ struct Girth {
 };
 
 Girth girth(HumanBone bone) {
-  using enum HumanBone;
-  switch (bone) {
-    case hips:
-      return {Vector3d::UnitX(), 0.088, 0.062, 0.040};
-    case spine:
-      return {Vector3d::UnitX(), 0.080, 0.056, 0.025};
-    case chest:
-      return {Vector3d::UnitX(), 0.092, 0.060, 0.015};
-    case neck:
-      return {Vector3d::UnitX(), 0.032, 0.032, 0.010};
-    case head:
-      return {Vector3d::UnitX(), 0.045, 0.052, 0.025};
-    case l_shoulder:
-    case r_shoulder:
-      return {Vector3d::UnitY(), 0.026, 0.030, 0.005};
-    case l_upper_arm:
-    case r_upper_arm:
-      return {Vector3d::UnitY(), 0.029, 0.029, 0.015};
-    case l_lower_arm:
-    case r_lower_arm:
-      return {Vector3d::UnitY(), 0.023, 0.025, 0.012};
-    case l_hand:
-    case r_hand:
-      return {Vector3d::UnitY(), 0.012, 0.025, 0.018};
-    case l_upper_leg:
-    case r_upper_leg:
-      return {Vector3d::UnitX(), 0.044, 0.046, 0.015};
-    case l_lower_leg:
-    case r_lower_leg:
-      return {Vector3d::UnitX(), 0.033, 0.036, 0.012};
-    case l_foot:
-    case r_foot:
-      return {Vector3d::UnitX(), 0.026, 0.018, 0.014};
-  }
-  return {Vector3d::UnitX(), 0.03, 0.03, 0.01};
+  using Widths = std::array<double, 3>;
+  constexpr std::array<Widths, 5> kTrunk = {{{0.088, 0.062, 0.040},
+                                             {0.080, 0.056, 0.025},
+                                             {0.092, 0.060, 0.015},
+                                             {0.032, 0.032, 0.010},
+                                             {0.045, 0.052, 0.025}}};
+  constexpr std::array<Widths, 4> kArm = {
+      {{0.026, 0.030, 0.005}, {0.029, 0.029, 0.015}, {0.023, 0.025, 0.012}, {0.012, 0.025, 0.018}}};
+  constexpr std::array<Widths, 3> kLeg = {
+      {{0.044, 0.046, 0.015}, {0.033, 0.036, 0.012}, {0.026, 0.018, 0.014}}};
+  const auto index = static_cast<std::size_t>(bone);
+  constexpr auto kFirstArm = static_cast<std::size_t>(HumanBone::l_shoulder);
+  constexpr auto kFirstLeg = static_cast<std::size_t>(HumanBone::l_upper_leg);
+  const bool arm = index >= kFirstArm && index < kFirstLeg;
+  const auto [wide, deep, past] = arm                  ? kArm.at((index - kFirstArm) % kArm.size())
+                                  : index >= kFirstLeg ? kLeg.at((index - kFirstLeg) % kLeg.size())
+                                                       : kTrunk.at(index);
+  return {arm ? Vector3d::UnitY() : Vector3d::UnitX(), wide, deep, past};
 }
 
 struct Pieces {
