@@ -13,6 +13,7 @@
 #include "telemime/capture/source.h"
 #include "telemime/capture/stream.h"
 #include "telemime/capture/video_file.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
@@ -40,14 +41,10 @@ std::string cameras_found() {
     }
   }
   std::sort(names.begin(), names.end());
-  std::string all;
-  for (const std::string& name : names) {
-    all += (all.empty() ? "" : ", ") + name;
-  }
-  return all.empty()
+  return names.empty()
              ? "No camera is connected, or none is visible here (a container or a virtual machine must be "
                "given one)."
-             : "Devices found: " + all + ". Not all of them give pictures.";
+             : "Devices found: " + joined(names) + ". Not all of them give pictures.";
 }
 
 std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, const LiveOptions& options) {

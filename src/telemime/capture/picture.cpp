@@ -17,16 +17,10 @@ constexpr double fastest = 1000.0;
 constexpr double fallback_fps = 25.0;
 
 double scale_to_8_bits(int depth) {
-  switch (depth) {
-    case CV_8U:
-    case CV_8S:
-      return 1.0;
-    case CV_16U:
-    case CV_16S:
-      return 1.0 / 257.0;
-    default:
-      return 255.0;  // floats in [0, 1]
+  if (depth == CV_8U || depth == CV_8S) {
+    return 1.0;
   }
+  return depth == CV_16U || depth == CV_16S ? 1.0 / 257.0 : 255.0;  // floats are in [0, 1]
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 namespace telemime {
 
+/// Positions and rotations, each along x, y and z in this order.
 enum class BvhChannel { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
 
 /// One joint of a BVH hierarchy. Lengths in the file's unit, at rest all joint frames are parallel.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "telemime/body/rotations.h"
 #include "telemime/core/errors.h"
 #include "telemime/outputs/bvh/bvh.h"
 #include "telemime/outputs/numbers.h"
@@ -170,26 +169,11 @@ std::vector<Eigen::Isometry3d> bvh_world(const BvhFile& file, std::size_t frame)
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     for (const BvhChannel channel : joint.channels) {
       const double amount = *value++;
-      const double angle = amount / kDegreesPerRadian;
-      switch (channel) {
-        case BvhChannel::x_position:
-          place.x() += amount;
-          break;
-        case BvhChannel::y_position:
-          place.y() += amount;
-          break;
-        case BvhChannel::z_position:
-          place.z() += amount;
-          break;
-        case BvhChannel::x_rotation:
-          turn *= rotation_x(angle);
-          break;
-        case BvhChannel::y_rotation:
-          turn *= rotation_y(angle);
-          break;
-        case BvhChannel::z_rotation:
-          turn *= rotation_z(angle);
-          break;
+      const auto axis = static_cast<Eigen::Index>(channel) % 3;
+      if (channel <= BvhChannel::z_position) {
+        place[axis] += amount;
+      } else {
+        turn *= Eigen::AngleAxisd(amount / kDegreesPerRadian, Eigen::Vector3d::Unit(axis)).toRotationMatrix();
       }
     }
     Eigen::Isometry3d local = Eigen::Isometry3d::Identity();
