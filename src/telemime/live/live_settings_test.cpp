@@ -8,6 +8,7 @@
 #include <iterator>
 #include <thread>
 
+#include "telemime/core/files.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/core/testing_errors.h"
 
@@ -70,12 +71,10 @@ TEST_F(Settings, AFileThatCannotBeUsedIsKeptBesideTheNewOne) {
   write(theirs);
   save_settings(file_, {{"vmc://b"}});
   EXPECT_EQ(load_settings(file_).outputs, std::vector<std::string>{"vmc://b"});
-  std::ifstream old(file_.string() + ".old");
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old), {}), theirs);
+  EXPECT_EQ(read_text_file(file_.string() + ".old"), theirs);
   write("{{{");
   save_settings(file_, {{"vmc://c"}});
-  old.seekg(0);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(old), {}), theirs) << "that one stays";
+  EXPECT_EQ(read_text_file(file_.string() + ".old"), theirs) << "that one stays";
   EXPECT_EQ(fs::file_size(file_.string() + ".old-2"), 3U);
 }
 
@@ -84,8 +83,7 @@ TEST_F(Settings, ChangesAreMadeToWhatIsThereNow) {
   write(R"({"version":1,"outputs":["vmc://a","vmc://b"],"more":{"of":"a later version"}})");
   update_settings(file_, [](LiveSettings& settings) { settings.outputs.emplace_back("vmc://c"); });
   EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"vmc://a", "vmc://b", "vmc://c"}));
-  std::ifstream in(file_);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_text_file(file_);
   EXPECT_NE(text.find("a later version"), std::string::npos) << text;
 }
 
