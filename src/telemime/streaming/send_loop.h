@@ -23,8 +23,8 @@ class LinkBroken : public std::runtime_error {
 /// Ends the waiting of a SendLoop. Not derived from std::exception, so that general handlers do not catch it.
 struct LoopStopped {};
 
-/// What a connection sees of the thread that it lives in. All waiting is done by wait(); everything that waits
-/// is an asynchronous operation of io().
+/// What a connection sees of the thread that it lives in. All waiting is done by wait(); everything that
+/// waits is an asynchronous operation of io().
 class SendLoop {
  public:
   /// `stop` is asked by wait(): after each event, and at least every `check`.
