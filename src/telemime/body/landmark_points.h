@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "telemime/body/body.h"
@@ -31,6 +32,12 @@ enum class Landmark : std::size_t {
 };
 inline constexpr std::size_t kLandmarkCount = 17;
 
+/// Where the offset of a landmark comes from.
+enum class OffsetSource : std::uint8_t {
+  learned,        ///< synthetic people: `telemime-lab learn landmarks`
+  anthropometry,  ///< measured people: synthetic ones differ, or hide the landmark
+};
+
 /// One landmark on the model: a fixed point of a segment. Networks are annotated on the surface, so that
 /// their joints differ from the joint centres by an offset, which is the same for everybody in proportion to
 /// the stature.
@@ -42,10 +49,10 @@ struct LandmarkPoint {
   /// mirror image of the left one's.
   std::array<double, 3> offset;
   double sigma;  ///< standard deviation in the picture of a landmark that is clearly visible, m on the body
+  OffsetSource source = OffsetSource::learned;
 };
 
-/// The landmarks in the order of the enumeration. Hips are where anthropometry has them; the
-/// other offsets and all deviations were estimated on drawn people with known joints.
+/// The landmarks in the order of the enumeration: the only table of these numbers (docs/networks.md).
 extern const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints;
 
 using LandmarkPositions = std::array<Eigen::Vector3d, kLandmarkCount>;
@@ -64,6 +71,9 @@ enum class LandmarkBone : std::size_t {
   face,       ///< middle of the ears to the nose
 };
 inline constexpr std::size_t kLandmarkBoneCount = 7;
+
+/// Standard deviation of a bone's slope in depth, a share of its length, as a network sees it.
+extern const std::array<double, kLandmarkBoneCount> kLandmarkBoneSigma;
 
 /// All bones between these landmarks, from start to end, in their frame and unit.
 std::array<Eigen::Vector3d, kLandmarkBoneCount> landmark_bones(const LandmarkPositions& points);

@@ -26,9 +26,6 @@ constexpr double kHidden = 4.0;
 constexpr double kHeatMap = 0.1;
 // The side of the network's region in metres: the circle about an average body, enlarged by a quarter.
 constexpr double kRegionSide = 2.4;
-// Standard deviation of a bone's slope in depth as the network sees it. On drawn people it was off by 0.115
-// on average, on filmed ones by as much in the other direction: no bias holds for both.
-constexpr std::array<double, kLandmarkBoneCount> kSlopeSigma = {0.23, 0.23, 0.2, 0.2, 0.1, 0.2, 0.3};
 
 }  // namespace
 
@@ -67,7 +64,7 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera) {
     BoneObservation& bone = out.bones[i];
     bone.seen = least >= kLeastVisibility && length > 1e-6;
     bone.along = bone.seen ? std::clamp(bones[i].z() / length, -1.0, 1.0) : 0.0;
-    bone.sigma = kSlopeSigma[i] * (1.0 + (kHidden - 1.0) * (1.0 - least));
+    bone.sigma = kLandmarkBoneSigma[i] * (1.0 + (kHidden - 1.0) * (1.0 - least));
   }
   return out;
 }
