@@ -17,7 +17,8 @@ void add_experiments_command(CLI::App& app);
 /// `telemime-lab landmarks CLIP --out DIR`: pictures of what the networks find in a clip.
 void add_landmarks_command(CLI::App& app);
 
-/// `telemime-lab learn FOLDER... --out FILE`: the particle filter's parameters from sequences with truth.
+/// `telemime-lab learn filter FOLDER... --out FILE`: the particle filter's parameters from sequences with
+/// truth; `telemime-lab learn landmarks`: where networks see the landmarks of the model.
 void add_learn_command(CLI::App& app);
 
 /// `telemime-lab synth GESTURE --out DIR`: clips with exact truth.

@@ -21,7 +21,7 @@ Table grid_table(Lab& lab) {
 }
 
 // A quantity over the grid of iterations: the mean of the gestures, or one of them.
-struct Surface {
+struct CostSurface {
   std::vector<double> steps;
   std::vector<double> z;  // by edge, then region iterations
 
@@ -37,18 +37,18 @@ struct Surface {
   }
 };
 
-Surface mean_surface(Lab& lab, double GridCell::*measure) {
+CostSurface mean_surface(Lab& lab, double GridCell::*measure) {
   return {lab.grid().steps, lab.grid().mean_plane(measure)};
 }
 
-Surface surface_of(Lab& lab, std::size_t sequence, double GridCell::*measure) {
+CostSurface surface_of(Lab& lab, std::size_t sequence, double GridCell::*measure) {
   return {lab.grid().steps, lab.grid().plane(sequence, measure)};
 }
 
 }  // namespace
 
 Finding region_residuals(Lab& lab) {
-  const Surface f = mean_surface(lab, &GridCell::mean_region);
+  const CostSurface f = mean_surface(lab, &GridCell::mean_region);
   // The part of the fall from no search to all regions that the first region iterations bring.
   const auto index =
       static_cast<std::size_t>(std::lower_bound(f.steps.begin(), f.steps.end(), 200.0) - f.steps.begin());
@@ -61,7 +61,7 @@ Finding region_residuals(Lab& lab) {
 }
 
 Finding contour_residuals(Lab& lab) {
-  const Surface d = mean_surface(lab, &GridCell::mean_contour);
+  const CostSurface d = mean_surface(lab, &GridCell::mean_contour);
   return {.tables = {grid_table(lab)},
           .notes = {"D_C is low wherever the contours lie on any edge, right or wrong; read it together with "
                     "the errors of figures 3-26 and 3-27."},
@@ -70,7 +70,7 @@ Finding contour_residuals(Lab& lab) {
 }
 
 Finding region_mistrackings(Lab& lab) {
-  const Surface peaks = mean_surface(lab, &GridCell::region_peaks);
+  const CostSurface peaks = mean_surface(lab, &GridCell::region_peaks);
   double worst_after = 0.0;
   for (std::size_t i = 0; i < peaks.z.size(); ++i) {
     if (peaks.steps[i % peaks.steps.size()] >= 200.0) {
@@ -85,7 +85,7 @@ Finding region_mistrackings(Lab& lab) {
 }
 
 Finding contour_mistrackings(Lab& lab) {
-  const Surface peaks = mean_surface(lab, &GridCell::contour_peaks);
+  const CostSurface peaks = mean_surface(lab, &GridCell::contour_peaks);
   return {.tables = {grid_table(lab)},
           .verdict = verdict({peaks.regions() < peaks.none(), peaks.both() <= peaks.edges()},
                              "frames with a peak of D_C: " + peaks.described(""))};
@@ -96,7 +96,7 @@ Finding surfaces_3d(Lab& lab) {
   bool always = true;
   std::vector<double> lowest;
   for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
-    const Surface e = surface_of(lab, s, &GridCell::error_3d);
+    const CostSurface e = surface_of(lab, s, &GridCell::error_3d);
     lowest.push_back(*std::min_element(e.z.begin(), e.z.end()));
     always = always && e.both() <= lowest.back() * 1.02;
     table.rows.push_back(
@@ -119,11 +119,11 @@ Finding surfaces_2d(Lab& lab) {
   Table table{"mean 2-D error (mm)", {"sequence", "no search", "regions", "edges", "both"}, {}};
   bool falls = true;
   for (std::size_t s = 0; s < lab.gestures().size(); ++s) {
-    const Surface e = surface_of(lab, s, &GridCell::error_2d);
+    const CostSurface e = surface_of(lab, s, &GridCell::error_2d);
     falls = falls && e.both() < e.none() && e.both() < e.edges();
     table.rows.push_back(row_of(lab.gestures()[s].name, e.none(), e.regions(), e.edges(), e.both()));
   }
-  const Surface mean = mean_surface(lab, &GridCell::error_2d);
+  const CostSurface mean = mean_surface(lab, &GridCell::error_2d);
   return {.tables = {table, grid_table(lab)},
           .verdict = verdict({falls, mean.both() < mean.regions()},
                              "the mean 2-D error is " + mean.described(" mm"))};

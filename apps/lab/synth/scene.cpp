@@ -158,6 +158,11 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
     pose.root.y() += 0.16 * (kStaged - options.distance);
     pose.root.z() += options.distance - kStaged;
   }
+  if (options.look_around) {
+    const double t = moment / kGestureFps;
+    pose.look += 0.61 * std::sin(2.1 * t);
+    pose.nod += 0.26 * std::sin(1.3 * t + 0.5);
+  }
   if (options.walk_in) {
     walk(options, frame, pose);
   }

@@ -34,6 +34,7 @@ struct SceneOptions {
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
   /// again.
   bool walk_in = false;
+  bool look_around = false;  ///< the head turns by 35 degrees to either side and nods by 15
 };
 
 /// The person, the background and the camera, ready to be rendered; a constant value.
