@@ -3,6 +3,10 @@
 
 namespace telemime {
 
+// `telemime-lab learn landmarks` finds shoulders, elbows, wrists and the sides of eyes and ears to within
+// 0.01. The rest of the face and the knuckles are an earlier estimate, on synthetic people of whom it was not
+// known how head and hands were turned (docs/networks.md#face-points). Deviations are 1.5 to 3 times those on
+// synthetic people: real images are harder.
 // Hips by anthropometry (de Leva, J. Biomechanics 29, 1996: mid-shoulder to mid-hip); those of drawn people
 // are elsewhere, and a person would lean forward by 20 degrees.
 const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
@@ -25,8 +29,8 @@ const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
     {"r_hip", Joint::root, Segment::chest, {-0.0635, -0.0100, 0.0060}, 0.040, OffsetSource::anthropometry},
 }};
 
-// On synthetic people slopes were off by 0.115 on average, on filmed ones by as much in the other direction:
-// no bias holds for both.
+// Chosen, not learned: on synthetic people slopes of arms were off by 0.115 on average, on filmed ones by as
+// much in the other direction, so that no bias holds for both.
 const std::array<double, kLandmarkBoneCount> kLandmarkBoneSigma = {0.23, 0.23, 0.2, 0.2, 0.1, 0.2, 0.3};
 
 LandmarkPositions landmark_positions(const Body& body, const Kinematics& k) {
