@@ -7,11 +7,11 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before } from "node:test";
 import { chromium } from "playwright-core";
+import { launchOptions } from "./chromium.mjs";
 import { Listener } from "./listener.mjs";
 import { launch } from "./process.mjs";
 
 const PROGRAM = process.env.TELEMIME_PROGRAM;
-const CHROMIUM = process.env.TELEMIME_CHROMIUM ?? "/usr/bin/chromium";
 
 /** How long one step of a test may take on a busy computer, ms. */
 export const PATIENCE = 120000;
@@ -48,10 +48,7 @@ export async function startProgram(args, { port = 0 } = {}) {
 /** Arguments of a browser that cannot draw in 3-D. */
 export const FLAT = ["--disable-gpu", "--disable-3d-apis"];
 
-// As on a computer without a graphics card: WebGL in software, the page itself drawn without it.
-export function startBrowser(args = ["--enable-unsafe-swiftshader"]) {
-  return chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", ...args] });
-}
+export const startBrowser = (args) => chromium.launch(launchOptions(args));
 
 /** The processes that draw pages of this browser. */
 export async function renderers(browser) {

@@ -4,11 +4,11 @@
 
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync } from "node:fs";
+import { CHROMIUM } from "./chromium.mjs";
 
 const env = { ...process.env, PATH: `${process.env.PATH}:/usr/sbin` };
 const installed = (command, ...args) => !spawnSync(command, args, { env }).error;
 
-const chromium = process.env.TELEMIME_CHROMIUM ?? "/usr/bin/chromium";
 const tests = process.argv.slice(2).flatMap((path) =>
   existsSync(path)
     ? readdirSync(path)
@@ -21,7 +21,7 @@ const clusters = meetings.filter((t) => t.includes("cluster"));
 const mosquitto = process.env.TELEMIME_MOSQUITTO ?? "mosquitto";
 const nats = process.env.TELEMIME_NATS_SERVER ?? "nats-server";
 const missing = [
-  !existsSync(chromium) && `Chromium (TELEMIME_CHROMIUM names it; now ${chromium})`,
+  !existsSync(CHROMIUM) && `Chromium (TELEMIME_CHROMIUM names it; now ${CHROMIUM})`,
   !installed("ffmpeg", "-version") && "ffmpeg",
   meetings.length > clusters.length &&
     !installed(mosquitto, "-h") &&
