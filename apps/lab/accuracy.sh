@@ -9,36 +9,17 @@ out="${1:-out/accuracy}"
 read -ra seeds <<< "${SEEDS:-1 2 3}"
 read -ra options <<< "${OPTIONS:-}"
 
-# Name of the clip, then the options of `telemime-lab synth`.
-clips=(
-  "raising_arms raising_arms --seed 31"
-  "joy joy --seed 32"
-  "exclaiming exclaiming --seed 33"
-  "asking asking --seed 34"
-  "desk_talk talking --seed 35 --distance 1.2"
-  "two_looks talking --seed 36 --striped --light-change"
-  "long_sleeves exclaiming --seed 37 --long-sleeves"
-  "enter_leave talking --seed 38 --walk-in --frames 240 --background-frames 0"
-  "close_webcam talking --seed 39 --distance 0.75 --background-frames 0"
-)
+# shellcheck source=apps/lab/clips.sh
+source apps/lab/clips.sh
 
 for line in "${clips[@]}"; do
-  read -ra words <<< "$line"
-  name="${words[0]}"
-  clip="$out/$name/clip/${words[1]}"
-  if [[ ! -f "$clip/preview.png" ]]; then
-    echo "making $name" >&2
-    "$build/telemime-lab" synth "${words[@]:1}" --size 320x240 --no-small --quiet --out "$out/$name/clip"
-  fi
-  background=()
-  [[ ! -f "$clip/background.mkv" ]] || background=(--background "$clip/background.mkv")
+  name="${line%% *}"
+  make_clip "$line" "$out"
   for seed in "${seeds[@]}"; do
     run="$out/$name/$seed"
     echo "tracking $name with seed $seed" >&2
-    "$build/telemime" track "$clip/video.mkv" "${background[@]}" "${options[@]}" --seed "$seed" --no-overlay --out "$run" \
-      > "$out/$name/log" 2>&1
-    "$build/telemime" evaluate "$run/pose.jsonl" --truth "$clip/truth.json" --json "$run/accuracy.json" \
-      > /dev/null
+    track_clip "$run" "$clip" --seed "$seed" > "$out/$name/log" 2>&1
+    score "$run/pose.jsonl" "$clip/truth.json" "$run/accuracy.json"
   done
 done
 
