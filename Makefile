@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps build demo test bench experiments accuracy lint asan asan-quick tsan fuzz install count clean
+TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install count clean
 .PHONY: $(TARGETS) deps-page deps-test program configure
 
 help: ## this list
@@ -58,6 +58,10 @@ experiments: deps-test configure ## measure the thesis's tables and figures agai
 accuracy: deps-test configure ## make and track the clips of the README's accuracy table: out/accuracy
 	@cmake --build --preset release --target telemime telemime-lab -j $(JOBS)
 	@apps/lab/accuracy.sh
+
+peer: deps-test configure ## compare with MediaPipe Pose on these clips and on others (FOLDERS="DIR DIR"): out/peer
+	@cmake --build --preset release --target telemime telemime-lab -j $(JOBS)
+	@apps/lab/peer.sh
 
 lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@scripts/deps.sh build test check
