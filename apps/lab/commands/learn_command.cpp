@@ -57,6 +57,7 @@ std::vector<SceneOptions> learning_scenes(std::uint64_t seed, int clips) {
                  .width = 320,
                  .height = 240,
                  .seed = seed + i,
+                 .sensor = {},
                  .long_sleeves = i % 3 == 0,
                  .distance = kDistances[i % kDistances.size()],
                  .look_around = i % 2 == 0};

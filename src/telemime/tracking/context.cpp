@@ -63,9 +63,9 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
     if (const double reliability = reliability_of(cues[i], c.frame); reliability > 0.0) {
       const double sigma = in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
       const double square = squared(score.costs[i] / sigma);
-      const bool known = !c.frame.landmarks || cues[i].usual <= 0.0;
-      squares +=
-          reliability * (known ? square : square_of_unknown_noise(square, squared(cues[i].usual / sigma)));
+      const double usual = squared(c.numbers.usual[i] / c.numbers.sigma[i]);
+      const bool known = !c.frame.landmarks || usual == 0.0;
+      squares += reliability * (known ? square : square_of_unknown_noise(square, usual));
     }
   }
   double sum = -0.5 * c.config.trust * squares;

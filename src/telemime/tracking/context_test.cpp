@@ -64,6 +64,7 @@ TEST(LogLikelihood, UnknownNoiseCountsByRatio) {
 TEST(LogLikelihood, RegionsCountLessInANoisyRoom) {
   Scene scene = image_alone();
   scene.numbers.sigma[cue::kRegion] = 0.01;
+  scene.numbers.usual[cue::kRegion] = 0.1;
   const auto gain = [&](double better, double worse) {
     return log_likelihood(scene.context(), both_arms_seen(), score_of(better, 0.0)) -
            log_likelihood(scene.context(), both_arms_seen(), score_of(worse, 0.0));

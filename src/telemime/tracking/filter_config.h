@@ -35,7 +35,7 @@ struct FilterConfig {
   int flip_candidates = 2;
   int landmark_searches = 2;
   int landmark_evaluations = 70;
-  double landmark_share = 0.5;
+  double landmark_share = 0.7;
 };
 
 SettingTable settings_of(FilterConfig& config);

@@ -61,6 +61,7 @@ FilterModel parse_filter_model(const std::string& text, const std::string& name,
   model.spread.across = spread["across"].positive();
   model.spread.seen = spread["seen"].positive();
   model.spread.residual = spread["residual"].positive();
+  model.usual[cue::kRegion] = model.spread.residual;
   model.spread.size = spread["size"].positive();
   model.spread.size_given = spread["size_given"].positive();
   return model;

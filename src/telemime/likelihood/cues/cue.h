@@ -19,7 +19,7 @@ struct CueInput {
 /// Unit of a cue's cost.
 enum class CueUnit {
   ratio,   ///< independent of the image size
-  pixels,  ///< pixels of the working image; scale, sigma and usual are shares of its width
+  pixels,  ///< pixels of the working image; scale and sigma are shares of its width
 };
 
 /// One source of evidence: how well a pose agrees with a frame. Everything that weighs poses - objectives,
@@ -36,11 +36,7 @@ struct Cue {
   double scale = 1.0;                 ///< the cost that an objective counts as 1
   double sigma = 1.0;                 ///< standard deviation of the cost in the filter (thesis equation 4.12)
   std::string_view sigma_key = {};    ///< where the filter's model file has a measured sigma; empty: `sigma`
-  /// What the true pose costs in the clips that sigma was measured in. In a frame with landmarks a cost
-  /// beyond it counts by its logarithm: the picture is noisier than those clips, nobody knows by how much. 0:
-  /// sigma holds in every picture.
-  double usual = 0.0;
-  bool enabled = true;  ///< false: its cost is computed but does not count
+  bool enabled = true;                ///< false: its cost is computed but does not count
   /// How far the cue can be trusted in this frame, from 0 (it knows nothing) to 1; null: always 1. Its cost
   /// counts that much less.
   double (*reliability)(const PreparedFrame& frame) = nullptr;

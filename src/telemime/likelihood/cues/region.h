@@ -25,7 +25,6 @@ inline constexpr Cue kRegionCue = {
     .region_step = 1.0,
     .edge_step = 1.0,
     .sigma_key = "sigma_F",
-    .usual = 0.1,
     .reliability = [](const PreparedFrame& frame) { return frame.has_colours ? 1.0 : 0.0; },
     .cost = [](const CueInput& input) { return non_overlapping_ratio(input.reductions); },
 };
