@@ -34,7 +34,7 @@ inline constexpr std::size_t kLandmarkCount = 17;
 
 /// Where the offset of a landmark comes from.
 enum class OffsetSource : std::uint8_t {
-  learned,        ///< synthetic people: `telemime-lab learn landmarks`
+  learned,  ///< synthetic people: `telemime-lab learn landmarks`, or an earlier estimate (see the table)
   anthropometry,  ///< measured people: synthetic ones differ, or hide the landmark
 };
 

@@ -20,6 +20,7 @@ class PersonFileTest : public ::testing::Test {
     PersonFile p;
     p.person.shape.stature = 1.81;
     p.person.shape.sleeve = 0.7;
+    p.person.shape.shoulders = 0.9;
     p.person.shape[Segment::l_forearm] = {0.93, 1.1, 1.2};
     p.person.scale_from = "the height given";
     p.person.refusal = "the left arm leaves the picture";
@@ -44,6 +45,7 @@ TEST_F(PersonFileTest, ComesBackAsItWas) {
   const PersonFile before = person();
   EXPECT_EQ(back.person.shape.stature, before.person.shape.stature);
   EXPECT_EQ(back.person.shape.sleeve, before.person.shape.sleeve);
+  EXPECT_EQ(back.person.shape.shoulders, before.person.shape.shoulders);
   EXPECT_EQ(back.person.shape[Segment::l_forearm].width, 1.2);
   EXPECT_EQ(back.person.scale_from, before.person.scale_from);
   EXPECT_EQ(back.person.refusal, before.person.refusal);
@@ -73,6 +75,14 @@ TEST_F(PersonFileTest, RefusesWhatIsMissingWrongOrOutOfRange) {
   EXPECT_THROW(parse_person("[1]", "p"), Error);
   EXPECT_THROW(load_person(folder_.path()), Error) << "a folder";
   EXPECT_THROW(load_person(folder_.file("none.json")), Error);
+}
+
+TEST_F(PersonFileTest, ShouldersMayBeMissing) {
+  nlohmann::json older = written();
+  ASSERT_EQ(older["shape"].erase("shoulders"), 1U);
+  EXPECT_EQ(parse_person(older.dump(), "p").person.shape.shoulders, 1.0);
+  older["shape"]["shoulders"] = -1.0;
+  EXPECT_THROW(parse_person(older.dump(), "p"), Error);
 }
 
 TEST_F(PersonFileTest, WithoutItsSceneItIsRefused) {

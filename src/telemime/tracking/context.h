@@ -74,8 +74,8 @@ double square_of_unknown_noise(double square, double usual);
 
 /// Log likelihood log p(z | x): the sum over all enabled cues of thesis equation 4.12, and the terms that do
 /// not depend on the image (FilterConfig::natural, temporal, invalid). In frames with landmarks the noise of
-/// a cue with Cue::usual is taken as unknown: where a room has the colours of the person, F is large in every
-/// pose, and its differences say little.
+/// a cue with FilterModel::usual is taken as unknown: where a room has the colours of the person, F is large
+/// in every pose, and its differences say little.
 double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score);
 
 /// Computes scores and log likelihoods of the particles that are not measured yet.

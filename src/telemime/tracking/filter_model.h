@@ -34,9 +34,9 @@ struct SpreadModel {
 /// the scores vary and how people move from one frame to the next at 25 frames a second.
 struct FilterModel {
   CueValues sigma{};  ///< of each cue's cost (thesis equation 4.12): sigma_F, sigma_D; see Cue::sigma
-  /// Cost of each cue, as a share like sigma, in the clips that sigma was measured in. In a frame with
-  /// landmarks a cost beyond it counts by its logarithm: the picture is noisier than those clips, nobody
-  /// knows by how much. 0: sigma holds in every picture.
+  /// Cost of each cue, a share like sigma, in the clips in which sigma was measured. In a frame with
+  /// landmarks a larger cost counts by its logarithm: the image is noisier by an unknown factor. 0: sigma
+  /// holds in every image. The regions have SpreadModel::residual, the others 0.
   CueValues usual{};
   PoseVector change = PoseVector::Zero();  ///< standard deviations of equation 4.13: m, rad
   /// alpha_k of equation 4.20: a part moves when it uncovers at least this share of its pixels.

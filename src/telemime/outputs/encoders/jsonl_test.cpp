@@ -30,7 +30,11 @@ std::vector<json> lines(const std::string& text) {
 }
 
 TEST(Jsonl, ReadsBackWhatItWrote) {
-  const StreamHeader header = testing_motion::header();
+  StreamHeader header = testing_motion::header();
+  Shape shape;
+  shape.sleeve = 0.7;
+  shape.shoulders = 0.9;
+  header.body = make_body(shape);
   auto frames = testing_motion::gesture(header, 20);
   frames[7].state = TrackState::lost;
   const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
@@ -39,6 +43,8 @@ TEST(Jsonl, ReadsBackWhatItWrote) {
   EXPECT_DOUBLE_EQ(file.camera.fx, header.camera.fx);
   EXPECT_DOUBLE_EQ(file.camera.cy, header.camera.cy);
   EXPECT_DOUBLE_EQ(file.shape.stature, header.body.shape.stature);
+  EXPECT_DOUBLE_EQ(file.shape.sleeve, shape.sleeve);
+  EXPECT_DOUBLE_EQ(file.shape.shoulders, shape.shoulders);
   EXPECT_EQ(file.limits.name, header.limits.name);
   EXPECT_EQ(file.header.at("config"), header.config);
   EXPECT_EQ(file.header.at("extra"), header.extra);
