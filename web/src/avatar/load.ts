@@ -16,7 +16,10 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { drawsInSoftware } from "../shared/graphics";
 import type { Quat, Vec3 } from "../shared/quaternion";
 import { foldMissing } from "./fold";
-import { AvatarError, inspect, type Facts } from "./inspect";
+import { dropOddSprings, fitToHuman } from "./fit";
+import { AvatarError, inspect, type Facts, type Json } from "./inspect";
+
+const ASIDE = 0.3; // m from the middle: more is no way to stand
 
 export interface BoneReading {
   /** Rotation parent from bone of the normalised skeleton (T-pose, facing +z), as in a pose message. */
@@ -33,19 +36,44 @@ export class Avatar {
   readonly headHeight: number; // m, of the head bone
   readonly top: number; // m
   readonly hasSprings: boolean;
+  /** What was changed or left out, for the user. */
+  readonly notes: string[];
   private readonly restWorld = new Map<string, Quaternion>();
   private readonly restHips: Vector3;
   /** VRM 0.x faces -z in its own frame: the signs of x and z change. */
   private readonly flip: 1 | -1;
+  /** Height of the hips in the file's own unit. */
+  private readonly ownHipHeight: number;
 
+  /** Throws AvatarError for what cannot be seen or is no figure. */
   constructor(
     private readonly vrm: VRM,
     readonly facts: Facts,
+    notes: string[] = [],
   ) {
     this.scene = vrm.scene;
     this.flip = facts.version === "0" ? -1 : 1;
     vrm.humanoid.resetNormalizedPose();
     vrm.update(0);
+    vrm.scene.updateMatrixWorld(true);
+    const box = new Box3().setFromObject(vrm.scene, true);
+    if (box.isEmpty()) throw new AvatarError("This avatar cannot be seen: it has no mesh.");
+    const at = (bone: VRMHumanBoneName) => this.raw(bone)!.getWorldPosition(new Vector3());
+    const height = (bone: VRMHumanBoneName) => at(bone).y;
+    const { x, z } = at("hips");
+    const fit = fitToHuman({
+      hips: height("hips"),
+      head: height("head"),
+      foot: Math.min(height("leftFoot"), height("rightFoot")),
+      low: box.min.y,
+    });
+    if (!fit) throw new AvatarError("This avatar cannot be moved: its head is not above its hips.");
+    this.notes = [...notes, ...fit.notes];
+    const aside = fit.scale * Math.hypot(x, z) > ASIDE;
+    if (aside) this.notes.push("it was moved to the middle");
+    vrm.scene.scale.multiplyScalar(fit.scale);
+    vrm.scene.position.y += fit.lift;
+    if (aside) vrm.scene.position.add(new Vector3(-fit.scale * x, 0, -fit.scale * z));
     vrm.scene.updateMatrixWorld(true);
     for (const bone of this.boneNames) {
       const raw = this.raw(bone);
@@ -54,7 +82,8 @@ export class Avatar {
     this.restHips = this.node("hips")!.position.clone();
     this.hipHeight = this.position("hips", new Vector3()).y;
     this.headHeight = this.position("head", new Vector3()).y;
-    this.top = new Box3().setFromObject(vrm.scene, true).max.y;
+    this.ownHipHeight = this.hipHeight / fit.scale;
+    this.top = fit.scale * box.max.y + fit.lift;
     this.hasSprings = (vrm.springBoneManager?.joints.size ?? 0) > 0;
   }
 
@@ -77,7 +106,7 @@ export class Avatar {
     for (const [bone, q] of foldMissing(bones, (b) => this.node(b) !== null)) {
       this.node(bone)!.quaternion.set(f * q[0], q[1], f * q[2], q[3]);
     }
-    const s = this.hipHeight;
+    const s = this.ownHipHeight;
     this.node("hips")!.position.set(
       this.restHips.x + f * s * hips[0],
       this.restHips.y + s * hips[1],
@@ -141,7 +170,13 @@ function cheap(material: Material | Material[]): Material | Material[] {
 export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
   const facts = inspect(data);
   const loader = new GLTFLoader();
-  loader.register((parser) => new VRMLoaderPlugin(parser));
+  const notes: string[] = [];
+  loader.register((parser) => {
+    if (dropOddSprings(parser.json as Json) > 0) {
+      notes.push("broken springs of hair or clothes were left out");
+    }
+    return new VRMLoaderPlugin(parser);
+  });
   let vrm: VRM | undefined;
   try {
     const gltf = await loader.parseAsync(data, "");
@@ -153,9 +188,10 @@ export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
       o.frustumCulled = false; // the bounds are those of the T-pose
       if (drawsInSoftware() && o instanceof Mesh) o.material = cheap(o.material);
     });
-    return new Avatar(vrm, facts);
+    return new Avatar(vrm, facts, notes);
   } catch (e) {
     if (vrm) VRMUtils.deepDispose(vrm.scene);
+    if (e instanceof AvatarError) throw e;
     console.warn("avatar:", e);
     throw new AvatarError("The file is broken: its 3-D model could not be built.");
   }

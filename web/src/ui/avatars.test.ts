@@ -47,7 +47,7 @@ beforeEach(() => {
     {
       load: async (data) => {
         if (new TextDecoder().decode(data) === "bad") throw new AvatarError("This is not a VRM avatar.");
-        return { facts: { version: "1", author: "" }, dispose: () => {} } as unknown as Avatar;
+        return { facts: { version: "1", author: "" }, notes: [], dispose: () => {} } as unknown as Avatar;
       },
       show: () => {},
       notify: (_level, words) => said.push(words),

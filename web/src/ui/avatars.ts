@@ -178,6 +178,7 @@ export class Avatars {
     this.request = null;
     this.info = { id, name, version: avatar.facts.version, author: avatar.facts.author };
     this.uses.show(avatar);
+    if (avatar.notes.length > 0) this.uses.notify("info", `${name}: ${avatar.notes.join("; ")}.`);
     return true;
   }
 

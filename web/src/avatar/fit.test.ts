@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+import { describe, expect, it } from "vitest";
+import { dropOddSprings, fitToHuman, type Heights } from "./fit";
+
+const PERSON: Heights = { hips: 0.95, head: 1.5, foot: 0.09, low: 0 };
+const changed = (f: (y: number) => number): Heights => ({
+  hips: f(PERSON.hips),
+  head: f(PERSON.head),
+  foot: f(PERSON.foot),
+  low: f(PERSON.low),
+});
+
+describe("size and place of an avatar", () => {
+  it("keeps people, children and giants", () => {
+    for (const s of [0.4, 0.7, 1, 1.5]) {
+      expect(fitToHuman(changed((y) => s * y))).toEqual({ scale: 1, lift: 0, notes: [] });
+    }
+    expect(fitToHuman({ ...PERSON, low: 0.05 })!.lift).toBe(0);
+  });
+  it("brings any other size to a human one, on the floor", () => {
+    for (const s of [1e-3, 0.01, 0.1, 3, 10, 100, 1e4]) {
+      for (const up of [-50, -0.95, 0, 3]) {
+        const at = changed((y) => s * (y + up));
+        const { scale, lift } = fitToHuman(at)!;
+        const height = (at.head - at.foot) * scale;
+        expect(height).toBeGreaterThan(0.29);
+        expect(height).toBeLessThan(2.5);
+        expect(Math.abs(at.low * scale + lift)).toBeLessThan(0.13);
+      }
+    }
+  });
+  it("lifts hips that are the origin, and lowers what floats", () => {
+    expect(fitToHuman(changed((y) => y - 0.95))!.lift).toBeCloseTo(0.95);
+    expect(fitToHuman(changed((y) => y + 3))!.lift).toBeCloseTo(-3);
+    expect(fitToHuman(changed((y) => y + 3))!.notes).toEqual(["it was put on the floor"]);
+  });
+  it("takes legs for usual ones where there are none", () => {
+    const stub = fitToHuman({ hips: 0, head: 0.55, foot: 0, low: -0.1 })!;
+    expect(stub.scale).toBe(1);
+    expect(stub.lift).toBeGreaterThan(0.7);
+  });
+  it("refuses what is no upright figure", () => {
+    expect(fitToHuman({ hips: 0, head: 0, foot: 0, low: 0 })).toBeNull();
+    expect(fitToHuman({ hips: 1, head: 0.5, foot: 0, low: 0 })).toBeNull();
+    expect(fitToHuman({ hips: NaN, head: 1, foot: 0, low: 0 })).toBeNull();
+    expect(fitToHuman({ hips: 0.9, head: Infinity, foot: 0, low: 0 })).toBeNull();
+  });
+});
+
+describe("springs of an avatar", () => {
+  const vrm1 = (...springs: unknown[]) => ({
+    nodes: [{}, {}, {}],
+    extensions: { VRMC_springBone: { springs } as Record<string, unknown> },
+  });
+  const good = { joints: [{ node: 0 }, { node: 2 }] };
+  it("stay when they are whole", () => {
+    const file = vrm1(good, { joints: [] });
+    expect(dropOddSprings(file)).toBe(0);
+    expect(file.extensions.VRMC_springBone.springs).toHaveLength(2);
+    expect(dropOddSprings({})).toBe(0);
+  });
+  it("are left out one by one", () => {
+    for (const odd of [
+      { name: "hair" },
+      { joints: [{ node: 3 }] },
+      { joints: [{}] },
+      { ...good, colliderGroups: [0] },
+      { ...good, center: -1 },
+      7,
+      null,
+    ]) {
+      const file = vrm1(good, odd);
+      expect(dropOddSprings(file)).toBe(1);
+      expect(file.extensions.VRMC_springBone.springs).toEqual([good]);
+    }
+    const broken = vrm1();
+    broken.extensions.VRMC_springBone.springs = "none";
+    expect(dropOddSprings(broken)).toBe(1);
+  });
+  it("are left out of VRM 0.x as well", () => {
+    const bones = [{ bones: [0, 1] }, { bones: [9] }, {}, { bones: [1], colliderGroups: [4] }];
+    const file = { nodes: [{}, {}], extensions: { VRM: { secondaryAnimation: { boneGroups: bones } } } };
+    expect(dropOddSprings(file)).toBe(3);
+    expect(file.extensions.VRM.secondaryAnimation.boneGroups).toEqual([{ bones: [0, 1] }]);
+  });
+});

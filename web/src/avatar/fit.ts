@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stranger's avatar brought to human size, with its feet on the floor; and what of its file is left out.
+
+import { isObject, type Json } from "./inspect";
+
+/** Heights in the rest pose, m: of bones, and of the lowest point that is drawn. */
+export interface Heights {
+  hips: number;
+  head: number;
+  foot: number;
+  low: number;
+}
+
+export interface Fit {
+  scale: number;
+  /** m, after scaling */
+  lift: number;
+  /** What was changed, for the user. */
+  notes: string[];
+}
+
+/** From the foot to the head bone, m: children and giants stay as they are. */
+const SMALLEST = 0.3;
+const LARGEST = 2.4;
+const USUAL = 1.4;
+const FLOATING = 0.12; // m: shoes with soles stay as they are
+
+/** Null when the bones are those of no figure that stands upright. */
+export function fitToHuman({ hips, head, foot, low }: Heights): Fit | null {
+  const upper = head - hips;
+  if (![hips, head, foot].every(Number.isFinite) || !(upper > 1e-5)) return null;
+  // Legs that are not modelled count as usual ones.
+  const ankle = hips - foot > 0.2 * upper ? foot : hips - 1.4 * upper;
+  const length = head - ankle;
+  const notes: string[] = [];
+  const sized = length >= SMALLEST && length <= LARGEST;
+  const scale = sized ? 1 : USUAL / length;
+  if (!sized) notes.push(`it is ${size(length * 1.2)} tall in its file and was brought to human size`);
+  const sole = low <= ankle && low > ankle - 0.3 * length ? low : ankle - 0.06 * length;
+  const lift = Math.abs(scale * sole) > FLOATING ? -scale * sole : 0;
+  if (lift !== 0) notes.push("it was put on the floor");
+  return { scale, lift, notes };
+}
+
+const size = (metres: number): string =>
+  metres >= 1 ? `${Math.round(metres)} m` : `${Number((100 * metres).toPrecision(2))} cm`;
+
+const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
+
+/**
+ * Takes springs (of hair and clothes) that the 3-D library would fail at out of the file's JSON; returns how many. A spring
+ * needs joints that are nodes of the file, and colliders that exist.
+ */
+export function dropOddSprings(json: Json): number {
+  const extensions = isObject(json.extensions) ? json.extensions : {};
+  const nodes = list(json.nodes).length;
+  const within = (i: unknown, count: number): boolean =>
+    Number.isInteger(i) && (i as number) >= 0 && (i as number) < count;
+  let odd = 0;
+  const keep = (owner: Json, key: string, good: (item: Json) => boolean): void => {
+    if (owner[key] === undefined) return;
+    const all = list(owner[key]);
+    const kept = all.filter((item) => isObject(item) && good(item));
+    odd += all.length - kept.length + (Array.isArray(owner[key]) ? 0 : 1);
+    owner[key] = kept;
+  };
+  const springs = extensions.VRMC_springBone;
+  if (isObject(springs)) {
+    const colliders = list(springs.colliders).length;
+    const groups = list(springs.colliderGroups).length;
+    const sound = (c: unknown): boolean => isObject(c) && within(c.node, nodes) && isObject(c.shape);
+    if (!list(springs.colliders).every(sound)) {
+      delete springs.colliders; // groups refer to them by number
+      odd++;
+    }
+    const count = springs.colliders === undefined ? 0 : colliders;
+    keep(springs, "colliderGroups", (g) => list(g.colliders).every((c) => within(c, count)));
+    const allGroups = list(springs.colliderGroups).length === groups;
+    keep(
+      springs,
+      "springs",
+      (s) =>
+        Array.isArray(s.joints) &&
+        s.joints.every((j) => isObject(j) && within(j.node, nodes)) &&
+        (s.center === undefined || within(s.center, nodes)) &&
+        list(s.colliderGroups).every((g) => allGroups && within(g, groups)),
+    );
+  }
+  const vrm0 = isObject(extensions.VRM) ? extensions.VRM.secondaryAnimation : undefined;
+  if (isObject(vrm0)) {
+    const groups = list(vrm0.colliderGroups);
+    const sound = (g: unknown): boolean => isObject(g) && within(g.node, nodes) && Array.isArray(g.colliders);
+    if (!groups.every(sound)) {
+      vrm0.colliderGroups = [];
+      odd++;
+    }
+    const count = list(vrm0.colliderGroups).length;
+    keep(
+      vrm0,
+      "boneGroups",
+      (b) =>
+        Array.isArray(b.bones) &&
+        b.bones.every((n) => within(n, nodes)) &&
+        list(b.colliderGroups).every((g) => within(g, count)),
+    );
+  }
+  return odd;
+}
