@@ -13,7 +13,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
-#include "telemime/live/resampler.h"
+#include "telemime/offline/resampler.h"
 #include "telemime/outputs/file_output.h"
 
 namespace telemime {

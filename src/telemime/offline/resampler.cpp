@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/live/resampler.h"
+#include "telemime/offline/resampler.h"
 
 #include <algorithm>
 
