@@ -13,9 +13,9 @@
 
 #include "cli/exit_codes.h"
 #include "run_program.h"
-#include "telemime/outputs/bap/reader.h"
-#include "telemime/outputs/bvh/bvh.h"
 #include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/testing_bap.h"
+#include "telemime/outputs/testing_bvh.h"
 
 namespace telemime::e2e {
 namespace {
@@ -136,8 +136,8 @@ TEST(Results, OfARunThatWasStoppedAreValid) {
     EXPECT_EQ(pose.complaint, "");
     EXPECT_GE(pose.frames.size(), 3U);
     EXPECT_LT(pose.frames.size(), 2000U);
-    EXPECT_EQ(parse_bvh(bytes_of(folder / "out/motion.bvh"), "bvh").frames.size(), pose.frames.size());
-    EXPECT_EQ(parse_bap(bytes_of(folder / "out/motion.bap"), "bap").frames.size(), pose.frames.size());
+    EXPECT_EQ(testing_bvh::parse_bvh(bytes_of(folder / "out/motion.bvh")).frames.size(), pose.frames.size());
+    EXPECT_EQ(testing_bap::parse_bap(bytes_of(folder / "out/motion.bap")).frames.size(), pose.frames.size());
     EXPECT_TRUE(nlohmann::json::parse(bytes_of(folder / "out/report.json")).at("interrupted").get<bool>());
   }
 }

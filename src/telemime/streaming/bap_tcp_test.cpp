@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "telemime/outputs/all.h"
+#include "telemime/outputs/testing_bap.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/send_queue.h"
 #include "telemime/streaming/sender.h"
@@ -23,42 +22,12 @@ using testing_receivers::kTaken;
 using testing_receivers::TcpListener;
 using testing_receivers::TcpPeer;
 
-/// A frame of BAP text, parsed by the description of the format alone: the mask has a 0 or 1 for each
-/// parameter from 1 on, then come the frame's number and a value for each 1.
-struct BapText {
-  std::size_t mask_length = 0;
-  long number = -1;
-  std::map<int, int> values;  ///< by id
-
-  BapText(const std::string& mask, const std::string& rest) {
-    std::vector<int> ids;
-    for (const std::string& bit : words(mask)) {
-      EXPECT_TRUE(bit == "0" || bit == "1") << bit;
-      ++mask_length;
-      if (bit == "1") {
-        ids.push_back(static_cast<int>(mask_length));
-      }
-    }
-    const std::vector<std::string> numbers = words(rest);
-    EXPECT_EQ(numbers.size(), ids.size() + 1);
-    for (std::size_t i = 0; i < numbers.size() && i <= ids.size(); ++i) {
-      if (i == 0) {
-        number = std::stol(numbers[0]);
-      } else {
-        values[ids[i - 1]] = std::stoi(numbers[i]);
-      }
-    }
-  }
-
-  static std::vector<std::string> words(const std::string& text) {
-    std::istringstream stream(text);
-    std::vector<std::string> found;
-    for (std::string word; stream >> word;) {
-      found.push_back(word);
-    }
-    return found;
-  }
-};
+/// The next two lines, mask and values.
+testing_bap::BapFrame next_frame(TcpPeer& receiver) {
+  const std::string mask = receiver.line().value_or("");
+  const std::string values = receiver.line().value_or("");
+  return testing_bap::parse_bap("3.1 motion.bap 25 0\n" + mask + "\n" + values + "\n").frames.at(0);
+}
 
 std::string url_of(std::uint16_t port, const std::string& options = "") {
   return "bap+tcp://127.0.0.1:" + std::to_string(port) + options;
@@ -79,7 +48,7 @@ TEST_F(BapTcp, StreamsWhatTheFileHoldsForEveryProfile) {
     const auto encoder = make_bap_encoder(profile);
     const std::string head = encoder->begin(header_);
     EXPECT_EQ(receiver.line().value_or("") + "\n", head);
-    EXPECT_EQ(BapText::words(head).at(3), "0") << "an endless stream";
+    EXPECT_EQ(testing_bap::parse_bap(head).stated_frames, 0) << "an endless stream";
     for (const MotionFrame& frame : frames_) {
       sender->send(frame, kTaken);
       const std::string mask = receiver.line().value_or("");
@@ -100,7 +69,7 @@ TEST_F(BapTcp, AReceiverReadsTheAngles) {
   pose[Angle::r_elbow_flexion] = -0.5;
   sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 7, header_.fps), kTaken);
   EXPECT_EQ(receiver.line().value_or("").substr(0, 4), "3.1 ");
-  const BapText frame{receiver.line().value_or(""), receiver.line().value_or("")};
+  const testing_bap::BapFrame frame = next_frame(receiver);
   EXPECT_EQ(frame.mask_length, 186U);
   EXPECT_EQ(frame.number, 7);
   EXPECT_EQ(frame.values.size(), 20U);
@@ -118,7 +87,7 @@ TEST_F(BapTcp, MirroredOnRequest) {
   pose[Angle::l_shoulder_flexion] = -1.0;
   sender->send(testing_motion::frame_of(header_.body, header_.camera, pose, 0, header_.fps), kTaken);
   receiver.line();
-  const BapText frame{receiver.line().value_or(""), receiver.line().value_or("")};
+  const testing_bap::BapFrame frame = next_frame(receiver);
   EXPECT_EQ(frame.values.at(33), 100000);
   EXPECT_EQ(frame.values.at(32), 0);
 }
@@ -131,7 +100,7 @@ TEST_F(BapTcp, AReceiverThatComesLaterIsFound) {
     sender->send(frames_[0], kTaken);
     return sender->status().state == SenderState::failed;
   }));
-  EXPECT_EQ(sender->status().words, "nobody listens there; trying again");
+  EXPECT_EQ(sender->status().words, "no program is listening there; trying again");
   TcpListener listener(port);
   TcpPeer receiver = listener.accept();
   EXPECT_EQ(receiver.line().value_or("").substr(0, 4), "3.1 ");

@@ -16,11 +16,6 @@ constexpr std::array<Bap, kBapCount> kTable = {{
 #include "bap_rows.inc"
 }};
 
-constexpr int kOldFirstFinger = 48;
-constexpr int kOldFirstSpine = 98;
-constexpr int kOldLast = 169;
-constexpr int kOldSpineMinusNew = 47;
-
 }  // namespace
 
 std::span<const Bap> bap_table() {
@@ -33,16 +28,6 @@ const Bap& bap(int id) {
                 "ids are 1 to 186");
   }
   return kTable[static_cast<std::size_t>(id - 1)];
-}
-
-std::optional<int> bap_id_from_old(int old_id) {
-  if (old_id >= 1 && old_id < kOldFirstFinger) {
-    return old_id;
-  }
-  if (old_id >= kOldFirstSpine && old_id <= kOldLast) {
-    return old_id - kOldSpineMinusNew;
-  }
-  return std::nullopt;
 }
 
 }  // namespace telemime

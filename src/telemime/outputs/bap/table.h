@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -32,10 +30,5 @@ std::span<const Bap> bap_table();
 
 /// The parameter with this id, 1 to 186. Throws Error(usage) outside.
 const Bap& bap(int id);
-
-/// The present id of an id of the old list of 169 parameters, which lacks the skull base, has the spine last
-/// and numbers the fingers otherwise. Nothing for the fingers (old 48 to 97), whose order we have no source
-/// for.
-std::optional<int> bap_id_from_old(int old_id);
 
 }  // namespace telemime

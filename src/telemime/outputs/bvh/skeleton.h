@@ -4,10 +4,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "telemime/body/body.h"
-#include "telemime/outputs/bvh/bvh.h"
 
 namespace telemime {
 
@@ -37,6 +38,18 @@ enum class BvhBone : std::size_t {
 };
 inline constexpr std::size_t kBvhBoneCount = 21;
 
+/// Positions and rotations, each along x, y and z in this order.
+enum class BvhChannel { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
+
+/// One joint of a BVH hierarchy, in cm. At rest all joint frames are parallel.
+struct BvhJoint {
+  std::string name;
+  int parent = -1;  ///< index of the parent, smaller than the own; -1 for the root
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent
+  std::vector<BvhChannel> channels;                  ///< rotations multiply in this order, leftmost first
+  std::optional<Eigen::Vector3d> end_site;           ///< end of a joint without children
+};
+
 /// The skeleton of a body in a T-pose: arms along x, palms down, y up, facing +z, cm. Every joint turns by
 /// Zrotation Xrotation Yrotation; only the hips translate.
 std::vector<BvhJoint> bvh_skeleton(const Body& body);
@@ -48,7 +61,7 @@ struct BvhMotion {
 };
 
 /// The hips take the heading of the trunk, the spine the rest of its rotation. A clavicle and a shoulder
-/// blade carry the shoulder centre, which in our body moves with the upper arm (body.h), to exactly its
+/// blade move the shoulder centre, which in this body model moves with the upper arm (body.h), to its exact
 /// place.
 BvhMotion bvh_motion(const Body& body, const Pose& pose);
 

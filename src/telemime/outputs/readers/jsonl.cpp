@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include "telemime/core/files.h"
 #include "telemime/core/json_field.h"
@@ -146,7 +145,7 @@ PoseFile parse_pose_jsonl(std::string_view text, const std::string& name) {
     const bool last = text.find_first_not_of(" \t\r\n") == std::string_view::npos;
     const auto object = has_header && last ? parse_if_json(line, source) : parse_json(line, source);
     if (!object) {
-      file.complaint = source.name + " is cut off; it was left out";
+      file.complaint = source.name + " is truncated; it was dropped";
       return file;
     }
     const JsonField field(*object, source);

@@ -22,17 +22,17 @@ struct PoseFile {
   JointLimits limits;
   nlohmann::json header;            ///< the whole first line
   std::vector<MotionFrame> frames;  ///< in the order of the file, frame numbers increasing
-  std::string complaint;            ///< words about a last line that was cut off; empty when nothing was
+  std::string complaint;            ///< a message about a truncated last line; empty if there is none
 };
 
-/// Reads the text of a pose.jsonl. A last line that is cut off (a killed run, a full disk) is left out and
-/// reported in `complaint`. Throws Error(input) that names `name`, the line and the key when anything else is
-/// wrong: no header, another format or a newer version, a missing joint, a number that is not finite.
-/// Required of a frame: frame, time, state, joints; the other keys default when another program left them
-/// out.
+/// Reads the text of a pose.jsonl. A truncated last line (after a killed run or on a full disk) is dropped
+/// and reported in `complaint`. Throws Error(input) that names `name`, the line and the key if anything else
+/// is wrong: no header, another format or a newer version, a missing joint, a number that is not finite.
+/// Required of a frame: frame, time, state, joints; the other keys have defaults, because other programs may
+/// not write them.
 PoseFile parse_pose_jsonl(std::string_view text, const std::string& name);
 
-/// The same, of a file. Throws Error(input) also when it cannot be read.
+/// The same for a file. Also throws Error(input) if it cannot be read.
 PoseFile read_pose_jsonl(const std::filesystem::path& file);
 
 }  // namespace telemime
