@@ -57,9 +57,11 @@ std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_b
   const std::string input = command.live.request.input;
   command.live.guided = false;
   if (command.loop) {
-    return pace(loop([input] { return open_source(input); }));
+    return pace(
+        loop([input, known = command.live.request.input_options] { return open_source(input, known); }));
   }
   LiveOptions options;
+  options.input = command.live.request.input_options;
   options.left_behind = [left_behind] { *left_behind = true; };
   auto source = open_source(input, options);
   command.live.ends = !source->info().live;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <opencv2/highgui.hpp>
@@ -20,6 +25,28 @@ volatile std::sig_atomic_t interrupt_requested = 0;
 
 void on_interrupt(int) {
   interrupt_requested = 1;
+}
+
+// Whether a window can be opened, tried in a process of its own: where there is no display some toolkits
+// abort.
+bool window_opens() {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const rlimit no_core{0, 0};
+    ::setrlimit(RLIMIT_CORE, &no_core);
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) {
+      ::_exit(1);
+    }
+    try {
+      cv::namedWindow("telemime");
+      cv::waitKey(1);
+      ::_exit(0);
+    } catch (const cv::Exception&) {
+      ::_exit(1);
+    }
+  }
+  int status = -1;
+  return child > 0 && ::waitpid(child, &status, 0) == child && status == 0;
 }
 
 ViewerRequest show_window(const Progress& progress) {
@@ -54,7 +81,11 @@ void run(const TrackOptions& options) {
   TrackRequest request = make_request(options);
   ProgressBar bar(options.quiet);
   RunHooks hooks;
-  hooks.draw = options.show;
+  const bool show = options.show && window_opens();
+  hooks.draw = show;
+  if (options.show && !show) {
+    std::cerr << "no window can be opened here (is there a display?); tracking goes on without it\n";
+  }
   hooks.message = [&](const std::string& words) {
     if (!options.quiet) {
       bar.interrupt();
@@ -66,7 +97,7 @@ void run(const TrackOptions& options) {
       return interrupt_requested != 0 ? ViewerRequest::stop : ViewerRequest::none;
     }
     bar.show(progress.frames, progress.total, progress.seconds);
-    const ViewerRequest wish = options.show ? show_window(progress) : ViewerRequest::none;
+    const ViewerRequest wish = show ? show_window(progress) : ViewerRequest::none;
     return interrupt_requested != 0 ? ViewerRequest::stop : wish;
   };
   std::signal(SIGINT, on_interrupt);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "track_options.h"
 
+#include <CLI/Validators.hpp>
+
 #include "telemime/core/errors.h"
 
 namespace telemime {
@@ -56,6 +58,12 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
       ->required();
   command.add_option("--background", r.background, "Clip of the same scene without the person.");
   command.add_option("--camera", r.camera, "OpenCV camera calibration (YAML, XML or JSON).");
+  command
+      .add_option(
+          "--rate", r.input_options.rate,
+          "Images per second of a sequence [25], or frames per second of a video whose times are wrong.")
+      ->check(CLI::Range(0.001, 1000.0));
+  command.add_flag("--mirrored", r.input_options.mirrored, "The input shows a mirror image.");
   add_setting_options(command, o);
   command.add_option("--frames", r.most_frames, "Stop after this number of frames.");
   command.add_flag("--quiet", o.quiet, "Print errors only.");

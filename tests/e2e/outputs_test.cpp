@@ -197,6 +197,23 @@ TEST(Results, OverlayVideoAndPictureAreMade) {
   EXPECT_GT(fs::file_size(folder / "out/overlay.png"), 1000U);
 }
 
+TEST(Results, ASideResultThatFailsEndsNothing) {
+  const Folder folder;
+  const std::string out = folder / "2026-11-25T10:30:45+00:00";
+  fs::create_directories(out + "/overlay.mp4");
+  for (const char* display : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) {
+    ::unsetenv(display);
+  }
+  auto words = command(person_clip(), out);
+  words.back() = "--show";  // in place of --no-overlay
+  const Ended ended = run(words);
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_NE(ended.words.find("no window can be opened"), std::string::npos) << ended.words;
+  EXPECT_NE(ended.words.find("no overlay video"), std::string::npos) << ended.words;
+  const std::string poses = bytes_of(out + "/pose.jsonl");
+  EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), kPersonFrames + 1);
+}
+
 TEST(Results, OnlyTheFormatsThatWereAskedFor) {
   const Folder folder;
   auto words = command(person_clip(), folder / "out");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <regex>
@@ -76,31 +77,80 @@ std::optional<std::regex> number_pattern(const std::string& name) {
   return std::regex(escaped(found.prefix()) + "([0-9]+)" + escaped(found.suffix()));
 }
 
-/// Numbers left out between the first and the last file of a %d pattern.
-std::int64_t missing_numbers(const std::vector<fs::path>& files, const std::regex& pattern) {
+/// The place of each file in the sequence, by its number where the names differ in nothing else.
+struct Numbering {
+  std::vector<std::int64_t> places;  ///< from 0
+  std::string missing;               ///< "3 to 5, 8" in the file names' numbers; empty: none
+  std::int64_t count = 0;            ///< of the missing ones
+};
+
+Numbering by_order(std::size_t files) {
+  Numbering numbering;
+  numbering.places.resize(files);
+  std::iota(numbering.places.begin(), numbering.places.end(), 0);
+  return numbering;
+}
+
+/// `pattern` matches the names of the sequence, with the number as its only group.
+Numbering numbering_of(const std::vector<fs::path>& files, const std::regex& pattern) {
   constexpr std::size_t digits_of_int64 = 18;
-  std::int64_t missing = 0;
-  std::int64_t previous = -1;
+  constexpr std::int64_t most_missing = 10;  // per file; other numbers are times or names
+  std::vector<std::int64_t> numbers;
+  std::int64_t stride = 0;  // a sequence may have every fifth frame
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
     std::smatch found;
     if (!std::regex_match(name, found, pattern) || found.str(1).size() > digits_of_int64) {
-      continue;
+      return by_order(files.size());
     }
     const std::int64_t number = std::stoll(found.str(1));
-    missing += previous >= 0 && number > previous ? number - previous - 1 : 0;
-    previous = number;
+    if (!numbers.empty() && number <= numbers.back()) {
+      return by_order(files.size());
+    }
+    stride = numbers.empty() ? 0 : std::gcd(stride, number - numbers.back());
+    numbers.push_back(number);
   }
-  return missing;
+  stride = std::max<std::int64_t>(1, stride);
+  Numbering numbering;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    numbering.places.push_back((numbers[i] - numbers[0]) / stride);
+    const std::int64_t gap = i == 0 ? 0 : numbering.places[i] - numbering.places[i - 1] - 1;
+    if (gap > 0) {
+      numbering.count += gap;
+      numbering.missing += (numbering.missing.empty() ? "" : ", ") + std::to_string(numbers[i - 1] + stride) +
+                           (gap > 1 ? " to " + std::to_string(numbers[i] - stride) : "");
+    }
+  }
+  return numbering.count <= most_missing * std::ssize(files) ? numbering : by_order(files.size());
+}
+
+/// The pattern of a name by its last number.
+std::regex pattern_of(const std::string& name) {
+  static const std::regex last_number("^(.*?)([0-9]+)([^0-9]*)$");
+  std::smatch found;
+  return std::regex(std::regex_match(name, found, last_number)
+                        ? escaped(found.str(1)) + "([0-9]+)" + escaped(found.str(3))
+                        : "(?!)");
 }
 
 class ImageSequence : public Source {
  public:
-  ImageSequence(std::vector<fs::path> files, const std::string& input, InputKind kind)
+  ImageSequence(std::vector<fs::path> files, const std::string& input, InputKind kind,
+                const InputOptions& options)
       : files_(std::move(files)) {
     const std::optional<std::regex> pattern = number_pattern(fs::path(input).filename().string());
-    if (const std::int64_t missing = pattern ? missing_numbers(files_, *pattern) : 0; missing > 0) {
-      notes_.add(std::to_string(missing) + " numbers are missing between the first and the last image");
+    numbering_ = numbering_of(files_, kind == InputKind::pattern && pattern
+                                          ? *pattern
+                                          : pattern_of(files_.front().filename().string()));
+    if (numbering_.count > 0) {
+      constexpr std::size_t longest = 100;
+      std::string which = numbering_.missing;
+      if (which.size() > longest) {
+        which = which.substr(0, which.rfind(',', longest)) + " ...";
+      }
+      notes_.add(std::to_string(numbering_.count) +
+                 " numbers are missing between the first and the last image (" + which +
+                 "); time goes on across them");
     }
     first_ = next_image();
     if (first_.empty()) {
@@ -111,9 +161,11 @@ class ImageSequence : public Source {
                         "Open one in an image viewer to see whether it is whole.");
     }
     require_usable_size(first_.size(), input);
-    info_ = {
-        input,         first_.cols, first_.rows, images_per_second, static_cast<std::int64_t>(files_.size()),
-        /*live=*/false};
+    info_.name = input;
+    info_.width = first_.cols;
+    info_.height = first_.rows;
+    info_.fps = options.rate > 0.0 ? options.rate : images_per_second;
+    info_.frames = static_cast<std::int64_t>(files_.size());
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -132,9 +184,12 @@ class ImageSequence : public Source {
     if (image.empty()) {
       return std::nullopt;
     }
-    const auto index = static_cast<std::int64_t>(upcoming_) - 1;
+    const std::int64_t index = numbering_.places[upcoming_ - 1];
+    if (first_index_ < 0) {
+      first_index_ = index;
+    }
     return Frame{fit_to(image, {info_.width, info_.height}, notes_), index,
-                 static_cast<double>(index - first_index_) / images_per_second};
+                 static_cast<double>(index - first_index_) / info_.fps};
   }
 
  private:
@@ -144,9 +199,6 @@ class ImageSequence : public Source {
       const fs::path& file = files_[upcoming_++];
       cv::Mat image = decode(file);
       if (!image.empty()) {
-        if (first_index_ < 0) {
-          first_index_ = static_cast<std::int64_t>(upcoming_) - 1;
-        }
         return image;
       }
       if (unreadable_++ == 0) {
@@ -165,6 +217,7 @@ class ImageSequence : public Source {
   }
 
   std::vector<fs::path> files_;
+  Numbering numbering_;
   SourceInfo info_;
   Notes notes_;
   cv::Mat first_;
@@ -210,8 +263,9 @@ std::vector<fs::path> image_files(const std::string& input, InputKind kind) {
   return files;
 }
 
-std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind) {
-  return std::make_unique<ImageSequence>(image_files(input, kind), input, kind);
+std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind,
+                                            const InputOptions& options) {
+  return std::make_unique<ImageSequence>(image_files(input, kind), input, kind, options);
 }
 
 }  // namespace telemime

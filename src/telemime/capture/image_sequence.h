@@ -19,9 +19,11 @@ bool natural_less(const std::string& a, const std::string& b);
 /// Error(input) if there are none.
 std::vector<std::filesystem::path> image_files(const std::string& input, InputKind kind);
 
-/// A sequence of image files at 25 frames per second. For an image that cannot be read, and for numbers that
-/// are missing in a %d pattern, index and time are skipped, and complaint() names it. Throws Error(input) if
-/// no image can be read.
-std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind);
+/// A sequence of image files at InputOptions::rate, or 25 frames per second. Where the names differ in their
+/// last number alone, it is the frame's: missing ones take their time. For them, and for an image that cannot
+/// be read, index and time are skipped, and complaint() names it. Throws Error(input) if no image can be
+/// read.
+std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind,
+                                            const InputOptions& options = {});
 
 }  // namespace telemime

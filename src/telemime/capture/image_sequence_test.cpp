@@ -74,7 +74,6 @@ TEST_F(ImageSequenceTest, ReadsAFolderInNaturalOrder) {
   const std::unique_ptr<Source> source = open_source(scratch_.file(""));
   EXPECT_EQ(source->info().frames, 4);
   EXPECT_EQ(numbers(*source), (std::vector<int>{1, 2, 9, 10}));
-  EXPECT_EQ(source->complaint(), "");
 }
 
 TEST_F(ImageSequenceTest, PatternsChooseFiles) {
@@ -90,13 +89,42 @@ TEST_F(ImageSequenceTest, PatternsChooseFiles) {
   EXPECT_EQ(numbers(*open_source(scratch_.file("b4.png"))), (std::vector<int>{8}));
 }
 
-TEST_F(ImageSequenceTest, ReportsGapsInTheNumbers) {
-  for (const int number : {1, 2, 6}) {
-    write_numbered(std::to_string(number) + ".png", number);
+TEST_F(ImageSequenceTest, MissingNumbersTakeTheirTime) {
+  for (const int number : {1, 2, 6, 8}) {
+    write_numbered("a" + std::to_string(number) + ".png", number);
   }
-  const std::unique_ptr<Source> source = open_source(scratch_.file("%d.png"));
-  EXPECT_EQ(numbers(*source).size(), 3U);
-  EXPECT_NE(source->complaint().find("3 numbers are missing"), std::string::npos) << source->complaint();
+  for (const char* input : {"a%d.png", "", "a*.png"}) {
+    const std::unique_ptr<Source> source = open_source(scratch_.file(input), {.rate = 10.0});
+    EXPECT_EQ(source->info().fps, 10.0);
+    std::vector<double> times;
+    while (const std::optional<Frame> frame = source->next()) {
+      times.push_back(10.0 * frame->time);
+      EXPECT_EQ(frame->index, std::lround(times.back()));
+    }
+    EXPECT_EQ(times, (std::vector<double>{0.0, 1.0, 5.0, 7.0}));
+    EXPECT_NE(source->complaint().find("4 numbers are missing"), std::string::npos) << source->complaint();
+    EXPECT_NE(source->complaint().find("(3 to 5, 7)"), std::string::npos) << source->complaint();
+  }
+}
+
+TEST_F(ImageSequenceTest, EqualStepsAndTimesMissNoNumbers) {
+  const std::vector<std::vector<std::string>> sequences = {
+      {"f0", "f5", "f10"},
+      {"1699999123456", "1699999123489", "1699999123530"},
+      {"a", "b", "c"},
+      {"a1", "b1", "c7"}};
+  for (const std::vector<std::string>& names : sequences) {
+    const std::string folder = "folder-" + names[0];
+    std::filesystem::create_directory(scratch_.file(folder));
+    for (const std::string& name : names) {
+      write_numbered(folder + "/" + name + ".png", 1);
+    }
+    const std::unique_ptr<Source> source = open_source(scratch_.file(folder));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_DOUBLE_EQ(source->next()->time, i / 25.0) << folder;
+    }
+    EXPECT_EQ(source->complaint(), "");
+  }
 }
 
 TEST_F(ImageSequenceTest, SkipsUnreadableImagesAndTheirTime) {

@@ -55,6 +55,10 @@ std::size_t host_of(const std::string& url, std::size_t start) {
 
 }  // namespace
 
+std::string name_for_ffmpeg(const std::string& path) {
+  return "file:" + path;
+}
+
 bool has_image_extension(const std::string& name) {
   std::string extension = std::filesystem::path(name).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -74,16 +78,17 @@ InputKind input_kind(const std::string& input) {
     return InputKind::device;
   }
   const std::string path = without_file_scheme(input);
-  if (is_url(path)) {
-    return InputKind::stream;
-  }
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     return InputKind::folder;
   }
-  // A file may be named "take[2].mp4": an existing file is not a pattern.
-  if (!std::filesystem::exists(path, ignored) && is_pattern(path)) {
-    return InputKind::pattern;
+  if (!std::filesystem::exists(path, ignored)) {  // files may be named "take[2].mp4" or "a:" / "b.mp4"
+    if (is_url(path)) {
+      return InputKind::stream;
+    }
+    if (is_pattern(path)) {
+      return InputKind::pattern;
+    }
   }
   return has_image_extension(path) ? InputKind::image : InputKind::video_file;
 }

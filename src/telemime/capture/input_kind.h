@@ -18,8 +18,8 @@ enum class InputKind {
   video_file,  ///< any other name
 };
 
-/// Determines the kind from the name and, if that is ambiguous, from the file system. Never throws; any other
-/// name is a video file, whether it exists or not.
+/// Determines the kind from the name and from the file system: what exists there is a file or folder, but for
+/// numbers and devices. Never throws; any other name is a video file, whether it exists or not.
 InputKind input_kind(const std::string& input);
 
 /// The kind for messages: "a camera index", "a video file", ...
@@ -27,6 +27,9 @@ std::string in_words(InputKind kind);
 
 /// The path of a file:// URL; any other input unchanged.
 std::string without_file_scheme(const std::string& input);
+
+/// The name by which FFmpeg opens this file: to it "take:2.mp4" alone is a URL.
+std::string name_for_ffmpeg(const std::string& path);
 
 /// Whether the name has the extension of an image that OpenCV reads (.png, .JPG, ...).
 bool has_image_extension(const std::string& name);

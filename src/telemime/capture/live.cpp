@@ -40,7 +40,7 @@ class Reader {
         taken_(start_),
         opened_(start_),
         watch_(size_, start_) {
-    fps_ = usable_fps(device_.fps, notes_);
+    fps_ = usable_fps(device_.fps, std::nullopt, notes_);
     newest_ = Frame{first, 0, 0.0, start_};
   }
 

@@ -43,6 +43,7 @@ struct LiveOptions {
   /// Called by the destructor if that was too short: a thread is still inside the driver or FFmpeg. A program
   /// that ends then must not run the destructors of static objects (std::_Exit).
   std::function<void()> left_behind = {};
+  InputOptions input = {};
   Clock clock = monotonic_clock();  ///< not used for pauses, which end early when the source is stopped
 };
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <filesystem>
+#include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
@@ -51,7 +52,9 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
   const std::string device = kind == InputKind::camera ? "/dev/video" + input : input;
   std::error_code ignored;
   if (!std::filesystem::exists(device, ignored)) {
-    throw cannot_read(input, kind, "there is no " + device, cameras_found());
+    const bool is_file = std::filesystem::exists(input, ignored);
+    throw cannot_read(input, kind, "there is no " + device,
+                      is_file ? "The file of that name is ./" + input + "." : cameras_found());
   }
   if (::access(device.c_str(), R_OK | W_OK) != 0) {
     throw cannot_read(
@@ -76,11 +79,15 @@ std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& o
   }
   const bool finite = url.starts_with("http") && video.get(cv::CAP_PROP_FRAME_COUNT) > 0.0;
   if (finite) {  // a file on a server: read all of it, and do not reconnect at its end
-    return video_source(video, shown, InputKind::stream);
+    return video_source({.video = video,
+                         .name = shown,
+                         .kind = InputKind::stream,
+                         .stamps = first_stamps(connect_to_stream(url, options.patience))},
+                        options.input);
   }
   auto open = [url, patience = options.patience, opened = video]() mutable {
     const cv::VideoCapture first_time = std::exchange(opened, {});
-    return stream_device(first_time.isOpened() ? first_time : connect_to_stream(url, patience));
+    return stream_device(first_time.isOpened() ? first_time : connect_to_stream(url, patience), patience);
   };
   video = {};  // now only the source holds it and can close it
   std::unique_ptr<Source> source = live_source(shown, std::move(open), options);
@@ -90,17 +97,30 @@ std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& o
   return source;
 }
 
-}  // namespace
+/// A source whose pictures are mirror images, mirrored back.
+class MirroredSource : public Source {
+ public:
+  explicit MirroredSource(std::unique_ptr<Source> source) : source_(std::move(source)) {}
+  const SourceInfo& info() const override { return source_->info(); }
+  std::string complaint() const override { return source_->complaint(); }
+  void stop() override { source_->stop(); }
+  void attend(std::function<void(const SourceNews&)> report) override { source_->attend(std::move(report)); }
 
-std::unique_ptr<Source> open_source(const std::string& input) {
-  return open_source(input, LiveOptions());
-}
-
-std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions& options) {
-  if (input.empty()) {
-    throw Error(ErrorKind::usage, "the name of the input is empty",
-                "Give a video file, a folder of images, a stream URL or a camera (0).");
+  std::optional<Frame> next() override {
+    std::optional<Frame> frame = source_->next();
+    if (frame) {
+      cv::Mat image;
+      cv::flip(frame->image, image, 1);
+      frame->image = image;
+    }
+    return frame;
   }
+
+ private:
+  std::unique_ptr<Source> source_;
+};
+
+std::unique_ptr<Source> open_kind(const std::string& input, const LiveOptions& options) {
   const InputKind kind = input_kind(input);
   switch (kind) {
     case InputKind::camera:
@@ -111,11 +131,28 @@ std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions&
     case InputKind::folder:
     case InputKind::pattern:
     case InputKind::image:
-      return open_image_sequence(input, kind);
+      return open_image_sequence(input, kind, options.input);
     case InputKind::video_file:
       break;
   }
-  return open_video_file(without_file_scheme(input));
+  return open_video_file(without_file_scheme(input), options.input);
+}
+
+}  // namespace
+
+std::unique_ptr<Source> open_source(const std::string& input, const InputOptions& options) {
+  LiveOptions live;
+  live.input = options;
+  return open_source(input, live);
+}
+
+std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions& options) {
+  if (input.empty()) {
+    throw Error(ErrorKind::usage, "the name of the input is empty",
+                "Give a video file, a folder of images, a stream URL or a camera (0).");
+  }
+  auto source = open_kind(input, options);
+  return options.input.mirrored ? std::make_unique<MirroredSource>(std::move(source)) : std::move(source);
 }
 
 }  // namespace telemime

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/time_base.h"
 
 namespace telemime {
 namespace {
@@ -105,15 +106,31 @@ void require_usable_size(cv::Size size, const std::string& input) {
   }
 }
 
-double usable_fps(double stated, Notes& notes) {
-  if (std::isfinite(stated) && stated >= slowest && stated <= fastest) {
+cv::Mat with_square_pixels(const cv::Mat& image, double aspect) {
+  const cv::Size size(static_cast<int>(std::lround(image.cols * std::max(1.0, aspect))),
+                      static_cast<int>(std::lround(image.rows * std::max(1.0, 1.0 / aspect))));
+  cv::Mat square = image;
+  if (!image.empty() && size != image.size()) {
+    cv::resize(image, square, size, 0.0, 0.0, cv::INTER_LINEAR);
+  }
+  return square;
+}
+
+double usable_fps(double stated, std::optional<double> measured, Notes& notes) {
+  const bool usable = std::isfinite(stated) && stated >= slowest && stated <= fastest;
+  if (usable && (!measured || same_rate(stated, *measured))) {
     return stated;
   }
   std::ostringstream note;
-  note << "it states no usable frame rate (" << stated << "); " << fallback_fps
-       << " frames a second are assumed";
+  if (usable) {
+    note << "it states " << stated << " frames a second, but its time stamps show " << *measured
+         << ", which is used";
+  } else {
+    note << "it states no usable frame rate (" << stated << "); " << measured.value_or(fallback_fps)
+         << " frames a second are " << (measured ? "used, by its time stamps" : "assumed");
+  }
   notes.add(note.str());
-  return fallback_fps;
+  return measured.value_or(fallback_fps);
 }
 
 }  // namespace telemime

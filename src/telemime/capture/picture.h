@@ -2,6 +2,7 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,12 @@ cv::Mat fit_to(const cv::Mat& image, cv::Size size, Notes& notes);
 /// Throws Error(input) that names `input` if an image of this size (pixels) is too small for a person.
 void require_usable_size(cv::Size size, const std::string& input);
 
-/// The frame rate (1/s) that an input states, or 25 with a note if it is not usable (0, NaN, a clock rate
-/// such as 90000).
-double usable_fps(double stated, Notes& notes);
+/// `image` resized so that its pixels are square: `aspect` is the width of a pixel by its height.
+cv::Mat with_square_pixels(const cv::Mat& image, double aspect);
+
+/// The frame rate (1/s) of an input: as stated if that is usable (not 0, NaN or a clock rate such as 90000)
+/// and the measured one is the same or unknown; else as measured; else 25. With a note where the stated one
+/// is not used.
+double usable_fps(double stated, std::optional<double> measured, Notes& notes);
 
 }  // namespace telemime

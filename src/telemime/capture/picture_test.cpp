@@ -52,17 +52,31 @@ TEST(FitTo, ResizesWithOneNote) {
 
 TEST(UsableFps, ReplacesUnusableFrameRatesWithANote) {
   for (const double fps : {0.5, 1.0, 14.985, 25.0, 29.97, 240.0, 1000.0}) {
+    for (const std::optional<double> measured : {std::optional<double>(), std::optional(1.01 * fps)}) {
+      Notes notes;
+      EXPECT_EQ(usable_fps(fps, measured, notes), fps);
+      EXPECT_TRUE(notes.text().empty());
+    }
     Notes notes;
-    EXPECT_EQ(usable_fps(fps, notes), fps);
-    EXPECT_TRUE(notes.text().empty());
+    EXPECT_EQ(usable_fps(fps, 1.1 * fps, notes), 1.1 * fps) << "the time stamps are believed";
+    EXPECT_FALSE(notes.text().empty());
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double fps : {0.0, -25.0, 1e-9, 90000.0, nan, infinite, -infinite}) {
     Notes notes;
-    EXPECT_EQ(usable_fps(fps, notes), 25.0) << fps;
+    EXPECT_EQ(usable_fps(fps, std::nullopt, notes), 25.0) << fps;
     EXPECT_NE(notes.text().find("25"), std::string::npos) << fps;
+    EXPECT_EQ(usable_fps(fps, 30.0, notes), 30.0) << fps;
   }
+}
+
+TEST(WithSquarePixels, ThePictureHasItsShownAspect) {
+  const cv::Mat stored = testing::numbered_picture(3, {480, 480});
+  EXPECT_EQ(with_square_pixels(stored, 1.0).size(), stored.size());
+  EXPECT_EQ(with_square_pixels(stored, 4.0 / 3.0).size(), cv::Size(640, 480));
+  EXPECT_EQ(with_square_pixels(stored, 0.5).size(), cv::Size(480, 960));
+  EXPECT_TRUE(with_square_pixels({}, 2.0).empty());
 }
 
 TEST(RequireUsableSize, RefusesImagesTooSmallForAPerson) {

@@ -11,14 +11,23 @@
 
 namespace telemime {
 
+/// What the user knows about an input that it does not state itself.
+struct InputOptions {
+  /// Frames (or numbers of images) per second; 0: by the time stamps, or 25. For images, and for videos whose
+  /// own times are wrong.
+  double rate = 0.0;
+  bool mirrored = false;  ///< the pictures are mirror images: they are mirrored back
+};
+
 /// Properties of an input that are known before its frames are read.
 struct SourceInfo {
   std::string name;  ///< as the user gave it; for a stream without secrets (shown_url())
   int width = 0;     ///< of the first frame
   int height = 0;
-  double fps = 25.0;        ///< stated by the input or measured; 25 if neither is usable
-  std::int64_t frames = 0;  ///< 0: unknown (camera, stream)
-  bool live = false;        ///< frames come in real time and may be dropped
+  double fps = 25.0;          ///< by the time stamps where they do not confirm what is stated; else 25
+  std::int64_t frames = 0;    ///< 0: unknown (camera, stream)
+  bool live = false;          ///< frames come in real time and may be dropped
+  double pixel_aspect = 1.0;  ///< width of a stored pixel by its height; frames are resized to square pixels
 };
 
 /// A change in the condition of a camera during a run.
@@ -58,6 +67,6 @@ class Source {
 /// Opens a video file, an image folder, an image pattern (frame_%04d.png, *.jpg), a stream URL, a camera
 /// index ("0") or device ("/dev/video0"). Throws Error(input) that states the assumed kind of input, the
 /// cause (no such file, empty file, not a video, no frame in it) and a remedy.
-std::unique_ptr<Source> open_source(const std::string& input);
+std::unique_ptr<Source> open_source(const std::string& input, const InputOptions& options = {});
 
 }  // namespace telemime

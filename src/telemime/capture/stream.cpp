@@ -4,12 +4,15 @@
 #include <cmath>
 
 #include "telemime/capture/jpeg.h"
+#include "telemime/capture/picture.h"
+#include "telemime/capture/video_file.h"
 
 namespace telemime {
 namespace {
 
-constexpr int kMostDamaged = 25;  // consecutive images: then the sender has probably stopped
-constexpr double kSilent = 1.0;   // s; no decoder takes this long to fail
+constexpr int kMostDamaged = 25;    // consecutive images: then the sender has probably stopped
+constexpr double kSilent = 1.0;     // s; no decoder takes this long to fail
+constexpr double kTimedOut = 0.95;  // of the patience
 
 // A container's tag, or the beginning of the codec's name where there is no container, as over HTTP.
 bool is_motion_jpeg(const cv::VideoCapture& connection) {
@@ -29,20 +32,22 @@ cv::VideoCapture connect_to_stream(const std::string& url, double patience) {
   return connection;
 }
 
-bool grab_past_damage(const std::function<bool()>& grab, const Clock& clock) {
+bool grab_past_damage(const std::function<bool()>& grab, double patience, const Clock& clock) {
   for (int attempt = 0; attempt < kMostDamaged; ++attempt) {
     const double begun = clock.now();
-    if (grab()) {
-      return true;
+    const bool grabbed = grab();
+    const double passed = clock.now() - begun;
+    if (grabbed) {
+      return passed < kTimedOut * patience;
     }
-    if (clock.now() - begun > kSilent) {
+    if (passed > kSilent) {
       return false;
     }
   }
   return false;
 }
 
-LiveDevice stream_device(const cv::VideoCapture& connection, const Clock& clock) {
+LiveDevice stream_device(const cv::VideoCapture& connection, double patience, const Clock& clock) {
   if (!connection.isOpened()) {
     return {};
   }
@@ -62,8 +67,15 @@ LiveDevice stream_device(const cv::VideoCapture& connection, const Clock& clock)
             {},
             fps};
   }
-  return {[video, clock]() mutable { return grab_past_damage([&video] { return video.grab(); }, clock); },
-          [video](cv::Mat& picture) mutable { return video.retrieve(picture); },
+  return {[video, patience, clock]() mutable {
+            return grab_past_damage([&video] { return video.grab(); }, patience, clock);
+          },
+          [video, aspect = pixel_aspect(video)](cv::Mat& picture) mutable {
+            cv::Mat stored;
+            const bool whole = video.retrieve(stored);
+            picture = with_square_pixels(stored, aspect);
+            return whole;
+          },
           {},
           fps};
 }

@@ -15,7 +15,7 @@ struct Tries {
           now += seconds;
           return ++count > failures;
         },
-        {[this] { return now; }, [](double) {}});
+        8.0, {[this] { return now; }, [](double) {}});
   }
   double now = 100.0;
   int count = 0;
@@ -41,7 +41,12 @@ TEST(GrabPastDamage, SilentSenderIsWaitedForOnce) {
 
 TEST(GrabPastDamage, AcceptsALateImage) {
   Tries tries;
-  EXPECT_TRUE(tries.succeed(0, 8.0));
+  EXPECT_TRUE(tries.succeed(0, 7.0));
+}
+
+TEST(GrabPastDamage, ATimeOutBringsNoImage) {
+  Tries tries;
+  EXPECT_FALSE(tries.succeed(0, 8.0)) << "it is an old one that the decoder still held";
 }
 
 }  // namespace

@@ -8,32 +8,36 @@
 
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/picture.h"
+#include "telemime/core/time_base.h"
 
 namespace telemime {
 namespace {
 
-constexpr double longest_step = 10.0;  // seconds; a larger jump between time stamps is a fault of the file
+constexpr int kFirstStamps = 120;  // frames that the rate is measured in
 
 /// Headers of some containers only estimate the number of frames, so a few missing ones mean nothing.
-bool ends_early(std::int64_t read, std::int64_t promised) {
-  return promised - read > std::max<std::int64_t>(4, promised / 20);
+bool ends_early(double read, double promised) {
+  return promised - read > std::max(4.0, promised / 20.0);
 }
 
 class VideoFile : public Source {
  public:
-  VideoFile(const cv::VideoCapture& video, const std::string& name, InputKind kind) : video_(video) {
-    info_.name = name;
+  VideoFile(const OpenVideo& opened, const InputOptions& options)
+      : video_(opened.video), stated_fps_(video_.get(cv::CAP_PROP_FPS)), by_number_(options.rate > 0.0) {
+    info_.name = opened.name;
     info_.frames = std::max<std::int64_t>(0, static_cast<std::int64_t>(video_.get(cv::CAP_PROP_FRAME_COUNT)));
-    info_.fps = usable_fps(video_.get(cv::CAP_PROP_FPS), notes_);
+    info_.fps = by_number_ ? options.rate : usable_fps(stated_fps_, rate_of(opened.stamps), notes_);
+    info_.pixel_aspect = pixel_aspect(video_);
+    times_ = TimeBase(info_.fps);
     first_ = decode();
     if (first_.empty()) {
-      throw cannot_read(name, kind, "it can be opened, but has no frame that can be decoded",
+      throw cannot_read(opened.name, opened.kind, "it can be opened, but has no frame that can be decoded",
                         "Play it to see that it is whole, or convert it: ffmpeg -i INPUT output.mp4");
     }
-    require_usable_size(first_.size(), name);
+    require_usable_size(first_.size(), opened.name);
     info_.width = first_.cols;
     info_.height = first_.rows;
-    stamp_ = video_.get(cv::CAP_PROP_POS_MSEC) / 1000.0;
+    time_ = times_.next(stamp());
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -44,14 +48,14 @@ class VideoFile : public Source {
       return std::nullopt;
     }
     if (!first_.empty()) {
-      return Frame{std::exchange(first_, {}), index_++, 0.0};
+      return Frame{std::exchange(first_, {}), index_++, time_};
     }
     const cv::Mat image = decode();
     if (image.empty()) {
       finish();
       return std::nullopt;
     }
-    time_ += step();
+    time_ = times_.next(stamp());
     return Frame{fit_to(image, {info_.width, info_.height}, notes_), index_++, time_};
   }
 
@@ -64,19 +68,22 @@ class VideoFile : public Source {
       notes_.add("frame " + std::to_string(index_) + " cannot be decoded; reading ended there");
       return {};
     }
-    return to_bgr8(image);
+    return with_square_pixels(to_bgr8(image), info_.pixel_aspect);
   }
 
-  /// Seconds since the previous frame. The decoder's last frames come without a time stamp (0).
-  double step() {
-    const double previous = std::exchange(stamp_, video_.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
-    const double passed = stamp_ - previous;
-    return passed > 0.0 && passed < longest_step ? passed : 1.0 / info_.fps;
+  /// The decoder's last frames come without a time stamp (0).
+  std::optional<double> stamp() {
+    const double ms = video_.get(cv::CAP_PROP_POS_MSEC);
+    return by_number_ || (ms == 0.0 && index_ > 0) ? std::nullopt : std::optional(ms / 1000.0);
   }
 
   void finish() {
     ended_ = true;
-    if (ends_early(index_, info_.frames)) {
+    // A number of frames may be the stated length at the stated rate, which a variable rate does not have.
+    const auto promised = static_cast<double>(info_.frames);
+    const bool short_of_time =
+        !(stated_fps_ > 0.0) || by_number_ || ends_early(time_ * stated_fps_ + 1.0, promised);
+    if (ends_early(static_cast<double>(index_), promised) && short_of_time) {
       notes_.add("it ended after " + std::to_string(index_) + " frames, but its header states " +
                  std::to_string(info_.frames) + "; the file may be cut off or damaged");
     }
@@ -87,8 +94,10 @@ class VideoFile : public Source {
   Notes notes_;
   cv::Mat first_;
   std::int64_t index_ = 0;
-  double stamp_ = 0.0;  // time stamp of the last frame in the file, s
-  double time_ = 0.0;   // time of the last returned frame, s
+  double stated_fps_;
+  bool by_number_;  // of the frame, instead of by time stamps
+  TimeBase times_{25.0};
+  double time_ = 0.0;  // of the last frame, s
   bool ended_ = false;
 };
 
@@ -104,23 +113,48 @@ int file_backend() {
 
 }  // namespace
 
-std::unique_ptr<Source> video_source(const cv::VideoCapture& video, const std::string& name, InputKind kind) {
-  return std::make_unique<VideoFile>(video, name, kind);
+std::vector<double> first_stamps(cv::VideoCapture video) {
+  std::vector<double> stamps;
+  try {
+    while (std::ssize(stamps) < kFirstStamps && video.grab()) {
+      stamps.push_back(video.get(cv::CAP_PROP_POS_MSEC) / 1000.0);
+    }
+  } catch (const cv::Exception&) {  // what cannot be decoded is reported when it is read
+    return stamps;
+  }
+  return stamps;
 }
 
-std::unique_ptr<Source> open_video_file(const std::string& path) {
+double pixel_aspect(const cv::VideoCapture& video) {
+  const double aspect = video.get(cv::CAP_PROP_SAR_NUM) / video.get(cv::CAP_PROP_SAR_DEN);
+  const auto turn = static_cast<int>(video.get(cv::CAP_PROP_ORIENTATION_META));
+  const double shown = turn % 180 == 0 ? aspect : 1.0 / aspect;
+  constexpr double kMost = 4.0;
+  return shown > 1.0 / kMost && shown < kMost ? shown : 1.0;
+}
+
+std::unique_ptr<Source> video_source(const OpenVideo& opened, const InputOptions& options) {
+  return std::make_unique<VideoFile>(opened, options);
+}
+
+std::unique_ptr<Source> open_video_file(const std::string& path, const InputOptions& options) {
   require_readable_file(path, InputKind::video_file);
   if (looks_like_text(path)) {
     throw cannot_read(path, InputKind::video_file, "it is a text file, not a video",
                       "Give the video itself; a stream is given by its URL.");
   }
-  const cv::VideoCapture video(path, file_backend());
+  const std::string name = file_backend() == cv::CAP_FFMPEG ? name_for_ffmpeg(path) : path;
+  const cv::VideoCapture video(name, file_backend());
   if (!video.isOpened()) {
     throw cannot_read(path, InputKind::video_file,
                       "it is not a video, is cut off, or has an unknown encoding",
                       "Play it to see that it is whole, or convert it: ffmpeg -i INPUT output.mp4");
   }
-  return video_source(video, path, InputKind::video_file);
+  return video_source({.video = video,
+                       .name = path,
+                       .kind = InputKind::video_file,
+                       .stamps = first_stamps(cv::VideoCapture(name, file_backend()))},
+                      options);
 }
 
 }  // namespace telemime

@@ -55,37 +55,11 @@ TEST_F(CameraFile, ReadsOpenCvYaml) {
   const Camera camera = load_camera(file);
   EXPECT_EQ(camera.width, 320);
   EXPECT_DOUBLE_EQ(camera.fy, 301.0);
-  EXPECT_NE(camera.distortion, Camera().distortion);
 }
 
 TEST_F(CameraFile, ReadsPlainJson) {
   const Camera camera = load_camera(write("b.json", R"({"fx": 100, "width": 64, "height": 48})"));
   EXPECT_DOUBLE_EQ(camera.cx, 31.5);
-}
-
-TEST_F(CameraFile, NoDistortionIsDropped) {
-  const auto json = [](const std::string& numbers) {
-    return R"({"fx": 100, "width": 64, "height": 48, "distortion": [)" + numbers + "]}";
-  };
-  const auto yaml = [](const std::string& numbers) {
-    return "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\n"
-           "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
-           "   data: [ 100., 0., 32., 0., 100., 24., 0., 0., 1. ]\n"
-           "distortion_coefficients: !!opencv-matrix\n   rows: 8\n   cols: 1\n   dt: d\n   data: [ " +
-           numbers + " ]\n";
-  };
-  const std::array<double, 5> expected{0.1, 0.2, 0.3, 0.4, 0.0};
-  EXPECT_EQ(load_camera(write("four.json", json("0.1, 0.2, 0.3, 0.4"))).distortion, expected);
-  EXPECT_EQ(load_camera(write("five.json", json("0.1, 0.2, 0.3, 0.4, 0"))).distortion, expected);
-  EXPECT_EQ(load_camera(write("eight.yaml", yaml("0.1, 0.2, 0.3, 0.4, 0., 0., 0., 0."))).distortion,
-            expected);
-  const auto refusal = [&](const std::string& name, const std::string& text) {
-    return error_of(ErrorKind::config, [&] { load_camera(write(name, text)); });
-  };
-  EXPECT_NE(refusal("six.json", json("0.1, 0.2, 0.3, 0.4, 0, 0.6")).find("a list of 5 numbers"),
-            std::string::npos);
-  EXPECT_NE(refusal("eight.yaml", yaml("0.1, 0.2, 0.3, 0.4, 0., 0.6, 0., 0.")).find("k1 k2 p1 p2 k3"),
-            std::string::npos);
 }
 
 TEST_F(CameraFile, NamesTheCauseOfBadFiles) {

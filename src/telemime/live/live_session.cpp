@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_session.h"
 
+#include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -33,7 +34,7 @@ struct UserRequests {
 struct LiveSession::State {
   State(const TrackRequest& asked, bool guide, std::unique_ptr<Source> input, LiveHooks calls, Clock time)
       : request(asked),
-        source(std::move(input)),
+        source(without_distortion(std::move(input), asked)),
         hooks(std::move(calls)),
         clock(std::move(time)),
         last_stamp(clock.now()) {
@@ -241,6 +242,15 @@ struct LiveSession::State {
     }
   }
 
+  // The rate of the frames until now, dropped ones included, where it is not about what the input states: a
+  // camera may be slow in dim light, but a stream that states its clock rate is wrong.
+  std::optional<double> rate_of_input(const Frame& last) const {
+    const double stated = source->info().fps;
+    const double rate = static_cast<double>(last.index) / std::max(1e-9, last.time);
+    const bool known = last.index > 2 && last.time > 0.5;
+    return known && (rate < 0.5 * stated || rate > 1.1 * stated) ? std::optional(rate) : std::nullopt;
+  }
+
   void estimate_pose(LiveSlot& slot) {
     slot.times.searched = clock.now();
     const bool was_calibrated = exchange.calibrated() && smoother != nullptr;
@@ -249,7 +259,8 @@ struct LiveSession::State {
     update_pace(slot.times);
     const bool calibrated = run->state.calibrated();
     if (calibrated && !was_calibrated) {
-      const StreamHeader header = header_of(source->info(), *run);
+      StreamHeader header = header_of(source->info(), *run);
+      header.fps = rate_of_input(slot.record.frame).value_or(header.fps);
       smoother = make_smoother(request.config.smoothing, header.body, header.camera);
       if (hooks.person) {
         hooks.person(header);

@@ -20,6 +20,7 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kMostWaiting = 250;  // frames
+constexpr double kLongestBridge = 10.0;    // s; a recording ends at a longer gap
 
 // A task for the recorder's thread.
 struct Task {

@@ -33,7 +33,7 @@ struct Recording {
 inline constexpr std::int64_t kMostRecordedFrames = 216'000;
 
 /// Records live motion in every format at a constant rate (resampler.h), one folder per recording. After a
-/// gap of more than kLongestBridge it continues in a new recording. A separate thread writes: a slow disk
+/// gap of more than 10 s it continues in a new recording. A separate thread writes: a slow disk
 /// loses frames of the recording after 10 s but never delays the tracker; a full disk ends the recording,
 /// whose files keep the frames written so far. Thread-safe; only the constructor throws.
 class Recorder {

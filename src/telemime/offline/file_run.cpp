@@ -44,13 +44,13 @@ FileRun::FileRun(const TrackRequest& request, const RunHooks& hooks, const Sourc
       hooks_(hooks),
       info_(info),
       run_(run),
-      outputs_(request, info.fps),
+      outputs_(request, info.fps, [this](const std::string& words) { note(words); }),
       fill_seeds_(fill_back_seeds(run.tracker.config)),
       window_(run.tracker.config) {}
 
 int FileRun::picture_side() const {
   constexpr int kLongestSide = 960;
-  return request_.overlay || hooks_.draw ? kLongestSide : 0;
+  return outputs_.has_overlay() || hooks_.draw ? kLongestSide : 0;
 }
 
 ViewerRequest FileRun::add(FrameRecord record) {
@@ -100,6 +100,10 @@ TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
   }
   advance(true);
   write_ready(true);
+  outputs_.close_overlay();
+  if (hooks_.message && !complaint.empty()) {
+    hooks_.message(info_.name + ": " + complaint);
+  }
   // What the run was like.
   TrackSummary summary;
   summary.frames = statistics_.frames;
@@ -170,12 +174,15 @@ void FileRun::draw(const FrameRecord& record, const MotionFrame& motion) {
   if (picture_side() == 0) {
     return;
   }
-  overlay_ = draw_overlay(record.frame.image, {.motion = &motion,
-                                               .model = &run_.state.model,
-                                               .camera = run_.tracker.camera,
-                                               .note = record.estimate.note});
-  if (request_.overlay) {
-    outputs_.write_overlay(overlay_);
+  // A side result: a picture that cannot be drawn is none.
+  try {
+    overlay_ = draw_overlay(record.frame.image, {.motion = &motion,
+                                                 .model = &run_.state.model,
+                                                 .camera = run_.tracker.camera,
+                                                 .note = record.estimate.note});
+    outputs_.write_overlay(overlay_, motion.time);
+  } catch (const cv::Exception& e) {
+    note(std::string("the overlay cannot be drawn: ") + e.what());
   }
 }
 
@@ -184,9 +191,9 @@ void FileRun::note(const std::string& message) {
   if (message.empty() || !reported_.first_time(message)) {
     return;
   }
-  notes_.push_back({{"frame", frames_ - 1}, {"note", message}});
+  notes_.push_back({{"frame", std::max<std::int64_t>(0, frames_ - 1)}, {"note", message}});
   if (hooks_.message) {
-    hooks_.message("frame " + std::to_string(frames_ - 1) + ": " + message);
+    hooks_.message((frames_ == 0 ? "" : "frame " + std::to_string(frames_ - 1) + ": ") + message);
   }
 }
 

@@ -62,18 +62,18 @@ class FileRun {
   const RunHooks& hooks_;
   const SourceInfo& info_;
   const TrackingRun& run_;
+  MessageDeduplicator reported_;
+  nlohmann::json notes_ = nlohmann::json::array();
+  std::int64_t frames_ = 0;  ///< taken up so far; fewer are written
+  RunOutputs outputs_;       ///< after what its notes go to
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  RunOutputs outputs_;
   RecordQueue queue_;
   std::size_t drawn_ = 0;  ///< records of the queue that are drawn already
   Random fill_seeds_;
   WindowState window_;
   std::optional<TwoWaySmoothing> smoothing_;  ///< since a person was calibrated
   RunStatistics statistics_;
-  std::int64_t frames_ = 0;  ///< taken up so far; fewer are written
-  cv::Mat overlay_;          ///< the last one drawn
-  MessageDeduplicator reported_;
-  nlohmann::json notes_ = nlohmann::json::array();
+  cv::Mat overlay_;  ///< the last one drawn
 };
 
 }  // namespace telemime

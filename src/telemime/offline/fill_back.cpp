@@ -90,7 +90,7 @@ Random fill_back_seeds(const Config& config) {
 
 std::size_t fill_back(const Tracker& tracker, const TrackerState& state, Random& seeds, RecordQueue& queue) {
   const std::size_t count = queue.records.size();
-  const auto longest = static_cast<std::size_t>(tracker.config.tracking.fill_back);
+  const int longest = tracker.config.tracking.fill_back;
   const FrameRecord& last = queue.records.back();
   std::size_t filled = 0;
   if (!tracker.filter || longest == 0) {
@@ -100,8 +100,14 @@ std::size_t fill_back(const Tracker& tracker, const TrackerState& state, Random&
     finish_filling(tracker, count, queue);
   } else if (!may_be_filled(last)) {
     finish_filling(tracker, count, queue);  // nobody is followed back across it
-  } else if (count - queue.filled > longest) {
-    finish_filling(tracker, queue.filled + 1, queue);
+  } else {
+    constexpr double kUnit = 1.0 / 25.0;
+    const double since = last.estimate.motion.time - kUnit * (longest - 0.01);
+    std::size_t late = queue.filled;
+    while (late < count && queue.records[late].estimate.motion.time <= since) {
+      ++late;
+    }
+    finish_filling(tracker, late, queue);
   }
   return filled;
 }

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 
-#include "telemime/core/errors.h"
 #include "telemime/tracker/joint_rotations.h"
 #include "telemime/tracker/smoother.h"
 
 namespace telemime {
 namespace {
-
-constexpr double kLongestGap = 0.5;  // s
-constexpr double kSlack = 1e-6;      // s, for rounding errors
 
 Pose blend(const Pose& a, const Pose& b, double share) {
   const JointRotations from = rotations_of(a);
@@ -32,14 +28,14 @@ Pose blend(const Pose& a, const Pose& b, double share) {
 MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, double time) const {
   const double gap = b.time - a.time;
   const double share = gap > 0.0 ? std::clamp((time - a.time) / gap, 0.0, 1.0) : 1.0;
-  if (share * gap >= gap - kSlack) {
+  if (share * gap >= gap - slack_) {
     return b;
   }
-  if (gap <= kLongestGap && a.state == TrackState::tracking && b.state == TrackState::tracking) {
+  if (gap <= longest_gap_ && a.state == TrackState::tracking && b.state == TrackState::tracking) {
     return with_pose(share < 0.5 ? a : b, blend(a.pose, b.pose, share), body_, camera_);
   }
   MotionFrame held = a;
-  if (gap > kLongestGap) {
+  if (gap > longest_gap_) {
     held.state = TrackState::lost;
   }
   return held;
@@ -50,12 +46,8 @@ std::vector<MotionFrame> Resampler::push(const MotionFrame& frame) {
     start_ = frame.time;
     last_ = frame;
   }
-  if (gap_before(frame) > kLongestBridge) {
-    throw Error(ErrorKind::usage, "a gap of " + std::to_string(gap_before(frame)) + " s is not filled",
-                "Start a new file after it.");
-  }
   std::vector<MotionFrame> frames;
-  while (start_ + static_cast<double>(count_) / fps_ <= frame.time + kSlack) {
+  while (start_ + static_cast<double>(count_) / fps_ <= frame.time + slack_) {
     const double time = static_cast<double>(count_) / fps_;
     MotionFrame made = between(*last_, frame, start_ + time);
     made.frame = count_++;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -10,22 +11,24 @@
 
 namespace telemime {
 
-/// The longest gap between two frames that is filled, in s.
-inline constexpr double kLongestBridge = 10.0;
+/// The longest time between two frames across which motion at this rate is interpolated, s.
+inline double longest_gap(double fps) {
+  return std::max(0.5, 2.5 / fps);
+}
 
 /// Resamples motion frames to a constant rate, as motion files require. Between two tracked frames at most
-/// 0.5 s apart the joint rotations are interpolated; in longer gaps the person is lost. A gap of more than
-/// kLongestBridge is not filled: start a new file after it.
+/// longest_gap() apart the joint rotations are interpolated; in longer gaps the person is lost.
 class Resampler {
  public:
   /// `fps` > 0; `camera` is that of MotionFrame::pixels.
-  Resampler(const Body& body, const Camera& camera, double fps) : body_(body), camera_(camera), fps_(fps) {}
+  Resampler(const Body& body, const Camera& camera, double fps)
+      : body_(body), camera_(camera), fps_(fps), longest_gap_(longest_gap(fps)), slack_(0.03 / fps) {}
 
   /// Time since the previous frame, s; 0 for the first frame.
   double gap_before(const MotionFrame& frame) const { return last_ ? frame.time - last_->time : 0.0; }
 
   /// Adds a frame; times must increase. Returns the resampled frames up to its time, whose number and time
-  /// start at 0. Throws Error(usage) after a gap longer than kLongestBridge.
+  /// start at 0.
   std::vector<MotionFrame> push(const MotionFrame& frame);
 
  private:
@@ -34,6 +37,8 @@ class Resampler {
   Body body_;
   Camera camera_;
   double fps_;
+  double longest_gap_;
+  double slack_;  ///< s; time stamps are rounded
   std::optional<MotionFrame> last_;
   double start_ = 0.0;
   std::int64_t count_ = 0;  ///< number of frames returned

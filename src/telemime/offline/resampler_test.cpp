@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/random.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {
@@ -68,15 +68,29 @@ TEST(Resampler, InALongGapThePersonIsLost) {
   EXPECT_EQ(out[49].state, TrackState::tracking);
 }
 
-TEST(Resampler, AGapThatIsTooLongIsNotFilled) {
-  Resampler resampler = at_25();
-  EXPECT_EQ(resampler.gap_before(bent(7.0, 0.0)), 0.0);
-  resampler.push(bent(7.0, 0.0));
-  const MotionFrame late = bent(100'000.0, 0.0);
-  EXPECT_EQ(resampler.gap_before(late), 99'993.0);
-  EXPECT_THROW(resampler.push(late), Error) << "two and a half million frames are nobody's motion";
-  EXPECT_EQ(resampler.push(bent(7.04, 0.0)).size(), 1U) << "nothing came of it";
-  EXPECT_EQ(resampler.push(bent(7.04 + kLongestBridge, 0.0)).size(), 250U);
+TEST(Resampler, SlowPicturesAreNoGaps) {
+  Resampler resampler(header().body, header().camera, 1.0);
+  for (int i = 0; i < 10; ++i) {
+    for (const MotionFrame& frame : resampler.push(bent(1.1 * i, 0.0))) {
+      EXPECT_EQ(frame.state, TrackState::tracking);
+    }
+  }
+}
+
+TEST(Resampler, AnyTimesLastAsLongAtAnyRate) {
+  Random random(5);
+  for (const double fps : {5.0, 19.24, 25.0, 59.94, 240.0}) {
+    Resampler resampler(header().body, header().camera, fps);
+    double time = 3.0;
+    std::size_t count = 0;
+    for (int i = 0; i < 100; ++i) {
+      for (const MotionFrame& frame : resampler.push(bent(time, 0.0))) {
+        EXPECT_NEAR(frame.time, static_cast<double>(count++) / fps, 1e-9);
+      }
+      EXPECT_NEAR(static_cast<double>(count) / fps, time - 3.0 + 0.5 / fps, 0.54 / fps) << fps;
+      time += 0.001 + random.uniform() * (i % 30 == 7 ? 20.0 : 0.1);
+    }
+  }
 }
 
 TEST(Resampler, WhoIsLostStaysLost) {

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <system_error>
+#include <utility>
 
 #include "telemime/core/files.h"
 
@@ -41,64 +40,64 @@ void prepare_file(const std::filesystem::path& file) {
   }
 }
 
-RunOutputs::RunOutputs(const TrackRequest& request, double fps)
-    : folder_(request.out), formats_(request.formats), options_(request.output_options), fps_(fps) {
+RunOutputs::RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note)
+    : folder_(request.out), formats_(request.formats), options_(request.output_options) {
   prepare_outputs(request);
+  if (request.overlay) {
+    video_.emplace(folder_, fps, std::move(note));
+  }
 }
 
 void RunOutputs::begin(const StreamHeader& header) {
+  resampler_.emplace(header.body, header.camera, header.fps);
   for (const OutputFormat& format : kOutputFormats) {
     if (formats_.empty() || std::find(formats_.begin(), formats_.end(), format.name) != formats_.end()) {
-      outputs_.push_back(std::make_unique<FileOutput>(folder_ / std::string(format.file_name),
-                                                      format.make(options_), header));
+      outputs_.push_back({std::make_unique<FileOutput>(folder_ / std::string(format.file_name),
+                                                       format.make(options_), header),
+                          format.own_times});
     }
   }
 }
 
 void RunOutputs::write(const MotionFrame& frame) {
-  for (const auto& output : outputs_) {
-    output->write(frame);
+  const std::vector<MotionFrame> regular = resampler_->push(frame);
+  for (const Output& output : outputs_) {
+    if (output.own_times) {
+      output.file->write(frame);
+      continue;
+    }
+    for (const MotionFrame& made : regular) {
+      output.file->write(made);
+    }
   }
 }
 
-void RunOutputs::write_overlay(const cv::Mat& picture) {
-  if (!video_.isOpened()) {
-    const auto file = folder_ / "overlay.mp4";
-    video_.open(file.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps_, picture.size());
-    if (!video_.isOpened()) {
-      throw Error(ErrorKind::output,
-                  "cannot write " + file.string() + ": OpenCV could not start an MPEG-4 video",
-                  "Give --out a folder that you may write, or leave the video out with --no-overlay.");
-    }
+void RunOutputs::write_overlay(const cv::Mat& picture, double time) {
+  if (video_) {
+    video_->write(picture, time);
   }
-  video_.write(picture);
-  // A picture from the middle of what was tracked so far: the later ones replace it less and less often.
-  ++overlays_;
-  if ((overlays_ & (overlays_ - 1)) == 0) {
-    best_overlay_ = picture.clone();
+}
+
+void RunOutputs::close_overlay() {
+  if (video_) {
+    video_->close();
   }
 }
 
 void RunOutputs::close(const nlohmann::json& report) {
-  for (const auto& output : outputs_) {
-    output->close();
-  }
-  video_.release();
-  if (!best_overlay_.empty()) {
-    std::vector<unsigned char> png;
-    cv::imencode(".png", best_overlay_, png);
-    write_whole_file(folder_ / "overlay.png", std::string(png.begin(), png.end()));
+  for (const Output& output : outputs_) {
+    output.file->close();
   }
   write_whole_file(folder_ / "report.json", report.dump(2) + "\n");
 }
 
 std::vector<std::string> RunOutputs::files() const {
   std::vector<std::string> names;
-  for (const auto& output : outputs_) {
-    names.push_back(output->path().string());
+  for (const Output& output : outputs_) {
+    names.push_back(output.file->path().string());
   }
-  if (overlays_ > 0) {
-    names.push_back((folder_ / "overlay.mp4").string());
+  if (video_ && !video_->file().empty()) {
+    names.push_back(video_->file());
   }
   return names;
 }

@@ -3,10 +3,12 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
-#include <opencv2/videoio.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "telemime/offline/overlay_video.h"
+#include "telemime/offline/resampler.h"
 #include "telemime/outputs/file_output.h"
 #include "telemime/tracker/track_request.h"
 
@@ -22,31 +24,36 @@ void prepare_file(const std::filesystem::path& file);
 /// The files of one run: the encoders' and the overlay video.
 class RunOutputs {
  public:
-  /// Throws as prepare_outputs does.
-  RunOutputs(const TrackRequest& request, double fps);
+  /// Throws as prepare_outputs does. `fps`: of the input; `note` gets what is wrong with the overlay.
+  RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note);
 
   /// Opens the encoders' files: the head of each holds the person's shape, so this waits until it is known.
   /// Throws Error(output).
   void begin(const StreamHeader& header);
   bool begun() const { return !outputs_.empty(); }
 
+  /// A frame at its true time, which must increase; files of constant rate get resampled ones.
   void write(const MotionFrame& frame);
-  /// Throws Error(output) when the video cannot be made.
-  void write_overlay(const cv::Mat& picture);
-  /// Finishes all files and writes report.json and overlay.png. Throws Error(output).
+  bool has_overlay() const { return video_ && video_->usable(); }
+  void write_overlay(const cv::Mat& picture, double time);
+  void close_overlay();
+  /// Finishes all files and writes report.json. Throws Error(output).
   void close(const nlohmann::json& report);
 
   std::vector<std::string> files() const;
 
  private:
+  struct Output {
+    std::unique_ptr<FileOutput> file;
+    bool own_times;
+  };
+
   std::filesystem::path folder_;
   std::vector<std::string> formats_;
   OutputOptions options_;
-  double fps_;
-  std::vector<std::unique_ptr<FileOutput>> outputs_;
-  cv::VideoWriter video_;
-  cv::Mat best_overlay_;
-  std::int64_t overlays_ = 0;
+  std::vector<Output> outputs_;
+  std::optional<Resampler> resampler_;
+  std::optional<OverlayVideo> video_;
 };
 
 }  // namespace telemime

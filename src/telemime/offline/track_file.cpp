@@ -22,11 +22,12 @@ struct OpenedFile {
 };
 
 OpenedFile open_file(const TrackRequest& request, const RunHooks& hooks) {
-  auto source = open_source(request.input);
+  auto source = open_source(request.input, request.input_options);
   if (source->info().live) {
     throw Error(ErrorKind::usage, source->info().name + " is a camera: `telemime live` tracks cameras",
                 "Run `telemime live`, or record a clip first and track the clip.");
   }
+  source = without_distortion(std::move(source), request);
   std::vector<std::string> messages;
   TrackingRun run = open_run(request, source->info(), messages);
   if (request.calibration.empty()) {
@@ -104,7 +105,14 @@ CalibratedPerson calibrate_file(const TrackRequest& request, const RunHooks& hoo
     person = run.state.person;
     reason = record.estimate.note.empty() ? reason : record.estimate.note;
   }
-  save_person({*person, run.tracker.camera, run.scene.features.calibration()}, file);
+  save_person({.person = *person,
+               .camera = run.tracker.camera,
+               .image = run.scene.features.calibration(),
+               .lens = lens_for(opened.source->info(), request)},
+              file);
+  if (const std::string complaint = opened.source->complaint(); hooks.message && !complaint.empty()) {
+    hooks.message(opened.source->info().name + ": " + complaint);
+  }
   return *person;
 }
 

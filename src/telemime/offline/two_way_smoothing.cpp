@@ -20,15 +20,25 @@ void smooth_forward(TwoWaySmoothing& smoothing, RecordQueue& queue) {
 
 std::optional<MotionFrame> smoothed_front(const TwoWaySmoothing& smoothing, const RecordQueue& queue,
                                           bool last) {
-  const auto ahead = static_cast<std::size_t>(smoothing.options.look_ahead);
-  if (queue.smoothed == 0 || (!last && queue.smoothed <= ahead)) {
+  if (queue.smoothed == 0) {
     return std::nullopt;
   }
   MotionFrame result = queue.records.front().estimate.motion;
-  if (ahead == 0) {
+  const double time = result.time;
+  // Until the first frame at the end of the look-ahead.
+  constexpr double kUnit = 1.0 / 25.0;
+  const double until = time + kUnit * (smoothing.options.look_ahead - 0.01);
+  const auto smoothed_end = queue.records.begin() + static_cast<std::ptrdiff_t>(queue.smoothed);
+  const auto at_end = std::find_if(queue.records.begin(), smoothed_end, [until](const FrameRecord& record) {
+    return record.estimate.motion.time >= until;
+  });
+  if (at_end == smoothed_end && !last) {
+    return std::nullopt;
+  }
+  if (smoothing.options.look_ahead == 0) {
     return result;
   }
-  const double time = result.time;
+  const auto ahead = static_cast<std::size_t>(at_end - queue.records.begin());
   const auto backward = make_smoother(smoothing.options, smoothing.body, smoothing.camera);
   for (std::size_t i = std::min(queue.smoothed, ahead + 1); i-- > 0;) {
     result = queue.records[i].estimate.motion;

@@ -11,7 +11,7 @@ namespace telemime {
 
 /// Smooths with what comes after a frame as well as with what came before: the filter runs forward in time,
 /// and then backward over its own result. What lags one way runs ahead the other way, so the lag goes, and
-/// the filter acts twice. Frames come out SmoothingOptions::look_ahead frames late; with 0 it is the plain
+/// the filter acts twice. Frames come out SmoothingOptions::look_ahead (1/25 s) late; with 0 it is the plain
 /// filter.
 struct TwoWaySmoothing {
   SmoothingOptions options;

@@ -51,13 +51,15 @@ struct OutputFormat {
   std::string_view file_name;  ///< in the folder of the results
   std::string_view summary;
   std::unique_ptr<Encoder> (*make)(const OutputOptions&);
+  bool own_times = false;  ///< each frame has its time; files of the others need a constant rate
 };
 
 /// All formats. A new format is an encoder and a line here.
 inline constexpr std::array<OutputFormat, 7> kOutputFormats = {{
     {"jsonl", "pose.jsonl", "everything, one JSON object a frame",
-     [](const OutputOptions&) { return make_jsonl_encoder(); }},
-    {"csv", "pose.csv", "a table for spreadsheets", [](const OutputOptions&) { return make_csv_encoder(); }},
+     [](const OutputOptions&) { return make_jsonl_encoder(); }, true},
+    {"csv", "pose.csv", "a table for spreadsheets", [](const OutputOptions&) { return make_csv_encoder(); },
+     true},
     {"bvh", "motion.bvh", "skeleton animation for Blender and others",
      [](const OutputOptions&) { return make_bvh_encoder(); }},
     {"bap", "motion.bap", "MPEG-4 body animation parameters",

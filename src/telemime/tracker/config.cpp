@@ -97,8 +97,8 @@ SettingTable settings_of(TrackingConfig& c) {
               "Interval of the searches while the person is lost."),
        number("tracking.calibration_patience", &c.calibration_patience, {0, 1000000}, "frames",
               "Frames to wait for one from which the arms can be measured, before an average body is used."),
-       number("tracking.fill_back", &c.fill_back, {0, 1000}, "frames",
-              "Lost frames of a file that are tracked backward once the person is found."),
+       number("tracking.fill_back", &c.fill_back, {0, 1000}, "1/25 s",
+              "Time while lost in a file that is tracked backward once the person is found."),
        number("tracking.velocity", &c.velocity, {0, 1}, "",
               "Share of the last motion of the arms that is predicted for the next frame.")},
       {}};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/person_file.h"
 
+#include <algorithm>
+
 #include "telemime/core/files.h"
 #include "telemime/core/json_field.h"
 #include "telemime/image/image_calibration.h"
@@ -57,7 +59,8 @@ void save_person(const PersonFile& p, const std::filesystem::path& file) {
                        {"fy", c.fy},
                        {"cx", c.cx},
                        {"cy", c.cy},
-                       {"distortion", c.distortion}}}};
+                       {"distortion", c.distortion}}},
+                     {"lens", {{"fisheye", p.lens.fisheye}, {"coefficients", p.lens.coefficients}}}};
   // The scene first: a calibration is only there when all of it is.
   save_calibration(p.image, scene_of(file));
   write_whole_file(file, json.dump(2) + "\n");
@@ -75,6 +78,15 @@ PersonFile parse_person(std::string_view text, const std::filesystem::path& name
   p.person.height_given = root["height_given"].boolean();
   p.person.refusal = root["refusal"].text();
   p.camera = read_camera(root["camera"]);
+  p.lens.camera = p.camera;
+  if (root.has("lens")) {
+    const JsonField lens = root["lens"];
+    p.lens.fisheye = lens["fisheye"].boolean();
+    constexpr std::size_t kMost = 12;
+    for (std::size_t i = 0; i < std::min(kMost, lens["coefficients"].size()); ++i) {
+      p.lens.coefficients.push_back(lens["coefficients"][i].number());
+    }
+  }
   return p;
 }
 

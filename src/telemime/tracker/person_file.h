@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "telemime/core/lens.h"
 #include "telemime/tracker/tracker_state.h"
 
 namespace telemime {
@@ -13,6 +14,7 @@ struct PersonFile {
   CalibratedPerson person;
   Camera camera;
   ImageCalibration image;
+  Lens lens = {};  ///< of the same camera; `camera` is without its distortion
 };
 
 /// Writes FILE (JSON: shape, camera) and beside it FILE.scene.yml.gz (colours and background). Throws

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/tracker/set_up.h"
 
 namespace telemime {
 namespace {
@@ -30,7 +31,7 @@ std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig
   constexpr std::int64_t kDense = 150;
   constexpr std::int64_t kStride = 10;
   constexpr std::int64_t kMost = 4000;
-  const auto again = open_source(request.input);
+  const auto again = without_distortion(open_source(request.input, request.input_options), request);
   std::vector<Frame> sample;
   for (std::int64_t i = 0; i < kMost; ++i) {
     auto frame = again->next();
@@ -53,7 +54,8 @@ std::string learn_scene(const TrackRequest& request, const SourceInfo& info, Tra
   if (request.background.empty()) {
     return "background: " + features.bootstrap(sample_of_clip(request, run.tracker.config.image)).sentence;
   }
-  const auto clip = open_source(request.background);
+  const auto clip = without_distortion(
+      open_source(request.background, {.mirrored = request.input_options.mirrored}), request);
   const double aspect = static_cast<double>(clip->info().width) * info.height /
                         (static_cast<double>(clip->info().height) * info.width);
   if (aspect < 0.98 || aspect > 1.02) {

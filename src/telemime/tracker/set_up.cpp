@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
+#include "telemime/capture/undistorted_source.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/search/budget.h"
 #include "telemime/tracker/person_file.h"
@@ -14,11 +17,12 @@
 namespace telemime {
 namespace {
 
-// The camera scaled to the input's size; another aspect ratio cannot be the same camera's.
+// The camera scaled to the input's size; another aspect ratio cannot be the same camera's. It may be that of
+// the pixels as they are stored.
 Camera fitting(const Camera& camera, const SourceInfo& info) {
   const double aspect =
       static_cast<double>(camera.width) * info.height / (static_cast<double>(camera.height) * info.width);
-  if (std::abs(aspect - 1.0) > 0.02) {
+  if (std::abs(aspect - 1.0) > 0.02 && std::abs(aspect * info.pixel_aspect - 1.0) > 0.02) {
     throw Error(ErrorKind::config,
                 "the camera is for " + std::to_string(camera.width) + "x" + std::to_string(camera.height) +
                     " and the input has " + std::to_string(info.width) + "x" + std::to_string(info.height) +
@@ -33,6 +37,25 @@ Camera fitting(const Camera& camera, const SourceInfo& info) {
 Camera camera_for(const SourceInfo& info, const std::string& file, double field_of_view) {
   return file.empty() ? camera_from_field_of_view(info.width, info.height, field_of_view)
                       : fitting(load_camera(file), info);
+}
+
+Lens lens_for(const SourceInfo& info, const TrackRequest& request) {
+  Lens lens;
+  if (!request.camera.empty()) {
+    lens = load_lens(request.camera);
+    lens = request.input_options.mirrored ? lens.mirrored() : lens;
+  } else if (!request.calibration.empty()) {
+    lens = parse_person(read_text_file(request.calibration, ErrorKind::config), request.calibration).lens;
+  } else {
+    lens.camera = camera_for(info, "", request.config.field_of_view);
+  }
+  lens.camera = fitting(lens.camera, info);
+  return lens;
+}
+
+std::unique_ptr<Source> without_distortion(std::unique_ptr<Source> source, const TrackRequest& request) {
+  const Lens lens = lens_for(source->info(), request);
+  return undistorted(std::move(source), lens);
 }
 
 StreamHeader header_of(const SourceInfo& info, const TrackingRun& run) {
@@ -100,7 +123,7 @@ TrackingRun open_run(const TrackRequest& request, const SourceInfo& info,
         "them)");
   }
   if (request.calibration.empty()) {
-    const Camera camera = camera_for(info, request.camera, request.config.field_of_view);
+    const Camera camera = lens_for(info, request).camera;
     return make_tracking_run(with_budget(request.config, camera), camera);
   }
   const PersonFile person = load_person(request.calibration);

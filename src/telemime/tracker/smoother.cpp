@@ -160,8 +160,8 @@ SettingTable settings_of(SmoothingOptions& o) {
   SettingTable table;
   table.rows = {text("smoothing", o.name, {"none", "recursive", "one-euro"},
                      "Filter of the joint rotations over time."),
-                number("smoother.look_ahead", &o.look_ahead, {0, 250}, "frames",
-                       "Later frames of a file that are used; 0: the plain filter, as live."),
+                number("smoother.look_ahead", &o.look_ahead, {0, 250}, "1/25 s",
+                       "Time after a frame of a file that is used; 0: the plain filter, as live."),
                 number("smoother.recursive_coefficient", &o.recursive_coefficient, {0, 0.999}, "",
                        "Share of the past in the recursive filter (equation 4.30).")};
   table.append(one_euro_settings(o.angles, "smoother.angles", "rad/s"));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "telemime/capture/source.h"
 #include "telemime/outputs/all.h"
 #include "telemime/tracker/config.h"
 
@@ -14,8 +15,9 @@ namespace telemime {
 /// What `telemime track` is asked to do.
 struct TrackRequest {
   std::string input;
-  std::string background;   ///< person-free clip; empty: learned from the input, or done without
-  std::string camera;       ///< calibration file; empty: field of view
+  InputOptions input_options = {};  ///< what is known of the input; `mirrored` is of the background clip, too
+  std::string background;           ///< person-free clip; empty: learned from the input, or done without
+  std::string camera;               ///< calibration file; empty: field of view
   std::string calibration;  ///< file of `telemime calibrate`; empty: calibrate on the first good frame
   std::filesystem::path out;
   std::vector<std::string> formats;  ///< empty: all

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/core/time_base.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace telemime {
+namespace {
+
+constexpr std::array kUsualRates = {5.0,
+                                    10.0,
+                                    12.5,
+                                    15.0,
+                                    20.0,
+                                    24000.0 / 1001.0,
+                                    24.0,
+                                    25.0,
+                                    30000.0 / 1001.0,
+                                    30.0,
+                                    48.0,
+                                    50.0,
+                                    60.0,
+                                    60000.0 / 1001.0,
+                                    100.0,
+                                    120.0,
+                                    240.0};
+constexpr double kPause = 0.5;            // s; no step of a usual rate
+constexpr double kLongestPause = 3600.0;  // s
+constexpr double kDisorder = 0.5;         // s; a larger jump back is a new beginning
+constexpr double kInstant = 1e-3;         // s
+
+double rounded_rate(double rate) {
+  const double usual = *std::min_element(kUsualRates.begin(), kUsualRates.end(), [rate](double a, double b) {
+    return std::abs(a - rate) < std::abs(b - rate);
+  });
+  return std::abs(usual / rate - 1.0) < 0.01 ? usual : rate;
+}
+
+}  // namespace
+
+std::optional<double> rate_of(const std::vector<double>& stamps) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) {
+      steps.push_back(stamps[i] - stamps[i - 1]);
+    }
+  }
+  if (steps.size() < 2) {
+    return std::nullopt;
+  }
+  std::vector<double> sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  const auto mean_within = [&](double least, double most) {
+    const auto first = std::lower_bound(sorted.begin(), sorted.end(), least);
+    const auto last = std::upper_bound(first, sorted.end(), most);
+    return std::pair(std::accumulate(first, last, 0.0) / static_cast<double>(last - first), last - first);
+  };
+  const double mean = mean_within(0.0, std::max(kPause, 10.0 * median)).first;
+  const auto [usual, count] = mean_within(0.94 * median, 1.06 * median);
+  const bool regular = 2 * count > std::ssize(sorted) && mean < 2.0 * usual;
+  return rounded_rate(1.0 / (regular ? usual : mean));
+}
+
+bool same_rate(double a, double b) {
+  return std::abs(a / b - 1.0) < 0.02;
+}
+
+double TimeBase::next(std::optional<double> stamp) {
+  const bool first = time_ < 0.0;
+  if (!stamp || !std::isfinite(*stamp)) {
+    return time_ = first ? 0.0 : time_ + step_;
+  }
+  const double expected = first ? 0.0 : time_ + step_;
+  const double time = start_ ? *stamp - *start_ : expected;
+  if (!start_ || time < time_ - kDisorder || time > time_ + kLongestPause) {
+    start_ = *stamp - expected;
+    return time_ = expected;
+  }
+  return time_ = std::max(time, time_ + std::min(kInstant, 0.1 * step_));
+}
+
+}  // namespace telemime

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace telemime {
+
+/// Frames per second by the time stamps (s) of successive frames: of the usual step where most steps are
+/// equal (frames that were left out do not count), otherwise of the mean step; pauses do not count. A result
+/// within 1 % of a usual rate (25, 29.97, 60 ...) is that rate. Empty for fewer than three time stamps.
+std::optional<double> rate_of(const std::vector<double>& stamps);
+
+/// Whether two rates are the same but for rounding: within 2 %.
+bool same_rate(double a, double b);
+
+/// Seconds from the first frame, by the time stamps of an input. Time always increases: a frame without a
+/// usable time stamp follows the frame before at the rate, one that repeats or runs back a little comes
+/// directly after it. After a jump back, or one ahead of more than an hour, time goes on at the rate: such
+/// stamps begin anew (joined recordings).
+class TimeBase {
+ public:
+  explicit TimeBase(double fps) : step_(1.0 / fps) {}
+
+  /// The time of the next frame. `stamp` in s; empty or not finite: the frame has none.
+  double next(std::optional<double> stamp);
+
+ private:
+  double step_;
+  double time_ = -1.0;           // of the last frame; negative before the first
+  std::optional<double> start_;  // time stamp of time 0
+};
+
+}  // namespace telemime

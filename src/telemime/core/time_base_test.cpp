@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/core/time_base.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "telemime/core/random.h"
+
+namespace telemime {
+namespace {
+
+std::vector<double> stamps(int count, double fps) {
+  std::vector<double> all;
+  for (int i = 0; i < count; ++i) {
+    all.push_back(7.0 + i / fps);
+  }
+  return all;
+}
+
+TEST(RateOf, RegularStampsGiveTheirRate) {
+  for (const double fps : {1.0, 12.5, 19.0, 25.0, 30000.0 / 1001.0, 119.881, 240.0}) {
+    EXPECT_NEAR(*rate_of(stamps(50, fps)), fps, 0.01 * fps) << fps;
+  }
+  EXPECT_FALSE(rate_of({}));
+  EXPECT_FALSE(rate_of({0.0, 0.04}));
+  EXPECT_FALSE(rate_of({0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(RateOf, RoundingToMillisecondsDoesNotMatter) {
+  for (const double fps : {25.0, 30.0, 60.0}) {
+    std::vector<double> all = stamps(60, fps);
+    for (double& stamp : all) {
+      stamp = std::round(1000.0 * stamp) / 1000.0;
+    }
+    EXPECT_NEAR(*rate_of(all), fps, 0.01 * fps) << fps;
+  }
+}
+
+TEST(RateOf, JitterDoesNotMatter) {
+  Random random(3);
+  std::vector<double> all = stamps(120, 25.0);
+  for (double& stamp : all) {
+    stamp += 0.03 * random.uniform();
+  }
+  EXPECT_EQ(*rate_of(all), 25.0);
+}
+
+TEST(RateOf, LeftOutFramesAndPausesDoNotMatter) {
+  std::vector<double> all;
+  for (int i = 0; i < 100; ++i) {
+    if (i % 4 != 2) {
+      all.push_back(i / 25.0 + (i > 50 ? 15.0 : 0.0));
+    }
+  }
+  EXPECT_EQ(*rate_of(all), 25.0);
+}
+
+TEST(RateOf, BurstsHaveTheMeanRate) {
+  std::vector<double> all;
+  for (int i = 0; i < 100; ++i) {
+    all.push_back(i / 2 * 0.08 + (i % 2) * 0.001);
+  }
+  EXPECT_EQ(*rate_of(all), 25.0);
+}
+
+TEST(TimeBase, TimeIsThatOfTheStamps) {
+  Random random(1);
+  TimeBase base(25.0);
+  double stamp = 100.0;
+  EXPECT_EQ(base.next(stamp), 0.0);
+  for (int i = 0; i < 200; ++i) {
+    stamp += 0.002 + random.uniform() * (i % 50 == 0 ? 60.0 : 0.1);
+    EXPECT_NEAR(base.next(stamp), stamp - 100.0, 1e-9) << i;
+  }
+}
+
+TEST(TimeBase, FramesWithoutAStampFollowAtTheRate) {
+  TimeBase base(20.0);
+  const std::optional<double> none;
+  EXPECT_EQ(base.next(none), 0.0);
+  EXPECT_NEAR(base.next(none), 0.05, 1e-12);
+  EXPECT_NEAR(base.next(std::numeric_limits<double>::quiet_NaN()), 0.1, 1e-12);
+  EXPECT_NEAR(base.next(3.0), 0.15, 1e-12) << "the first stamp";
+  EXPECT_NEAR(base.next(3.05), 0.2, 1e-12);
+}
+
+TEST(TimeBase, TimeIncreasesWhateverTheStamps) {
+  Random random(2);
+  for (int round = 0; round < 50; ++round) {
+    TimeBase base(25.0);
+    double last = -1.0;
+    for (int i = 0; i < 50; ++i) {
+      const double time = base.next(std::pow(10.0, 9.0 * random.uniform() - 3.0) * (random.uniform() - 0.5));
+      EXPECT_GT(time, last);
+      EXPECT_LT(time, 3601.0 * (i + 1));
+      last = time;
+    }
+  }
+}
+
+TEST(TimeBase, JoinedRecordingsGoOnAtTheRate) {
+  TimeBase base(25.0);
+  base.next(0.0);
+  EXPECT_NEAR(base.next(9.0), 9.0, 1e-12);
+  EXPECT_NEAR(base.next(1.0), 9.04, 1e-12) << "the second one begins";
+  EXPECT_NEAR(base.next(1.04), 9.08, 1e-12);
+  EXPECT_NEAR(base.next(95000.0), 9.12, 1e-12) << "a counter that ran over";
+}
+
+}  // namespace
+}  // namespace telemime
