@@ -24,7 +24,7 @@ std::string padded_count(std::size_t count, std::size_t width) {
     throw Error(ErrorKind::output, "the file cannot hold more than " + std::to_string(count - 1) + " frames",
                 "record in parts");
   }
-  return std::string(width - digits.size(), ' ') + digits;
+  return digits + std::string(width - digits.size(), ' ');
 }
 
 }  // namespace telemime

@@ -21,8 +21,8 @@ inline double rounded(double value, int decimals) {
 /// Appends a finite `value` in fixed notation, independent of the locale.
 void append_fixed(std::string& text, double value, int decimals);
 
-/// `count` right-aligned in `width` characters, for a field that is patched later. Throws Error(output) when
-/// it does not fit.
+/// `count` and spaces up to `width` characters, for a field that is patched later. The number is first: many
+/// readers take what follows "Frames: " for it. Throws Error(output) when it does not fit.
 std::string padded_count(std::size_t count, std::size_t width);
 
 }  // namespace telemime

@@ -40,7 +40,7 @@ TEST_F(TrcTest, TheHeadIsThatOfTheFormat) {
   EXPECT_EQ(
       text[1],
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames");
-  EXPECT_EQ(text[2], "25.000\t25.000\t        4\t12\tmm\t25.000\t1\t        4");
+  EXPECT_EQ(text[2], "25.000\t25.000\t4        \t12\tmm\t25.000\t1\t4        ");
   const auto names = split(text[3], '\t');
   EXPECT_EQ(names[0], "Frame#");
   EXPECT_EQ(names[1], "Time");
@@ -88,7 +88,7 @@ TEST_F(TrcTest, ALostFrameHasEmptyCells) {
 TEST_F(TrcTest, NoFrameIsAFile) {
   const auto text = lines({});
   EXPECT_EQ(text.size(), 6U);
-  EXPECT_NE(text[2].find("        0\t12\tmm"), std::string::npos);
+  EXPECT_NE(text[2].find("0        \t12\tmm"), std::string::npos);
 }
 
 }  // namespace
