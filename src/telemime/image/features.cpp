@@ -177,6 +177,9 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
         p, segment(copy.colour, scene, PersonColours{}, std::nullopt, config_.segmentation).silhouette);
     face = head_.current();
   }
+  if (!face && has_networks() && !landmarks) {
+    return {false, "nobody is in the picture"};
+  }
   if (!face) {
     return {false, "no face was found: look at the camera, and make sure that there is enough light"};
   }
