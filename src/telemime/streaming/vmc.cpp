@@ -43,6 +43,7 @@ class VmcLink final : public Link {
   void open() override {
     // IPv4 where the host has it: the avatar programs listen there.
     const asio::ip::udp::endpoint endpoint(asio::ip::make_address(resolve(loop_, host_).front()), port_);
+    options_.largest = endpoint.address().is_loopback() ? kVmcLargestLocalDatagram : kVmcLargestDatagram;
     frames_ = 0;
     told_ = false;
     believed_at_ = SteadyClock::now() + (unreachable_ ? kLongestSearch : std::chrono::seconds(0));
@@ -150,7 +151,7 @@ class VmcLink final : public Link {
   SendLoop& loop_;
   const std::string host_;
   const std::uint16_t port_;
-  const VmcOptions options_;
+  VmcOptions options_;
   std::optional<PersonMotion> motion_;
   std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
   std::optional<double> followed_at_;           ///< time of the last frame, when it had somebody

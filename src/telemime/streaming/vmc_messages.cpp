@@ -3,6 +3,7 @@
 
 #include <lo/lo.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <cstdlib>
@@ -100,14 +101,14 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
   }
 }
 
-std::string bundle_of(const Message* begin, const Message* end) {
+std::string bundle_of(const std::vector<const Message*>& messages) {
   // The plain lo_bundle_free keeps the copies of the paths for ever (liblo 0.31).
   const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(lo_bundle_new(kAtOnce),
                                                                           lo_bundle_free_recursive);
   if (!bundle) {
     throw std::bad_alloc();
   }
-  for (const Message* message = begin; message != end; ++message) {
+  for (const Message* message : messages) {
     lo_bundle_add_message(bundle.get(), message->path, message->content.get());
   }
   std::size_t size = 0;
@@ -115,21 +116,30 @@ std::string bundle_of(const Message* begin, const Message* end) {
   return taken(bytes, size);
 }
 
-std::vector<std::string> bundled(const std::vector<Message>& messages) {
-  std::vector<std::string> datagrams;
-  const Message* first = messages.data();
-  const Message* const end = first + messages.size();
+// As few bundles as there can be, each with the first `common` messages.
+std::vector<std::string> bundled(const std::vector<Message>& messages, std::size_t common,
+                                 std::size_t largest) {
+  std::vector<const Message*> bundle;
   std::size_t size = kBundleHead;
-  for (const Message* message = first; message != end; ++message) {
-    const std::size_t more = kSizeField + message->size();
-    if (size + more > kVmcLargestDatagram) {
-      datagrams.push_back(bundle_of(first, message));
-      first = message;
-      size = kBundleHead;
+  const auto add = [&](const Message& message) {
+    bundle.push_back(&message);
+    size += kSizeField + message.size();
+  };
+  const auto begin = [&] {
+    bundle.clear();
+    size = kBundleHead;
+    std::for_each(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(common), add);
+  };
+  begin();
+  std::vector<std::string> datagrams;
+  for (std::size_t i = common; i < messages.size(); ++i) {
+    if (size + kSizeField + messages[i].size() > largest && bundle.size() > common) {
+      datagrams.push_back(bundle_of(bundle));
+      begin();
     }
-    size += more;
+    add(messages[i]);
   }
-  datagrams.push_back(bundle_of(first, end));
+  datagrams.push_back(bundle_of(bundle));
   return datagrams;
 }
 
@@ -150,10 +160,11 @@ std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const H
   std::vector<Message> messages;
   messages.push_back(ok_message(motion != nullptr));
   messages.push_back(time_message(time));
+  const std::size_t common = messages.size();
   if (motion != nullptr) {
     add_places(skeleton, *motion, options, messages);
   }
-  return options.bundles ? bundled(messages) : single(messages);
+  return options.bundles ? bundled(messages, common, options.largest) : single(messages);
 }
 
 }  // namespace telemime

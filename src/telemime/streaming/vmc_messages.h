@@ -9,21 +9,25 @@
 
 namespace telemime {
 
+/// An Ethernet frame of 1500 bytes less the heads of IPv6 and UDP: the protocol asks for bundles that fit in
+/// one.
+inline constexpr std::size_t kVmcLargestDatagram = 1452;
+/// Within this computer: less than the least size of the loopback device (16 KiB) that systems have.
+inline constexpr std::size_t kVmcLargestLocalDatagram = 16'000;
+
 /// What the receivers of the VMC protocol differ in.
 struct VmcOptions {
   bool bundles = true;        ///< several messages in a datagram; some receivers take one alone
   bool all_positions = true;  ///< false: all bones but the hips are at 0
   bool root_moves = false;    ///< the person's movement is the root's, not the hips'
+  std::size_t largest = kVmcLargestDatagram;  ///< bundle, bytes
 };
-
-/// An Ethernet frame of 1500 bytes less the heads of IPv6 and UDP: the protocol asks for bundles that fit in
-/// one.
-inline constexpr std::size_t kVmcLargestDatagram = 1452;
 
 /// One frame as datagrams of the VMC protocol 3.1, Performer to Marionette: /VMC/Ext/OK (calibrated; tracking
 /// or not), /VMC/Ext/T, /VMC/Ext/Root/Pos and a /VMC/Ext/Bone/Pos for each of the 19 bones, in the
 /// left-handed frame of Unity for a VRM 1.0 model: p = (-x, y, z), q = (x, -y, -z, w). `motion` is nullptr
-/// while the person is lost: then the first two alone. `time` in s.
+/// while the person is lost: then the first two alone. Each bundle begins with /VMC/Ext/OK and /VMC/Ext/T, so
+/// that it can be used by itself. `time` in s.
 std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const HumanoidMotion* motion,
                                        double time, const VmcOptions& options);
 

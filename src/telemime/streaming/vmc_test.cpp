@@ -12,6 +12,7 @@
 #include "telemime/streaming/sender.h"
 #include "telemime/streaming/testing_osc.h"
 #include "telemime/streaming/testing_receivers.h"
+#include "telemime/streaming/vmc_messages.h"
 
 namespace telemime {
 namespace {
@@ -112,15 +113,36 @@ TEST_F(Vmc, RotationsAndPositionsAreThoseThatWereSent) {
     EXPECT_EQ(got.marionette.root.rotation, (std::vector<float>{0, 0, 0, 1}));
     EXPECT_EQ(got.marionette.bones.size(), kBones);
     expect_equal(got.marionette, humanoid_motion(header_.body, frame.pose, origin));
-    EXPECT_EQ(got.datagrams.size(), 2U);
-    for (const std::string& datagram : got.datagrams) {
-      EXPECT_EQ(datagram.substr(0, 8), std::string("#bundle\0", 8));
-      EXPECT_LT(datagram.size(), 1500U - 28U) << "fits an Ethernet frame with the heads of IP and UDP";
-    }
+    ASSERT_EQ(got.datagrams.size(), 1U) << "nothing is divided within one computer";
+    EXPECT_EQ(got.datagrams[0].substr(0, 8), std::string("#bundle\0", 8));
   }
   EXPECT_TRUE(comes_true([&] { return sender->status().sent == 20; }));
   EXPECT_EQ(sender->status().state, SenderState::sending);
   EXPECT_EQ(sender->status().dropped, 0);
+}
+
+TEST_F(Vmc, EachBundleIsCompleteInItself) {
+  const Pose pose = random_pose();
+  const HumanoidMotion motion = humanoid_motion(header_.body, pose, pose.root);
+  for (const std::size_t largest :
+       {std::size_t{200}, std::size_t{600}, kVmcLargestDatagram, kVmcLargestLocalDatagram}) {
+    VmcOptions options;
+    options.largest = largest;
+    const auto datagrams = vmc_datagrams(skeleton_, &motion, 2.5, options);
+    EXPECT_EQ(datagrams.size() == 1, largest == kVmcLargestLocalDatagram);
+    Marionette all;
+    for (const std::string& datagram : datagrams) {
+      EXPECT_LE(datagram.size(), largest) << "fits an Ethernet frame with the heads of IP and UDP";
+      Marionette one;
+      for (const OscMessage& message : testing_osc::parse_osc(datagram)) {
+        one.take(message);
+        all.take(message);
+      }
+      EXPECT_EQ(one.ok, (std::vector<std::int32_t>{1, 3, 0, 1}));
+      EXPECT_FLOAT_EQ(one.time, 2.5F);
+    }
+    expect_equal(all, motion);
+  }
 }
 
 TEST_F(Vmc, AnArmThatPointsAtTheCameraPointsForward) {
