@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/run_outputs.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "telemime/core/scratch_folder.h"
+#include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/testing_bap.h"
+#include "telemime/outputs/testing_bvh.h"
+#include "telemime/outputs/testing_motion.h"
+
+namespace telemime {
+namespace {
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Time from the first to the last line of a TRC file, s.
+double last_time_of_trc(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::string last;
+  while (std::getline(lines, line)) {
+    last = line.empty() ? last : line;
+  }
+  return std::stod(last.substr(last.find('\t') + 1));
+}
+
+// Whatever the times, all files last equally long.
+TEST(RunOutputs, DurationsAgreeForAnyTimes) {
+  Random random(11);
+  for (const double fps : {7.5, 25.0, 59.94}) {
+    for (const double pause : {0.0, 15.0}) {
+      const ScratchFolder scratch;
+      TrackRequest request;
+      request.out = scratch.file("out:1");
+      StreamHeader header = testing_motion::header();
+      header.fps = fps;
+      RunOutputs outputs(request, fps, nullptr);
+      outputs.begin(header);
+      double time = 0.0;
+      for (int i = 0; i < 60; ++i) {
+        MotionFrame frame = testing_motion::frame_of(header.body, header.camera, Pose(), i, fps);
+        frame.time = time;
+        outputs.write(frame);
+        outputs.write_overlay(cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(80)), time);
+        time += i == 59 ? 0.0 : 0.001 + 2.0 / fps * random.uniform() + (i == 30 ? pause : 0.0);
+      }
+      outputs.close_overlay();
+      outputs.close({});
+      const auto text = [&](const char* name) { return text_of(scratch.file(std::string("out:1/") + name)); };
+      const double step = 1.0 / fps + 0.002;
+      const auto video = open_source(scratch.file("out:1/overlay.mp4"));
+      double shown = 0.0;
+      while (const std::optional<Frame> frame = video->next()) {
+        shown = frame->time;
+      }
+      EXPECT_NEAR(shown, time, step) << fps;
+      EXPECT_NEAR(last_time_of_trc(text("motion.trc")), time, step) << fps;
+      const testing_bvh::BvhFile bvh = testing_bvh::parse_bvh(text("motion.bvh"));
+      EXPECT_NE(text("motion.bvh").find("Frames: " + std::to_string(bvh.frames.size())), std::string::npos);
+      EXPECT_NEAR(static_cast<double>(bvh.frames.size() - 1) * bvh.frame_time, time, step) << fps;
+      const testing_bap::BapFile bap = testing_bap::parse_bap(text("motion.bap"));
+      EXPECT_NEAR(static_cast<double>(bap.frames.size() - 1) / bap.fps, time, step) << fps;
+      const PoseFile poses = parse_pose_jsonl(text("pose.jsonl"), "pose.jsonl");
+      EXPECT_EQ(poses.frames.size(), 60U) << "the true ones";
+      EXPECT_NEAR(poses.frames.back().time, time, 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telemime
