@@ -98,7 +98,7 @@ void run_experiments(ExperimentArguments arguments) {
     std::cout << experiment->id << "  " << section.finding.verdict << std::endl;
   }
   if (!arguments.budget.empty()) {
-    try_to("--budget", [&] { write_text(arguments.budget, tuning_json({lab.fit(), {}}, 0.0)); });
+    try_to("--budget", [&] { write_text(arguments.budget, tuning_json(lab.fit())); });
   }
   std::string head;
   for (const std::string& line : conditions(lab.options())) {

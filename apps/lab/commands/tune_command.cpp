@@ -5,11 +5,12 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.h"
+#include "lab/experiments/budget_fit.h"
 #include "lab/experiments/experiments.h"
 #include "telemime/likelihood/all.h"
-#include "telemime/search/budget.h"
 #include "telemime/tracker/config.h"
 
 namespace telemime {
@@ -22,8 +23,8 @@ struct TuneArguments {
 };
 
 void run_tune(const TuneArguments& arguments) {
-  Tuning tuning;
-  tuning.fit = arguments.fit.empty() ? default_fit() : read_tuning(arguments.fit).fit;
+  const QuadraticFit fit = arguments.fit.empty() ? default_fit() : read_fit(arguments.fit);
+  std::vector<EvaluationCost> costs;
   const Model model = make_model(Shape{});
   const auto backend = make_backend(Config{}.backend);
   Table table{"", {"size", "F us", "D_C us", "region iterations", "edge iterations"}, {}};
@@ -32,15 +33,15 @@ void run_tune(const TuneArguments& arguments) {
     Random random(1);
     const EvaluationCost cost =
         measure_cost(*backend, model, Camera{}.scaled_to(width, height), kRepeats, random, thread_seconds);
-    tuning.costs.push_back(cost);
-    const Split split = split_for_budget(arguments.budget_ms, cost.region_ms, cost.edge_ms, tuning.fit);
+    costs.push_back(cost);
+    const Split split = split_for_budget(arguments.budget_ms, cost.region_ms, cost.edge_ms, fit);
     table.rows.push_back(
         row_of(size_name(width, height), 1e3 * cost.region_ms, 1e3 * cost.edge_ms, split.region, split.edge));
   }
   std::cout << "best split of " << number(arguments.budget_ms) << " ms of search per frame\n"
             << to_text(table);
   if (!arguments.out.empty()) {
-    write_text(arguments.out, tuning_json(tuning, arguments.budget_ms));
+    write_text(arguments.out, tuning_json(fit, costs, arguments.budget_ms));
     std::cout << "written to " << arguments.out << '\n';
   }
 }

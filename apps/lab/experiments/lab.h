@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "lab/experiments/budget_fit.h"
 #include "lab/experiments/filter_sweep.h"
 #include "lab/experiments/sequence.h"
-#include "telemime/search/budget.h"
 
 namespace telemime {
 

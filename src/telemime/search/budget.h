@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <limits>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "telemime/core/random.h"
@@ -26,17 +23,6 @@ struct QuadraticFit {
 
 /// The fit to the 2-D errors of the four gestures (data/budget.json, thesis Figure 3-28).
 QuadraticFit default_fit();
-
-/// One measurement: the error after x region and y edge evaluations.
-struct ErrorSample {
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;  ///< mm
-};
-
-/// Least-squares fit; `limit` becomes the largest x or y. Throws Error(usage) unless the samples determine
-/// all six coefficients.
-QuadraticFit fit_quadratic(std::span<const ErrorSample> samples);
 
 /// A point (x, y) of the plane of evaluations, not rounded.
 struct Allocation {
@@ -69,23 +55,6 @@ struct EvaluationCost {
   double region_ms = 0.0;  ///< alpha: one F
   double edge_ms = 0.0;    ///< beta: one D_C
 };
-
-/// Result of `telemime-lab tune`.
-struct Tuning {
-  QuadraticFit fit;
-  std::vector<EvaluationCost> costs;
-
-  /// The cost at this size, or at the measured size nearest to it in pixels. Throws Error(config) without
-  /// any.
-  EvaluationCost cost_at(int width, int height) const;
-};
-
-/// Reads the text of tuning_json() or data/budget.json, which has a fit only. Throws Error(config) that names
-/// the file and what is wrong.
-Tuning read_tuning(const std::filesystem::path& file);
-
-/// The tuning as JSON text; with `budget_ms` > 0 also the split for each size.
-std::string tuning_json(const Tuning& tuning, double budget_ms);
 
 /// A frame rendered from the model in this pose: labels and distance map are exact, so that F is 0 there. For
 /// measurements and tests.

@@ -4,65 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/scratch_folder.h"
 
 namespace telemime {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-std::vector<ErrorSample> grid_of(const QuadraticFit& truth) {
-  std::vector<ErrorSample> samples;
-  for (const double x : {0.0, 50.0, 100.0, 200.0, 350.0, 500.0}) {
-    for (const double y : {0.0, 50.0, 200.0, 500.0}) {
-      samples.push_back({x, y, truth(x, y)});
-    }
-  }
-  return samples;
-}
-
-TEST(QuadraticFit, FindsTheQuadraticThatMadeTheSamples) {
-  const QuadraticFit truth{120.0, -0.3, -0.2, 4e-4, 3e-4, 2e-4, kInfinity};
-  const QuadraticFit fit = fit_quadratic(grid_of(truth));
-  EXPECT_NEAR(fit.a, truth.a, 1e-8);
-  EXPECT_NEAR(fit.b, truth.b, 1e-10);
-  EXPECT_NEAR(fit.c, truth.c, 1e-10);
-  EXPECT_NEAR(fit.d, truth.d, 1e-12);
-  EXPECT_NEAR(fit.f, truth.f, 1e-12);
-  EXPECT_NEAR(fit.g, truth.g, 1e-12);
-  EXPECT_EQ(fit.limit, 500.0);
-}
-
-TEST(QuadraticFit, ResidualsAreOrthogonalToEveryTerm) {
-  std::vector<ErrorSample> samples = grid_of({100.0, -0.2, -0.1, 3e-4, 2e-4, 1e-4, kInfinity});
-  Random random(5);
-  for (ErrorSample& s : samples) {
-    s.z += random.normal(0.0, 3.0);
-  }
-  const QuadraticFit fit = fit_quadratic(samples);
-  double one = 0.0;
-  double along_x = 0.0;
-  double across = 0.0;
-  for (const ErrorSample& s : samples) {
-    const double residual = s.z - fit(s.x, s.y);
-    one += residual;
-    along_x += residual * s.x;
-    across += residual * s.x * s.y;
-  }
-  EXPECT_NEAR(one, 0.0, 1e-6);
-  EXPECT_NEAR(along_x, 0.0, 1e-4);
-  EXPECT_NEAR(across, 0.0, 1e-2);
-}
-
-TEST(QuadraticFit, RefusesSamplesThatDoNotDetermineIt) {
-  const std::vector<ErrorSample> line(20, {100.0, 100.0, 5.0});
-  EXPECT_THROW(fit_quadratic(line), Error);
-  EXPECT_THROW(fit_quadratic(std::vector<ErrorSample>(5)), Error);
-}
 
 TEST(BestAllocation, SolvesACaseByHand) {
   // z = (x - 30)^2 + (y - 10)^2 on x + y = 60: the foot of the perpendicular from (30, 10) is (40, 20).
@@ -145,43 +93,8 @@ TEST(SplitForBudget, NothingFitsIntoNoTime) {
   EXPECT_EQ(split_for_budget(0.0, 0.1, 0.1, {}).region_share(), 1.0);
 }
 
-class TuningFile : public ::testing::Test {
- protected:
-  void write(const std::string& text) const { std::ofstream(file_) << text; }
-  ScratchFolder folder_;
-  std::filesystem::path file_ = folder_.file("tuning.json");
-};
-
-TEST_F(TuningFile, ReadsWhatWasWritten) {
-  Tuning tuning;
-  tuning.fit = {120.0, -0.3, -0.2, 4e-4, 3e-4, 2e-4, 500.0};
-  tuning.costs = {{160, 120, 0.02, 0.03}, {320, 240, 0.05, 0.06}};
-  write(tuning_json(tuning, 10.0));
-  const Tuning read = read_tuning(file_);
-  EXPECT_EQ(read.fit.g, tuning.fit.g);
-  EXPECT_EQ(read.fit.limit, 500.0);
-  ASSERT_EQ(read.costs.size(), 2U);
-  EXPECT_EQ(read.cost_at(160, 120).edge_ms, 0.03);
-  EXPECT_EQ(read.cost_at(640, 480).width, 320);
-}
-
-TEST_F(TuningFile, SaysWhatIsWrong) {
-  EXPECT_THROW(read_tuning(file_), Error);
-  write("{\"fit\": 3}");
-  EXPECT_THROW(read_tuning(file_), Error);
-  write("not json");
-  EXPECT_THROW(read_tuning(file_), Error);
-  EXPECT_THROW(Tuning{}.cost_at(160, 120), Error);
-}
-
-TEST(DefaultFit, IsTheOneInTheDataFolder) {
-  const Tuning file = read_tuning(std::string(TELEMIME_SOURCE_DIR) + "/data/budget.json");
-  const QuadraticFit fit = default_fit();
-  EXPECT_EQ(fit.a, file.fit.a);
-  EXPECT_EQ(fit.g, file.fit.g);
-  EXPECT_EQ(fit.limit, file.fit.limit);
-  // More search must reduce the error, or there would be nothing to divide.
-  EXPECT_LT(fit(200.0, 0.0), fit(0.0, 0.0));
+TEST(DefaultFit, MoreSearchReducesTheError) {
+  EXPECT_LT(default_fit()(200.0, 0.0), default_fit()(0.0, 0.0));
 }
 
 TEST(MeasureCost, DividesTheClockByTheEvaluations) {
