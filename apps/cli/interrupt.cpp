@@ -8,11 +8,11 @@
 namespace telemime {
 namespace {
 
-// A signal handler reaches nothing else.
+// A signal handler can access nothing else.
 volatile std::sig_atomic_t interrupt_noted = 0;
 
 void on_interrupt(int signal) {
-  // A terminal that closes may say so twice.
+  // A closing terminal may send the signal twice.
   if (interrupt_noted != 0 && signal != SIGHUP) {
     ::_exit(128 + signal);
   }

@@ -3,12 +3,11 @@
 
 namespace telemime {
 
-/// From now on Ctrl-C, SIGTERM and a terminal that is closed (SIGHUP, unless it is ignored, as nohup does)
-/// are noted, to end in order; the second one ends the program at once: whatever hangs would be waited for
-/// else.
+/// From now on Ctrl-C, SIGTERM and SIGHUP (a closed terminal, unless ignored as by nohup) request an orderly
+/// end. A second one ends the program at once, in case something hangs.
 void note_interrupts();
 
-/// Whether one was noted.
+/// Whether the end was requested.
 bool interrupted();
 
 }  // namespace telemime

@@ -6,13 +6,13 @@
 
 namespace telemime {
 
-/// One line on standard error: how far a file is, frames a second, time left. Silent when standard error is
-/// not a terminal, except for a line now and then.
+/// One line on standard error: progress in a file, frames per second, time left. If standard error is not a
+/// terminal, a line is printed only now and then.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet) : quiet_(quiet) {}
   void show(std::int64_t frames, std::int64_t total, double seconds);
-  /// Ends the line, so that other words can follow.
+  /// Ends the line, so that other text can follow.
   void interrupt();
 
  private:

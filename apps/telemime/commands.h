@@ -8,11 +8,11 @@
 /// The subcommands of the program, in the order of its help.
 namespace telemime {
 
-/// Whether a thread was left behind within a driver or FFmpeg (LiveOptions::left_behind).
+/// Whether a thread still hangs in a driver or FFmpeg (LiveOptions::left_behind).
 using LeftBehind = std::shared_ptr<std::atomic<bool>>;
 
-/// `telemime live`: from the webcam to an avatar, on a page and in other programs. When `left_behind` is set
-/// afterwards, the program must end without the destructors of static objects.
+/// Adds `telemime live`: from the webcam to an avatar, on a page and in other programs. If `left_behind` is
+/// set afterwards, the program must exit without running the destructors of static objects.
 void add_live_command(CLI::App& app, const LeftBehind& left_behind);
 
 /// Adds `telemime track INPUT [options]`.

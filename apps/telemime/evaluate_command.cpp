@@ -34,7 +34,7 @@ void write_json(const std::string& file, const Evaluation& evaluation) {
   stream.close();
   if (!stream) {
     throw Error(ErrorKind::output, "cannot write " + file + ": " + std::generic_category().message(errno),
-                "give --json a file in a folder that you may write, on a disk with room");
+                "give --json a file in a folder that you may write to, on a disk with free space");
   }
 }
 

@@ -33,7 +33,7 @@ namespace {
 
 // A page that is reloaded is back within this time.
 constexpr std::chrono::seconds kReload{3};
-// That a browser may take to start and to show the page, when it was asked for.
+// Time for a browser to start and show the page.
 constexpr std::chrono::seconds kFirstPage{30};
 
 struct LiveCommand {
@@ -52,7 +52,7 @@ bool is_file(const std::string& input) {
   return kind != InputKind::camera && kind != InputKind::device && kind != InputKind::stream;
 }
 
-// The input as a camera. Notes whether it has an end: then nobody can be asked to step out of it, either.
+// Opens the input as a camera. Records whether it is a file: then nobody can be asked to leave the image.
 std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_behind) {
   const std::string input = command.live.request.input;
   command.live.guided = false;
@@ -65,7 +65,7 @@ std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_b
   options.left_behind = [left_behind] { *left_behind = true; };
   auto source = open_source(input, options);
   command.live.ends = !source->info().live;
-  // Where networks find the person nobody needs to step out of the image.
+  // If networks find the person, nobody needs to leave the image.
   const bool needed = !uses_networks(command.live.request.config);
   command.live.guided = source->info().live && !command.unguided && (command.guided || needed);
   return source->info().live ? std::move(source) : pace(std::move(source));  // a clip on a web server, too
@@ -74,7 +74,7 @@ std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_b
 void print_report(const LiveReport& report) {
   const LiveRates& r = report.state.rates;
   std::cout << std::fixed << std::setprecision(1) << r.frames << " frames, " << r.dropped << " dropped, "
-            << r.tracked << " a second\n"
+            << r.tracked << " per second\n"
             << "ms: wait " << r.ms.wait << ", features " << r.ms.features << ", queue " << r.ms.queue
             << ", search " << r.ms.search << "; camera to pose " << r.ms.total << " (95 %: " << r.ms.total_p95
             << ")\n";
@@ -89,9 +89,9 @@ void print_report(const LiveReport& report) {
   }
 }
 
-// Until the user stops it or the time is over, or nothing can be tracked any more: the input has ended, or
-// something has failed. Who looks at the page may still want its recordings: as long as one is open, the
-// program stays.
+// Waits until the user stops the program, the time is over, or nothing can be tracked any more because the
+// input has ended or something has failed. Users of the page may still want its recordings: while a page is
+// open, the program keeps running.
 void wait_for_end(const LiveCommand& command, const LiveProgram& program, const LiveProgram::Message& say) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
@@ -113,7 +113,7 @@ void wait_for_end(const LiveCommand& command, const LiveProgram& program, const 
       return;
     }
     if (ended && !std::exchange(told, true)) {
-      const std::string stays = report.pages > 0 ? "the program stays as long as a page is open" : "";
+      const std::string stays = report.pages > 0 ? "the program keeps running while a page is open" : "";
       const std::string words = report.failure  ? stays
                                 : stays.empty() ? "the input has ended"
                                                 : "the input has ended; " + stays;
@@ -124,7 +124,7 @@ void wait_for_end(const LiveCommand& command, const LiveProgram& program, const 
   }
 }
 
-// The XDG Base Directory Specification: a relative path there does not count.
+// The XDG Base Directory Specification: relative paths are ignored.
 std::filesystem::path settings_file() {
   const auto folder = [](const char* variable) {
     const char* const value = std::getenv(variable);
@@ -138,7 +138,7 @@ std::filesystem::path settings_file() {
   return home.empty() ? home : home / ".config" / "telemime" / "live.json";
 }
 
-// Of a run that ended by itself.
+// Exit code of a run that ended by itself.
 void fail(const LiveFailure& failure) {
   if (failure.input) {
     throw Error(ErrorKind::input, "the run ended: " + failure.words);
@@ -174,10 +174,10 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
       std::cerr << words << '\n';
     }
   };
-  // Its loops over pictures this small gain nothing from threads, and the threads that wait for them take the
-  // processor from the search and the page.
+  // OpenCV's loops over such small images gain nothing from threads, and the waiting threads take processor
+  // time from the search and the page.
   cv::setNumThreads(1);
-  // Until the input is open nothing is lost, and Ctrl-C need not wait for a camera or a network.
+  // Nothing is lost before the input is open, so Ctrl-C need not wait for a camera or a network.
   auto source = open_live(command, left_behind);
   note_interrupts();
   LiveProgram program(command.live, std::move(source), say);

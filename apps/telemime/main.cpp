@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   const auto left_behind = std::make_shared<std::atomic<bool>>(false);
   const int code = telemime::exit_code_of(argc, argv, left_behind);
   if (*left_behind) {
-    // A thread is still within FFmpeg or a driver: static objects must not be destroyed under it.
+    // A thread still hangs in FFmpeg or a driver: static objects must not be destroyed while it runs.
     std::cout.flush();
     std::cerr.flush();
     std::fflush(nullptr);

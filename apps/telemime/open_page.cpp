@@ -26,13 +26,13 @@ bool has_display() {
   return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
-// Of the new process, which tells the old one why and ends.
+// Ends the new process after reporting the reason to the parent.
 [[noreturn]] void give_up(int report, int why) {
   (void)!::write(report, &why, sizeof why);
   ::_exit(127);
 }
 
-// In the new process, where only calls of the system are safe: nothing of ours goes on in it, neither the
+// Runs in the new process, where only system calls are safe. It keeps nothing of this program: neither the
 // terminal's Ctrl-C nor the camera nor the server's port.
 [[noreturn]] void become_opener(const char* url, int report) {
   ::setsid();
@@ -52,7 +52,7 @@ bool has_display() {
       ::close(other);
     }
   }
-  // No shell reads the address: it is one argument, whatever stands in it.
+  // No shell parses the address: it is one argument, whatever it contains.
   ::execlp(kOpener, kOpener, url, static_cast<char*>(nullptr));
   give_up(report, errno);
 }
@@ -77,7 +77,7 @@ void open_page(const std::string& url) {
   if (child > 0) {
     while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
     }
-    // The pipe closes when xdg-open runs; before that it says why it does not.
+    // The pipe closes when xdg-open starts; otherwise it reports the reason.
     ssize_t count = 0;
     do {
       count = ::read(ends[0], &why, sizeof why);

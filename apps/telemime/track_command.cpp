@@ -69,7 +69,7 @@ ViewerRequest show_window(const Progress& progress) {
 void print_summary(const TrackSummary& summary, const TrackRequest& request) {
   std::cout << summary.frames << " frames, " << summary.tracked << " tracked, in " << summary.seconds
             << " s (" << static_cast<double>(summary.frames) / std::max(1e-9, summary.seconds)
-            << " frames a second)\n";
+            << " frames per second)\n";
   if (summary.tracked > 0) {
     std::cout << "mean F " << summary.report["mean_F"] << ", mean D_C " << summary.report["mean_D_C"]
               << " px\n";
@@ -128,7 +128,7 @@ void add_track_command(CLI::App& app) {
   command->add_option("--calibration", options->request.calibration, "File that `telemime calibrate` wrote.");
   command
       ->add_option("--formats", options->request.formats,
-                   "Write only these of jsonl, csv, bvh, bap, glb, vrma and trc.")
+                   "Formats to write, of jsonl, csv, bvh, bap, glb, vrma and trc; by default all.")
       ->delimiter(',');
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
                       "Signs and units of motion.bap: iso, greta, vreng-3.1 or vreng-3.2.");

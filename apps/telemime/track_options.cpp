@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A number, true, false or null; anything else is a text.
+// A number, true, false or null; anything else is a string.
 Json value_from(const std::string& text) {
   Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() || value.is_structured() ? Json(text) : value;

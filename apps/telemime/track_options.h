@@ -29,7 +29,7 @@ void add_track_options(CLI::App& command, TrackOptions& options);
 /// The values of the public options and of --set. Throws Error(usage).
 SettingValues given_settings(const TrackOptions& options);
 
-/// The request that the options ask for: configuration file first, then the command line. Throws
+/// The request that results from the options: configuration file first, then the command line. Throws
 /// Error(config) for the file and Error(usage) for the command line.
 TrackRequest make_request(const TrackOptions& options);
 

@@ -214,8 +214,8 @@ TEST_F(LiveRun, GuideWaitsForAPageAndReportsIt) {
   const std::string url = "http://localhost:" + std::to_string(program.port());
   EXPECT_TRUE(comes_true([&] { return contains(warnings_, "waiting for the page"); }));
   EXPECT_TRUE(contains(warnings_, url) && contains(warnings_, "--no-guide")) << warnings_;
-  EXPECT_FALSE(contains(warnings_, "going on without"));
-  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "going on without"); }));
+  EXPECT_FALSE(contains(warnings_, "continuing without"));
+  EXPECT_TRUE(comes_true([&] { return contains(warnings_, "continuing without"); }));
   EXPECT_TRUE(comes_true([&] { return program.report().state.phase == LivePhase::person; }));
 }
 

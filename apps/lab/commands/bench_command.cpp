@@ -53,7 +53,7 @@ void report_clips(BenchArguments& arguments, const std::function<void(const Tabl
   show(frame_time_table(frames));
   show(size_time_table(sizes));
   std::cout << "one thread, processor time, medians; 500 evaluations at 160x120: "
-            << number(1e3 / frames.back().total_ms()) << " frames a second\n";
+            << number(1e3 / frames.back().total_ms()) << " frames per second\n";
 }
 
 // Processor time of one run of each network that is installed.

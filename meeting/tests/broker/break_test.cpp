@@ -30,8 +30,9 @@ TEST(BrokenMeeting, RestartedBrokerGetsEverythingAgain) {
     broker.kill();
   }
   ASSERT_TRUE(comes_true([&] { return sender->status().state == SenderState::failed; }));
-  ASSERT_TRUE(comes_true([&] { return sender->status().words == "nobody listens there; trying again"; }))
-      << sender->status().words;
+  ASSERT_TRUE(comes_true([&] {
+    return sender->status().words == "no program is listening there; trying again";
+  })) << sender->status().words;
   EXPECT_EQ(sender->status().receivers, 0);
   const std::int64_t dropped = sender->status().dropped;
   EXPECT_TRUE(comes_true([&] { return sender->status().dropped > dropped; })) << "the oldest give way";

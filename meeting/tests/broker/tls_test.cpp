@@ -39,7 +39,7 @@ TEST_F(Tls, BrokerMayRestart) {
   const Feeder feeder(*sender);
   ASSERT_TRUE(is_sending(*sender)) << sender->status().words;
   broker.kill();
-  ASSERT_TRUE(fails_with(*sender, "nobody listens there")) << sender->status().words;
+  ASSERT_TRUE(fails_with(*sender, "no program is listening there")) << sender->status().words;
   broker.start();
   const std::int64_t sent = sender->status().sent;
   EXPECT_TRUE(comes_true([&] { return sender->status().sent >= sent + 10; })) << sender->status().words;

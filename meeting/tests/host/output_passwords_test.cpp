@@ -22,7 +22,7 @@ TEST(OutputPasswords, AreUsedButNotShown) {
   SenderList list(meeting::kAllSenderKinds);
   list.add(kUrl);
   EXPECT_EQ(list.status().at(0).url, kShown);
-  EXPECT_EQ(meeting::error_of([&] { list.add(kUrl); }), kShown + " is in the list already");
+  EXPECT_EQ(meeting::error_of([&] { list.add(kUrl); }), kShown + " is already in the list");
   ASSERT_TRUE(list.switch_off(kShown)) << "a page names it as it was shown";
   EXPECT_EQ(list.status().at(0).url, kShown);
   EXPECT_EQ(list.status().at(0).state, SenderState::off);

@@ -219,8 +219,8 @@ TEST_F(TlsMeeting, WrongFilesAreDistinguished) {
   std::ofstream(authority_.file("rubbish")) << "rubbish";
   EXPECT_TRUE(contains(refusal(with(authority_.file("none"), key)), "the certificate cannot be read"));
   EXPECT_TRUE(contains(refusal(with(pem, authority_.file("none"))), "the certificate's key cannot be read"));
-  EXPECT_TRUE(contains(refusal(with(authority_.file("rubbish"), key)), "no certificate to be used"));
-  EXPECT_TRUE(contains(refusal(with(pem, authority_.file("rubbish"))), "no key to be used"));
+  EXPECT_TRUE(contains(refusal(with(authority_.file("rubbish"), key)), "no usable certificate"));
+  EXPECT_TRUE(contains(refusal(with(pem, authority_.file("rubbish"))), "no usable key"));
   EXPECT_TRUE(contains(refusal(with(pem, authority_.file("other.key"))), "is not the key of"));
 }
 

@@ -158,7 +158,7 @@ class ImageSequence : public Source {
                         files_.size() == 1
                             ? "it is not an image that can be decoded"
                             : "none of its " + std::to_string(files_.size()) + " images can be decoded",
-                        "Open one in an image viewer to see whether it is whole.");
+                        "Open one in an image viewer to check that it is complete.");
     }
     require_usable_size(first_.size(), input);
     info_.name = input;
@@ -174,7 +174,7 @@ class ImageSequence : public Source {
     Notes all = notes_;
     if (unreadable_ > 0) {
       all.add(std::to_string(unreadable_) + " of " + std::to_string(files_.size()) +
-              " images cannot be decoded and were left out, first " + first_unreadable_);
+              " images cannot be decoded and were skipped, first " + first_unreadable_);
     }
     return all.text();
   }

@@ -45,7 +45,7 @@ std::string cameras_found() {
   return names.empty()
              ? "No camera is connected, or none is visible here (a container or a virtual machine must be "
                "given one)."
-             : "Devices found: " + joined(names) + ". Not all of them give pictures.";
+             : "Devices found: " + joined(names) + ". Not all of them deliver images.";
 }
 
 std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, const LiveOptions& options) {
@@ -64,7 +64,7 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
   std::unique_ptr<Source> source = live_source(
       input, [device] { return camera_device(device); }, options);
   if (!source) {
-    throw cannot_read(input, kind, device + " gives no pictures",
+    throw cannot_read(input, kind, device + " delivers no images",
                       "Close other programs that use the camera. " + cameras_found());
   }
   return source;

@@ -101,8 +101,8 @@ cv::Mat fit_to(const cv::Mat& image, cv::Size size, Notes& notes) {
 
 void require_usable_size(cv::Size size, const std::string& input) {
   if (std::min(size.width, size.height) < smallest_side) {
-    throw Error(ErrorKind::input, "'" + input + "' has pictures of " + in_words(size) + " pixels",
-                "No person can be seen in so few; give pictures of at least 160x120.");
+    throw Error(ErrorKind::input, "'" + input + "' has images of " + in_words(size) + " pixels",
+                "That is too few to see a person. Use images of at least 160x120 pixels.");
   }
 }
 
@@ -123,11 +123,11 @@ double usable_fps(double stated, std::optional<double> measured, Notes& notes) {
   }
   std::ostringstream note;
   if (usable) {
-    note << "it states " << stated << " frames a second, but its time stamps show " << *measured
+    note << "it states " << stated << " frames per second, but its time stamps show " << *measured
          << ", which is used";
   } else {
     note << "it states no usable frame rate (" << stated << "); " << measured.value_or(fallback_fps)
-         << " frames a second are " << (measured ? "used, by its time stamps" : "assumed");
+         << " frames per second are " << (measured ? "used, by its time stamps" : "assumed");
   }
   notes.add(note.str());
   return measured.value_or(fallback_fps);

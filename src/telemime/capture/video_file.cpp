@@ -32,7 +32,7 @@ class VideoFile : public Source {
     first_ = decode();
     if (first_.empty()) {
       throw cannot_read(opened.name, opened.kind, "it can be opened, but has no frame that can be decoded",
-                        "Play it to see that it is whole, or convert it: ffmpeg -i INPUT output.mp4");
+                        "Play it to check that it is complete, or convert it: ffmpeg -i INPUT output.mp4");
     }
     require_usable_size(first_.size(), opened.name);
     info_.width = first_.cols;
@@ -148,7 +148,7 @@ std::unique_ptr<Source> open_video_file(const std::string& path, const InputOpti
   if (!video.isOpened()) {
     throw cannot_read(path, InputKind::video_file,
                       "it is not a video, is cut off, or has an unknown encoding",
-                      "Play it to see that it is whole, or convert it: ffmpeg -i INPUT output.mp4");
+                      "Play it to check that it is complete, or convert it: ffmpeg -i INPUT output.mp4");
   }
   return video_source({.video = video,
                        .name = path,

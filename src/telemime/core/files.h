@@ -49,8 +49,9 @@ SmallFile read_small_file(const std::filesystem::path& file, std::size_t most,
                           SymbolicLinks links = SymbolicLinks::follow);
 
 /// The Error(output) for a file that cannot be written: the reason is that of the error number.
-Error cannot_write(const std::filesystem::path& file, int error_number,
-                   const std::string& remedy = "Choose a folder that you may write, on a disk with room.");
+Error cannot_write(
+    const std::filesystem::path& file, int error_number,
+    const std::string& remedy = "Choose a folder that you may write to, on a disk with free space.");
 
 /// Replaces a file atomically by way of a temporary file beside it: after an error the old one is unchanged.
 /// Throws Error(output).

@@ -8,7 +8,6 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -194,7 +193,7 @@ struct LiveProgram::State {
       work();
     } catch (const std::exception& e) {
       if (!failure_reported.exchange(true) && console) {
-        console(MessageLevel::error, std::string("the page does not get everything: ") + e.what());
+        console(MessageLevel::error, std::string("the page does not receive everything: ") + e.what());
       }
     }
   }
@@ -228,7 +227,7 @@ struct LiveProgram::State {
     if (const LiveSession* const running = ready) {
       now.state = running->state();
     } else {
-      now.state.words = "the camera is made ready, and the scene is learned";
+      now.state.words = "preparing the camera and learning the scene";
     }
     now.outputs = senders.status();
     now.recording = recorder.current();
@@ -288,12 +287,12 @@ struct LiveProgram::State {
       case GuideTimeout::Step::ask:
         notify(MessageLevel::warning,
                "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
-                   "\n  Without a page the start goes on by itself after " +
+                   "\n  Without a page, tracking starts after " +
                    std::to_string(std::lround(guide_timeout.seconds())) + " s; --no-guide does not wait.");
         break;
       case GuideTimeout::Step::skip:
         notify(MessageLevel::warning,
-               "no page is open to guide the start: going on without a picture of the empty room");
+               "no page is open to guide the start: continuing without an image of the empty room");
         session->guide(GuideStep::skip);
         break;
     }

@@ -386,11 +386,11 @@ LiveState LiveSession::state() const {
   state.warnings.insert(state.warnings.end(), state_->person_warnings.begin(), state_->person_warnings.end());
   if (!state_->opened) {
     state.phase = LivePhase::opening;
-    state.words = "waiting for the first picture";
+    state.words = "waiting for the first image";
   }
   if (state_->waiting_since && now - *state_->waiting_since > kStopped) {
     state.phase = LivePhase::stopped;
-    state.words = state_->camera_words.empty() ? "the camera gives no pictures now" : state_->camera_words;
+    state.words = state_->camera_words.empty() ? "the camera delivers no images now" : state_->camera_words;
   }
   return state;
 }

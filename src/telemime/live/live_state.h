@@ -20,7 +20,7 @@ enum class LivePhase {
   person,      ///< waits for a person who can be calibrated
   tracking,
   lost,
-  stopped,  ///< the camera gives no pictures now
+  stopped,  ///< the camera delivers no images now
   ended,    ///< there will be no more frames
 };
 

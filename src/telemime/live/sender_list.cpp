@@ -46,7 +46,7 @@ std::string SenderList::url_of_new(const std::string& given, const std::string& 
   if (entry->sender) {
     const std::string shown = without_password(given);
     throw Error(ErrorKind::usage,
-                shown + " is in the list already" + (known == shown ? "" : ", as " + known));
+                shown + " is already in the list" + (known == shown ? "" : ", as " + known));
   }
   return given == known ? entry->url : given;
 }

@@ -56,7 +56,7 @@ struct OutputFormat {
 
 /// All formats. A new format is an encoder and a line here.
 inline constexpr std::array<OutputFormat, 7> kOutputFormats = {{
-    {"jsonl", "pose.jsonl", "everything, one JSON object a frame",
+    {"jsonl", "pose.jsonl", "everything, one JSON object per frame",
      [](const OutputOptions&) { return make_jsonl_encoder(); }, true},
     {"csv", "pose.csv", "a table for spreadsheets", [](const OutputOptions&) { return make_csv_encoder(); },
      true},

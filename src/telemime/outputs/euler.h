@@ -14,9 +14,9 @@ using EulerAngles = std::array<double, 3>;
 
 Eigen::Matrix3d compose(const AxisOrder& order, const EulerAngles& angles);
 
-/// The angles of a rotation, each in (-pi, pi], of the two solutions the one nearer to `near`. Where the
-/// middle angle is +-90 degrees and only a sum or difference of the other two is determined, the innermost
-/// keeps its value of `near`.
+/// The angles of a rotation, each in (-pi, pi]; of the two solutions, the one nearer to `near`. If the middle
+/// angle is +-90 degrees, only the sum or difference of the other two is determined; the innermost then keeps
+/// its value of `near`.
 EulerAngles decompose(const Eigen::Matrix3d& rotation, const AxisOrder& order, const EulerAngles& near);
 
 }  // namespace telemime

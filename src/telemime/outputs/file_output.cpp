@@ -73,11 +73,11 @@ void FileOutput::patch() {
 }
 
 void FileOutput::fail(int error_number) {
-  std::string remedy = "choose a folder that exists and that you may write, on a disk with room";
+  std::string remedy = "choose an existing folder that you may write to, on a disk with free space";
   if (descriptor_ >= 0) {
-    // What cannot be shortened (a device) has no frames to save either.
+    // A device, which cannot be truncated, has no frames to keep.
     if (seekable_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) == 0) {
-      remedy += "; what was written until then is whole";
+      remedy += "; what was written before is complete";
     }
     ::close(descriptor_);
     descriptor_ = -1;

@@ -10,36 +10,36 @@
 
 namespace telemime {
 
-/// Where VMC's "Marionette" listens (the protocol's default).
+/// Default port of the "Marionette", the receiver of the VMC protocol.
 inline constexpr std::uint16_t kMarionettePort = 39539;
 
-/// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves]: the VMC protocol by UDP
-/// (vmc_messages.h). UDP has no connection: that nobody listens is known only where the system reports it, on
-/// this computer always. Throws Error(usage).
+/// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves]: the VMC protocol over UDP
+/// (vmc_messages.h). UDP has no connections: a missing receiver is noticed only if the system reports it,
+/// which it always does on this computer. Throws Error(usage).
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url);
 
-/// bap+tcp://host:port[?profile=iso|greta|vreng-3.1|vreng-3.2]: connects by TCP and writes what a file
-/// motion.bap holds (outputs/all.h), without end: the header with 0 frames once for each connection,
-/// then two lines a frame. Frames in which the person is lost repeat the last pose, as in the file. Throws
-/// Error(usage).
+/// bap+tcp://host:port[?profile=iso|greta|vreng-3.1|vreng-3.2]: connects by TCP and writes an endless
+/// motion.bap (outputs/all.h): the header with 0 frames once per connection, then two lines per frame. Frames
+/// in which the person is lost repeat the last pose, as in the file. Throws Error(usage).
 std::unique_ptr<Sender> make_bap_tcp_sender(const SendUrl& url);
 
 inline constexpr std::uint16_t kHttpPort = 80;
 
 /// ws://host[:80][/path][?...]: connects as a WebSocket client and sends the messages `body` and `pose` of
-/// docs/live-protocol.md as text. `mirror` is an option of ours; the rest of what stands behind "?" goes to
-/// the receiver with the path. Throws Error(usage).
+/// docs/live-protocol.md as text. `mirror` is an option of Telemime; all other options are passed to the
+/// receiver with the path. Throws Error(usage).
 std::unique_ptr<Sender> make_web_socket_sender(const SendUrl& url);
 
-/// All of them. A new kind is a Link (send_queue.h) and a line here. `mirror` is an option of each.
+/// All kinds of outputs of this module. A new kind needs a Link (send_queue.h) and a line here. Each has the
+/// option `mirror`.
 inline constexpr std::array<SenderKind, 3> kSenderKinds = {{
     {"vmc", kMarionettePort, "vmc://localhost:39539",
      "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
-     "avatar programs that take the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
+     "avatar programs that receive the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
     {"bap+tcp", 0, "bap+tcp://localhost:5000", "profile=iso|greta|vreng-3.1|vreng-3.2, mirror=0|1",
-     "MPEG-4 body animation parameters as lines of text, to a program that listens", make_bap_tcp_sender},
-    {"ws", kHttpPort, "ws://localhost:8080/motion", "mirror=0|1; all others go to the receiver",
-     "JSON messages over a WebSocket, for programs of one's own", make_web_socket_sender},
+     "MPEG-4 body animation parameters as lines of text, for a program that listens", make_bap_tcp_sender},
+    {"ws", kHttpPort, "ws://localhost:8080/motion", "mirror=0|1; other options are passed to the receiver",
+     "JSON messages over a WebSocket, for your own programs", make_web_socket_sender},
 }};
 
 }  // namespace telemime

@@ -39,7 +39,7 @@ AvatarFolder::AvatarFolder(std::filesystem::path folder) : folder_(std::move(fol
   if (error) {
     throw Error(ErrorKind::usage,
                 "the avatars in " + folder_.string() + " cannot be read: " + error.message(),
-                "Name a folder that contains files LOOK.vrm.");
+                "Choose a folder that contains LOOK.vrm files.");
   }
   std::sort(names_.begin(), names_.end());
   std::copy_if(names_.begin(), names_.end(), std::back_inserter(looks_),

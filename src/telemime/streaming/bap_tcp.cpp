@@ -34,7 +34,7 @@ class BapTcpLink final : public Link {
   }
 
   void person(const std::shared_ptr<const StreamHeader>& person) override {
-    if (!header_sent_) {  // it says nothing of the person; a reader expects one alone
+    if (!header_sent_) {  // it does not depend on the person; a reader expects only one
       write(encoder_->begin(*person));
       header_sent_ = true;
     }
@@ -60,8 +60,8 @@ class BapTcpLink final : public Link {
     finish_write(loop_, *written);
   }
 
-  /// Reads and forgets whatever comes: a reset is noticed at once. The end of what comes is no failure, since
-  /// a receiver may have closed its own direction alone.
+  /// Reads and discards incoming data, so that a reset is noticed at once. Its end is not a failure: a
+  /// receiver may close its own direction only.
   void read_on() {
     socket_.async_read_some(
         asio::buffer(rubbish_), [this](const boost::system::error_code& error, std::size_t /*count*/) {
@@ -87,11 +87,11 @@ class BapTcpLink final : public Link {
 std::unique_ptr<Sender> make_bap_tcp_sender(const SendUrl& url) {
   check_options(url, {"profile", "mirror"});
   if (!url.port || url.path.size() > 1) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not say at which port",
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" does not name a port",
                 "Write it like bap+tcp://localhost:5000.");
   }
   const std::string profile = find_option(url, "profile").value_or("iso");
-  make_bap_encoder(profile);  // refuses an unknown one now, not in the thread
+  make_bap_encoder(profile);  // rejects an unknown profile now, not in the thread
   return make_queued_sender(url,
                             [&](SendLoop& loop) { return std::make_unique<BapTcpLink>(loop, url, profile); });
 }

@@ -6,11 +6,11 @@
 namespace telemime {
 
 /// A stream seen in a mirror, the plane x = 0 of the camera frame (body/pose.h): left and right exchanged,
-/// also in the body's lengths, so that joints and kinematics agree.
-/// The limits stay as they are: no sender asks for them.
+/// also in the body's lengths, so that joints and kinematics agree. The joint limits are not mirrored,
+/// because no sender uses them.
 StreamHeader mirrored(const StreamHeader& header);
 
-/// The same of a frame of that stream. Pixels are those of the mirrored joints in the same camera.
+/// Mirrors a frame of that stream. Pixels are those of the mirrored joints in the same camera.
 MotionFrame mirrored(const MotionFrame& frame, const Camera& camera);
 
 }  // namespace telemime

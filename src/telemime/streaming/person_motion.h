@@ -9,17 +9,17 @@
 
 namespace telemime {
 
-/// One person's frames as poses of their humanoid skeleton. The hips stand over the skeleton's in the first
-/// tracked frame, and move from there.
+/// Converts the frames of one person to poses of their humanoid skeleton. In the first tracked frame the hips
+/// are above those of the skeleton; later they move relative to that place.
 class PersonMotion {
  public:
   explicit PersonMotion(const Body& body) : body_(body), skeleton_(humanoid_skeleton(body)) {}
 
   const Body& body() const { return body_; }
   const HumanoidSkeleton& skeleton() const { return skeleton_; }
-  /// The frame with everything finite (outputs/finite.h); call it once for each frame, in order.
+  /// The frame with only finite numbers (outputs/finite.h). Call it once per frame, in order.
   MotionFrame clean(const MotionFrame& frame) { return finite_(frame); }
-  /// The pose of a frame that clean() gave, nothing when the person is lost in it.
+  /// The pose of a frame that clean() returned; nothing if the person is lost in it.
   std::optional<HumanoidMotion> operator()(const MotionFrame& frame) {
     if (frame.state == TrackState::lost) {
       return std::nullopt;

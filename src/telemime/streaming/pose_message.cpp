@@ -59,7 +59,7 @@ void add_spread(const PoseSpread& spread, Json& message) {
   message["second_mode"] = rounded(spread.second_mode, kScoreDecimals);
 }
 
-/// Bytes that are not UTF-8 become replacement marks.
+/// Bytes that are not UTF-8 become replacement characters.
 std::string text_of(const Json& message) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -8,17 +8,17 @@
 namespace telemime {
 
 /// The messages `body` and `pose` of docs/live-protocol.md, JSON without line breaks, for one person. Numbers
-/// that are not finite never appear: see outputs/finite.h for what stands in their place.
+/// that are not finite are replaced as in outputs/finite.h.
 class PoseMessages {
  public:
-  /// Where the scale comes from is read from header.extra["scale_from"], when it is there.
+  /// The origin of the scale is read from header.extra["scale_from"], if present.
   explicit PoseMessages(const StreamHeader& header);
 
   /// The person: their skeleton in its T-pose.
   std::string body() const;
   /// One frame, in the order of the stream. `stamp` is ms of the program's monotonic clock.
   std::string pose(const MotionFrame& frame, double stamp);
-  /// Takes a frame into account without a message: later messages are the same as if it had been sent.
+  /// Skips the message of a frame: later messages are the same as if it had been sent.
   void pass(const MotionFrame& frame) { motion_(motion_.clean(frame)); }
 
  private:

@@ -23,7 +23,7 @@ std::vector<std::string> system_lookup(const std::string& host) {
   addrinfo* found = nullptr;
   const int error = ::getaddrinfo(host.c_str(), nullptr, &hints, &found);
   if (error != 0) {
-    throw LinkBroken("no computer called \"" + host + "\" is known (" + ::gai_strerror(error) + ")");
+    throw LinkBroken("no computer named \"" + host + "\" is known (" + ::gai_strerror(error) + ")");
   }
   const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, ::freeaddrinfo);
   std::vector<std::string> ipv4;
@@ -58,11 +58,11 @@ std::vector<std::string> resolve(SendLoop& loop, const std::string& host, const 
   }).detach();
   const auto ready = [&] { return addresses.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
   if (!loop.wait(ready, kLongestLookup)) {
-    throw LinkBroken("the name \"" + host + "\" cannot be looked up: the name server does not answer");
+    throw LinkBroken("the name \"" + host + "\" cannot be looked up: the name server does not respond");
   }
   std::vector<std::string> found = addresses.get();
   if (found.empty()) {
-    throw LinkBroken("no computer called \"" + host + "\" is known");
+    throw LinkBroken("no computer named \"" + host + "\" is known");
   }
   return found;
 }

@@ -9,15 +9,15 @@
 
 namespace telemime {
 
-/// Addresses of a host as text, IPv4 first (most programs listen there alone); throws LinkBroken with
-/// a message for the user when there is none.
+/// Returns the addresses of a host as text, IPv4 first, because most programs listen only there. Throws
+/// LinkBroken with a message for the user if there are none.
 using Lookup = std::function<std::vector<std::string>(const std::string& host)>;
 
-/// getaddrinfo. Blocks, for as long as the name servers let it.
+/// Uses getaddrinfo, which blocks until the name servers respond.
 std::vector<std::string> system_lookup(const std::string& host);
 
-/// The same without blocking the sender's end: a lookup that is under way when the sender is destroyed ends
-/// by itself in a thread of its own. An address needs no lookup.
+/// The same, but the destruction of the sender does not wait for it: a lookup in progress then ends in its
+/// own thread. An address needs no lookup.
 std::vector<std::string> resolve(SendLoop& loop, const std::string& host,
                                  const Lookup& lookup = system_lookup);
 

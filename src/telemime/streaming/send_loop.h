@@ -23,11 +23,11 @@ class LinkBroken : public std::runtime_error {
 /// Ends the waiting of a SendLoop. Not derived from std::exception, so that general handlers do not catch it.
 struct LoopStopped {};
 
-/// What a connection sees of the thread that it lives in. All waiting is done by wait(); everything that
-/// waits is an asynchronous operation of io().
+/// The sender's thread as its connection sees it. A connection waits only in wait(), for asynchronous
+/// operations of io().
 class SendLoop {
  public:
-  /// `stop` is asked by wait(): after each event, and at least every `check`.
+  /// wait() calls `stop` after each event, and at least every `check`.
   explicit SendLoop(std::function<bool()> stop,
                     std::chrono::milliseconds check = std::chrono::milliseconds(50));
   SendLoop(const SendLoop&) = delete;
@@ -35,19 +35,17 @@ class SendLoop {
   virtual ~SendLoop() = default;
 
   boost::asio::io_context& io() { return *io_; }
-  /// Runs the handlers of io() until `done()` holds: true; false when `limit` has passed before. An exception
-  /// of a handler (LinkBroken) comes out here. Throws LoopStopped once `stop` is true.
+  /// Runs the handlers of io() until `done()` is true. Returns false if `limit` passes before that. Passes on
+  /// exceptions of handlers (LinkBroken). Throws LoopStopped as soon as `stop` returns true.
   bool wait(const std::function<bool()>& done, std::chrono::milliseconds limit);
-  /// Ends a wait() early to have `done` asked again; may be called from any thread, also when the loop is
-  /// gone.
+  /// Makes wait() check `done` now. May be called from any thread, even after the loop is destroyed.
   std::function<void()> waker() const;
   /// Runs the remaining handlers of a closed connection and ignores their exceptions.
   void discard_handlers();
 
-  /// What is waited for before anything can be sent, for the status of a sender; a failure that stands there
-  /// stays.
+  /// Sets the status of the sender to what it is waiting for; does not replace a failure that is shown there.
   virtual void waiting(const std::string& /*words*/) {}
-  /// Frames arrive. `words` are for the status.
+  /// Frames are arriving. `words` are for the status.
   virtual void sending(const std::string& /*words*/ = {}) {}
   virtual void receivers(std::int64_t /*count*/) {}
 
@@ -55,16 +53,16 @@ class SendLoop {
   const std::function<bool()> stop_;
   const std::chrono::milliseconds check_;
   const std::shared_ptr<boost::asio::io_context> io_;
-  const std::shared_ptr<void> work_;  ///< io() has something to do as long as it exists
+  const std::shared_ptr<void> work_;  ///< keeps io() running
 };
 
-/// The pauses between attempts at something that failed: none, then 0.1 s, doubled up to 5 s.
+/// The pauses between attempts to connect: none, then 0.1 s, doubled up to 5 s.
 class RetryPauses {
  public:
-  /// What worked this long was good: its failure is a new one, after which the pauses start again.
+  /// A connection that worked for this long counts as good: after it the pauses start again.
   static constexpr std::chrono::seconds kGood{2};
 
-  /// The pause before the next attempt, when the last one worked for this time.
+  /// The pause before the next attempt, if the last connection worked for this time.
   std::chrono::milliseconds next(std::chrono::steady_clock::duration worked);
 
  private:

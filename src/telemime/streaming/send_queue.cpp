@@ -44,7 +44,7 @@ class QueuedSender final : public Sender, private SendLoop {
     auto person = std::make_shared<const StreamHeader>(mirror_ ? mirrored(header) : header);
     {
       const std::lock_guard lock(mutex_);
-      status_.dropped += static_cast<std::int64_t>(queue_.size());  // they show someone else
+      status_.dropped += static_cast<std::int64_t>(queue_.size());  // they show another person
       queue_.clear();
       person_ = std::move(person);
       person_is_new_ = true;
@@ -174,12 +174,12 @@ class QueuedSender final : public Sender, private SendLoop {
 
   const bool mirror_;
   const std::function<void()> wake_ = waker();
-  mutable std::mutex mutex_;  ///< of the five below; all else is the thread's
+  mutable std::mutex mutex_;  ///< guards the five members below; all others belong to the thread
   SenderStatus status_;
   std::deque<WaitingFrame> queue_;
   std::shared_ptr<const StreamHeader> person_;
   bool person_is_new_ = false;
-  std::optional<SteadyClock::time_point> good_since_;  ///< when frames began to arrive
+  std::optional<SteadyClock::time_point> good_since_;  ///< when frames began to arrive at the receiver
   std::unique_ptr<Link> link_;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;

@@ -11,7 +11,7 @@
 
 namespace telemime {
 
-/// One kind of output: how it connects and how it writes. Only the sender's thread calls it.
+/// One kind of output: how it connects and writes. Called only from the sender's thread.
 class Link {
  public:
   Link() = default;
@@ -21,22 +21,22 @@ class Link {
 
   /// Connects. Throws LinkBroken.
   virtual void open() = 0;
-  /// The person whose frames follow: after each open(), and after a recalibration.
+  /// Announces the person whose frames follow. Called after each open() and after a recalibration.
   virtual void person(const std::shared_ptr<const StreamHeader>& person) = 0;
-  /// Writes a frame; `taken` as in Sender::send. False when there was nobody to send it to, which is no
+  /// Writes a frame; `taken` as in Sender::send. Returns false if there is no receiver, which is not a
   /// failure. Throws LinkBroken.
   virtual bool frame(const MotionFrame& frame, double taken) = 0;
-  /// Lets go of the connection. Called after each open(), also after one that failed.
+  /// Closes the connection. Called after each open(), even if it failed.
   virtual void close() noexcept = 0;
 };
 
 using MakeLink = std::function<std::unique_ptr<Link>(SendLoop&)>;
 
-/// A sender with a thread and a queue of its own around a Link. Reads the option `mirror` of the URL: then
-/// the Link sees the person as in a mirror.
+/// A sender that runs a Link in its own thread, with its own queue. Handles the option `mirror` of the URL:
+/// the Link then receives mirrored frames.
 std::unique_ptr<Sender> make_queued_sender(const SendUrl& url, const MakeLink& make_link);
 
-/// How many frames wait for a slow receiver at most; the newest stay.
+/// Largest number of frames that wait for a slow receiver; the oldest are dropped.
 inline constexpr std::size_t kSendQueueFrames = 4;
 
 }  // namespace telemime

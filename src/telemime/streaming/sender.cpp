@@ -68,9 +68,9 @@ std::string meaning_of(const std::string& text, SenderKinds kinds) {
   std::string meaning = url.scheme + "://" + (url.user.empty() ? "" : url.user + "@") +
                         host_and_port(plain_host(url.host), url.port.value_or(kind.port)) + url.path;
   std::map<std::string, std::string> ours = defaults_of(kind.options);
-  std::string others;  // the receiver's own: their order may matter to it
+  std::string others;  // options of the receiver, for which their order may matter
   for (auto option = url.options.rbegin(); option != url.options.rend(); ++option) {
-    // Backward: of an option that stands twice the first one counts.
+    // Backward: if an option is given twice, the first one counts.
     if (const auto found = ours.find(option->first); found != ours.end()) {
       found->second = option->second;
     } else {

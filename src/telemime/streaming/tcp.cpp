@@ -27,7 +27,7 @@ void connect(SendLoop& loop, asio::ip::tcp::socket& socket, const asio::ip::tcp:
   const auto connected = std::make_shared<Completion>();
   socket.async_connect(endpoint, note<>(connected));
   if (!loop.wait([&] { return connected->done; }, kLongestConnect)) {
-    throw LinkBroken("no answer from there");
+    throw LinkBroken("it does not respond");
   }
   if (connected->error) {
     throw LinkBroken(in_words(connected->error));
@@ -39,7 +39,7 @@ void connect(SendLoop& loop, asio::ip::tcp::socket& socket, const asio::ip::tcp:
 std::string in_words(const boost::system::error_code& error) {
   namespace e = boost::asio::error;
   if (error == e::connection_refused) {
-    return "nobody listens there";
+    return "no program is listening there";
   }
   if (error == e::connection_reset || error == e::broken_pipe || error == e::eof ||
       error == e::connection_aborted) {
@@ -49,7 +49,7 @@ std::string in_words(const boost::system::error_code& error) {
     return "that computer cannot be reached from here";
   }
   if (error == e::timed_out) {
-    return "no answer from there";
+    return "it does not respond";
   }
   if (error == e::address_in_use) {
     return "another program uses that port";
@@ -66,7 +66,7 @@ void connect_tcp(SendLoop& loop, asio::ip::tcp::socket& socket, const std::strin
     try {
       connect(loop, socket, {asio::ip::make_address(address), port});
       return;
-    } catch (const std::exception& e) {  // the first address is the one that most receivers listen at
+    } catch (const std::exception& e) {  // most receivers listen at the first address
       cause = cause.empty() ? e.what() : cause;
     }
   }
@@ -78,7 +78,7 @@ void finish_write(SendLoop& loop, const Completion& write) {
   if (!loop.wait(done, kSlowWrite)) {
     loop.sending("it reads too slowly; frames are dropped");
     if (!loop.wait(done, kLongestWrite)) {
-      throw LinkBroken("it does not read what is sent");
+      throw LinkBroken("it does not read the data");
     }
     loop.sending();
   }

@@ -102,7 +102,7 @@ class Parser {
     url.path = parts.part(CURLUPART_PATH);
     const std::string query = parts.part(CURLUPART_QUERY);
     if (has_credentials_often(url.scheme) && (url.path + query).find('@') != std::string::npos) {
-      fail("has an \"@\" behind its host; write %40");  // or part of a password was taken for the path
+      fail("has an \"@\" after its host; write %40");  // or part of a password was taken for the path
     }
     set_options(query, url);
     return url;
@@ -115,9 +115,9 @@ class Parser {
   }
 
   [[noreturn]] void fail_without_host() const {
-    throw Error(ErrorKind::usage, "the output \"" + shown_ + "\" does not say which computer it sends to",
-                "Put its name or address behind \"://\", localhost for this one, like " +
-                    std::string(example_) + ".");
+    throw Error(
+        ErrorKind::usage, "the output \"" + shown_ + "\" does not name the computer to send to",
+        "Put its name or address after \"://\", localhost for this one, like " + std::string(example_) + ".");
   }
 
   void check(CURLUcode result) const {
@@ -152,13 +152,13 @@ class Parser {
       return;
     }
     if (!has_key_in_fragment(url.scheme)) {
-      fail("has a \"#\", which has no meaning here");
+      fail("has a \"#\", which is not allowed here");
     }
     const std::string_view fragment = std::string_view(text_).substr(mark);
     url.password = fragment.starts_with(kKeyMark) ? fragment.substr(kKeyMark.size()) : "";
     if (url.password.empty() || url.password.size() > kLongestKey ||
         url.password.find_first_not_of(std::string(kLetters) + "_.~-") != std::string::npos) {
-      fail("has an invalid access key behind \"#\"; the link may be cut off");
+      fail("has an invalid access key after \"#\"; the link may be cut off");
     }
   }
 
@@ -185,7 +185,7 @@ SendUrl parse_url(const std::string& text, std::string_view example, UrlCredenti
   return Parser(text, example).parse(credentials);
 }
 
-// By hand: secrets must be removed from text that no parser accepts, too, before it is shown in a message.
+// Not with a parser: secrets must also be removed from malformed text before it is shown in a message.
 std::string without_password(const std::string& given) {
   const std::string url =
       given.substr(0, given.find(has_key_in_fragment(given) ? std::string_view("#") : kKeyMark));
@@ -198,7 +198,7 @@ std::string without_password(const std::string& given) {
   const std::size_t colon = url.find(':', start);
   std::size_t at = url.substr(0, end).rfind('@');
   if (at == std::string::npos || at < start) {
-    // There is no user where one belongs. A password that contains "/" puts its "@" elsewhere.
+    // There is no user at its usual place. A password that contains "/" moves the "@".
     const bool has_port = colon != std::string::npos && colon + 1 < end &&
                           url.find_first_not_of("0123456789", colon + 1) >= end;
     const bool is_host_and_path = colon == std::string::npos || colon > end || has_port;
@@ -246,7 +246,7 @@ std::optional<HostAndPort> parse_host_and_port(std::string_view text) {
     return std::nullopt;
   }
   HostAndPort result{lower_case(url.host()), url.port()};
-  // libcurl reads "127.1" as 127.0.0.1; a header that says so was not written by a browser.
+  // libcurl reads "127.1" as 127.0.0.1, but no browser writes such a header.
   const bool as_written = text.starts_with('[') || lower_case(text.substr(0, text.find(':'))) == result.host;
   if (result.port == 0 || !as_written) {
     return std::nullopt;

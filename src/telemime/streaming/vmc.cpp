@@ -28,7 +28,7 @@ namespace {
 namespace asio = boost::asio;
 using SteadyClock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kLongestWait{5000};  // for a network that takes nothing
+constexpr std::chrono::milliseconds kLongestWait{5000};  // for a network that accepts no data
 constexpr std::chrono::seconds kLongestSearch{5};        // for a computer's address: Linux asks three times
 
 class VmcLink final : public Link {
@@ -50,7 +50,7 @@ class VmcLink final : public Link {
     boost::system::error_code error;
     socket_.open(endpoint.protocol(), error);
     if (!error) {
-      socket_.connect(endpoint, error);  // or the system would not tell us of refusals
+      socket_.connect(endpoint, error);  // otherwise the system does not report refusals
     }
     if (error) {
       throw LinkBroken(in_words(error));
@@ -58,7 +58,7 @@ class VmcLink final : public Link {
     socket_.non_blocking(true);
     tell_of_unreachable(endpoint.protocol() == asio::ip::udp::v4());
     read_on();
-    loop_.waiting("waits for a person to follow");
+    loop_.waiting("waiting for a person to track");
   }
 
   void person(const std::shared_ptr<const StreamHeader>& person) override {
@@ -76,7 +76,7 @@ class VmcLink final : public Link {
          vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.time, options_)) {
       send(datagram);
     }
-    // A refusal comes back after the frame: the one behind it would have heard of it.
+    // A refusal arrives after the frame that caused it: the next one is sent after it.
     if (++frames_ >= 2 && !told_ && SteadyClock::now() >= believed_at_) {
       loop_.sending();
       told_ = true;
@@ -89,13 +89,13 @@ class VmcLink final : public Link {
     boost::system::error_code ignored;
     try {
       say_farewell();
-    } catch (const std::exception&) {  // for want of memory: it was a courtesy
+    } catch (const std::exception&) {  // out of memory: the message is optional
     }
     socket_.close(ignored);
   }
 
  private:
-  /// The last that a receiver hears is not that somebody is followed.
+  /// The last message to a receiver says that nobody is tracked.
   void say_farewell() {
     if (!followed_at_ || !socket_.is_open()) {
       return;
@@ -107,7 +107,7 @@ class VmcLink final : public Link {
     }
   }
 
-  /// Else only a refusal comes back, and a computer that is off is sent to for ever.
+  /// Otherwise only a refusal is noticed, and frames are sent forever to a computer that is off.
   void tell_of_unreachable(bool v4) {
     const int on = 1;
     ::setsockopt(socket_.native_handle(), v4 ? IPPROTO_IP : IPPROTO_IPV6, v4 ? IP_RECVERR : IPV6_RECVERR, &on,
@@ -117,11 +117,12 @@ class VmcLink final : public Link {
   void send(const std::string& datagram) {
     boost::system::error_code error;
     while (socket_.send(asio::buffer(datagram), 0, error), error == asio::error::would_block) {
-      // Nothing leaves this computer for now: the receiver's address is being looked for, or a radio is slow.
+      // Nothing is sent at the moment: the receiver's address is being resolved, or a wireless network is
+      // slow.
       const auto room = std::make_shared<Completion>();
       socket_.async_wait(asio::socket_base::wait_write, note<>(room));
       if (!loop_.wait([&room] { return room->done; }, kLongestWait)) {
-        throw LinkBroken("the network takes nothing that is sent there");
+        throw LinkBroken("the network does not accept data for that address");
       }
     }
     if (error && error != asio::error::no_buffer_space) {  // lost, as datagrams may be
@@ -134,7 +135,7 @@ class VmcLink final : public Link {
     throw LinkBroken(in_words(error));
   }
 
-  /// Nothing is expected; what matters is the refusal.
+  /// No data is expected; only refusals matter.
   void read_on() {
     socket_.async_receive(asio::buffer(rubbish_),
                           [this](const boost::system::error_code& error, std::size_t /*count*/) {
@@ -153,12 +154,12 @@ class VmcLink final : public Link {
   const std::uint16_t port_;
   VmcOptions options_;
   std::optional<PersonMotion> motion_;
-  std::shared_ptr<const StreamHeader> person_;  ///< whose motion_ is
-  std::optional<double> followed_at_;           ///< time of the last frame, when it had somebody
-  std::int64_t frames_ = 0;                     ///< of this attempt
-  bool told_ = false;                           ///< that frames arrive
-  bool unreachable_ = false;                    ///< the computer was, in the last attempt
-  SteadyClock::time_point believed_at_;         ///< when frames without an answer are thought to arrive
+  std::shared_ptr<const StreamHeader> person_;  ///< of motion_
+  std::optional<double> followed_at_;           ///< time of the last frame if it showed a person
+  std::int64_t frames_ = 0;                     ///< since the last connection
+  bool told_ = false;                           ///< the status says that frames arrive
+  bool unreachable_ = false;                    ///< the computer was unreachable in the last attempt
+  SteadyClock::time_point believed_at_;         ///< when frames without a refusal count as received
   asio::ip::udp::socket socket_;
   std::array<char, 512> rubbish_{};
 };
@@ -168,7 +169,7 @@ class VmcLink final : public Link {
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url) {
   check_options(url, {"bundle", "positions", "root", "mirror"});
   if (url.path.size() > 1) {
-    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has a path, which has no meaning here",
+    throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has a path, which is not allowed here",
                 "Write it like vmc://localhost:39539.");
   }
   VmcOptions options;

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
-#include <utility>
 
 namespace telemime {
 namespace {
@@ -45,7 +44,7 @@ Message empty_message(const char* path) {
   if (!message.content) {
     throw std::bad_alloc();
   }
-  lo_message_incref(message.content.get());  // ours; a bundle adds its own and gives it back
+  lo_message_incref(message.content.get());  // our reference; a bundle adds its own and releases it
   return message;
 }
 
@@ -66,7 +65,7 @@ Message time_message(double time) {
   return message;
 }
 
-/// A name and where it is, in Unity's frame: the mirror image in the plane x = 0.
+/// A name and its place in Unity's frame: mirrored in the plane x = 0.
 Message place_message(const char* path, const std::string& name, const Place& place) {
   Message message = empty_message(path);
   const auto& [p, q] = place;
@@ -102,7 +101,7 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
 }
 
 std::string bundle_of(const std::vector<const Message*>& messages) {
-  // The plain lo_bundle_free keeps the copies of the paths for ever (liblo 0.31).
+  // lo_bundle_free never releases the copies of the paths (liblo 0.31).
   const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(lo_bundle_new(kAtOnce),
                                                                           lo_bundle_free_recursive);
   if (!bundle) {

@@ -9,17 +9,17 @@
 
 namespace telemime {
 
-/// An Ethernet frame of 1500 bytes less the heads of IPv6 and UDP: the protocol asks for bundles that fit in
-/// one.
+/// An Ethernet frame of 1500 bytes minus the headers of IPv6 and UDP: the protocol requires bundles that fit
+/// in one.
 inline constexpr std::size_t kVmcLargestDatagram = 1452;
 /// Within this computer: less than the least size of the loopback device (16 KiB) that systems have.
 inline constexpr std::size_t kVmcLargestLocalDatagram = 16'000;
 
-/// What the receivers of the VMC protocol differ in.
+/// Options in which the receivers of the VMC protocol differ.
 struct VmcOptions {
-  bool bundles = true;        ///< several messages in a datagram; some receivers take one alone
+  bool bundles = true;        ///< several messages per datagram; some receivers accept only one
   bool all_positions = true;  ///< false: all bones but the hips are at 0
-  bool root_moves = false;    ///< the person's movement is the root's, not the hips'
+  bool root_moves = false;    ///< the root moves with the person instead of the hips
   std::size_t largest = kVmcLargestDatagram;  ///< bundle, bytes
 };
 

@@ -279,7 +279,7 @@ TEST(VmcWithoutReceiver, IsReportedInWordsAndFoundLater) {
     sender->send(frames[0], kTaken);
     return sender->status().state == SenderState::failed && sender->status().dropped > 10;
   }));
-  EXPECT_EQ(sender->status().words, "nobody listens there; trying again");
+  EXPECT_EQ(sender->status().words, "no program is listening there; trying again");
   EXPECT_EQ(sender->status().receivers, 0);
   UdpReceiver receiver(port);
   EXPECT_TRUE(comes_true([&] {

@@ -22,9 +22,9 @@ std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-/// What a page from here may do. glTF loaders fetch blob: and data: addresses of their own textures; the
-/// WebSocket's address is named because 'self' does not cover ws: in every browser. Styles may be inline:
-/// they cannot act.
+/// What a page of this server may do. glTF loaders fetch blob: and data: addresses of textures. The
+/// WebSocket's address is listed because 'self' does not cover ws: in every browser. Inline styles are
+/// allowed because they cannot run code.
 std::string content_policy(std::string_view host) {
   std::string policy =
       "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
@@ -57,7 +57,7 @@ std::string plain_name(std::string name) {
   return name;
 }
 
-/// Answers with the part of the file that the headers ask for.
+/// Responds with the part of the file that the headers ask for.
 void set_file(WebResponse& message, WebFile file, const WebRequest& request) {
   WebRange range{WebRange::Kind::whole, 0, file.size};
   const std::string_view condition = view(request[http::field::if_range]);
@@ -90,7 +90,7 @@ void set_bytes(WebResponse& message, WebBytes bytes) {
 }  // namespace
 
 WebBody::writer::Part WebBody::writer::get(boost::system::error_code& error) {
-  // What is read at a time: between two parts other connections have their turn.
+  // Bytes that are read at a time; other connections are served in between.
   constexpr std::size_t kLongestPart = 128 * 1024;
   error = {};
   if (body_.bytes && !body_.bytes->empty()) {
@@ -102,7 +102,7 @@ WebBody::writer::Part WebBody::writer::get(boost::system::error_code& error) {
   part_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kLongestPart, body_.left)));
   const std::size_t count = body_.file.read(part_.data(), part_.size(), error);
   if (count == 0 && !error) {
-    error = http::error::partial_message;  // the file was cut short: the end of the connection shows it
+    error = http::error::partial_message;  // the file was truncated: closing the connection shows it
   }
   if (error) {
     return boost::none;
@@ -151,25 +151,24 @@ WebResponse ask_handler(const WebRequest& request, const std::string& path, cons
                  : web_refusal(http::status::not_found, "There is nothing here: " + path);
 }
 
-/// Why the request may come from another web site, or from a page that goes by a false name; nothing when
-/// not.
+/// Why the request may come from another web site or from a page under a false name; nothing if it cannot.
 std::optional<WebResponse> stranger(const WebRequest& request, const WebNames& names,
                                     std::string_view local) {
   if (request.count(http::field::host) != 1) {
     return web_refusal(http::status::bad_request, "The request must have one Host header.");
   }
   if (!names.host(view(request[http::field::host]), local)) {
-    return web_refusal(http::status::forbidden,
-                       "This program does not answer to that name (header Host).\n"
-                       "Ask for it by http://localhost and its port, or start it with that name as a further "
-                       "host.");
+    return web_refusal(
+        http::status::forbidden,
+        "This program does not answer to that name (header Host).\n"
+        "Use http://localhost and its port, or start it with that name as an additional host.");
   }
   const std::size_t origins = request.count(http::field::origin);
   if (origins > 1 || (origins == 1 && !names.origin(view(request[http::field::origin]), local))) {
     return web_refusal(http::status::forbidden,
                        "Pages of other web sites may not use this program (header Origin).");
   }
-  // Browsers say so, too, where they send no Origin. A link from elsewhere is fine: it navigates.
+  // Browsers send this header even without an Origin. Links from other sites are fine: they navigate.
   const std::string_view site = view(request["Sec-Fetch-Site"]);
   if ((site == "cross-site" || site == "same-site") && view(request["Sec-Fetch-Mode"]) != "navigate") {
     return web_refusal(http::status::forbidden,
@@ -215,7 +214,7 @@ std::optional<WebResponse> web_answer(const WebRequest& request, bool has_body, 
   }
   const bool head = request.method() == http::verb::head;
   if (!head && request.method() != http::verb::get) {
-    WebResponse refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are answered.");
+    WebResponse refusal = web_refusal(http::status::method_not_allowed, "Only GET and HEAD are supported.");
     refusal.set(http::field::allow, "GET, HEAD");
     return refusal;
   }

@@ -19,7 +19,7 @@
 
 namespace telemime {
 
-/// The body of an answer, for Beast: bytes, or a part of a file, which is read while it is sent.
+/// The body of a response, for Beast: bytes, or a part of a file, which is read while it is sent.
 struct WebBody {
   struct value_type {
     WebBytes bytes;                 ///< may be null
@@ -46,18 +46,18 @@ struct WebBody {
 using WebRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 using WebResponse = boost::beast::http::response<WebBody>;
 
-/// Answers anything but a POST that is taken; nothing when the request asks for a WebSocket. `request` is a
-/// whole header; `has_body` says whether something follows it, which is always refused. `local` is the
-/// address at which the connection came in.
+/// The response to any request except an accepted POST; nothing if the request asks for a WebSocket.
+/// `request` is a complete header; `has_body` says whether a body follows, which is always refused. `local`
+/// is the address at which the connection was accepted.
 std::optional<WebResponse> web_answer(const WebRequest& request, bool has_body, const WebNames& names,
                                       std::string_view local, const WebHandlers& handlers);
 
-/// Whether the request is a POST that handlers.post is to be asked about, once its body was read. `post`
-/// gets path and headers. False: web_answer() knows.
+/// Whether the request is a POST for handlers.post, which is called after the body was read. `post` gets path
+/// and headers. False: web_answer() responds.
 bool web_post(const WebRequest& request, const WebNames& names, std::string_view local,
               const WebHandlers& handlers, WebPost& post);
 
-/// What stands in `content`, for that request.
+/// The response with `content` to that request.
 WebResponse web_content(WebContent content, const WebRequest& request, const WebHandlers& handlers);
 
 /// A plain text answer with a status; then the connection is closed.

@@ -5,7 +5,6 @@
 #include <boost/asio/buffer.hpp>
 #include <chrono>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "telemime/streaming/web_stream.h"
@@ -17,9 +16,9 @@ namespace beast = boost::beast;
 namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
-// A message goes out in pieces of this size, so that one that is slow can be told from one that has stopped.
+// Messages are sent in pieces of this size, so that a slow client can be told from one that has stopped.
 constexpr std::size_t piece = 64 * 1024;
-// The system's own queue would hold seconds of old pictures for a slow client.
+// The system's own queue could hold seconds of old images for a slow client.
 constexpr int kernel_buffer = 256 * 1024;
 
 }  // namespace
@@ -38,7 +37,7 @@ void WebClient::start(const WebRequest& request) {
   const WebServerOptions& options = hub_->options();
   error_code ignored;
   beast::tcp_stream& lowest = beast::get_lowest_layer(stream_);
-  lowest.expires_never();  // the WebSocket has timers of its own
+  lowest.expires_never();  // the WebSocket has its own timers
   lowest.socket().set_option(boost::asio::socket_base::send_buffer_size(kernel_buffer), ignored);
   stream_.set_option(websocket::stream_base::timeout{options.request_within, options.stalled_after,
                                                      /*keep_alive_pings=*/true});
@@ -70,7 +69,7 @@ void WebClient::read() {
     return;
   }
   stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
-    // The stream itself has told the other side of a message that is too big (1009) or not UTF-8 (1007).
+    // The stream has already reported a message that is too big (1009) or not UTF-8 (1007) to the other side.
     if (error) {
       self->drop();
     } else {
@@ -84,7 +83,7 @@ void WebClient::take() {
     return;
   }
   if (stream_.got_binary()) {
-    close(Code::unknown_data, "Only text messages are understood here.");
+    close(Code::unknown_data, "Only text messages are supported.");
     return;
   }
   const auto data = buffer_.cdata();
@@ -123,7 +122,7 @@ void WebClient::write_piece() {
   stalled_.expires_after(hub_->options().stalled_after);
   stalled_.async_wait([weak = weak_from_this()](error_code error) {
     const std::shared_ptr<WebClient> self = weak.lock();
-    // The next piece may have begun while this call was on its way.
+    // The next piece may have begun before this call ran.
     if (!error && self && self->writing_ && self->stalled_.expiry() <= std::chrono::steady_clock::now()) {
       self->drop();
     }

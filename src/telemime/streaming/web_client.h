@@ -7,7 +7,6 @@
 #include <boost/beast/websocket/stream.hpp>
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "telemime/streaming/web_answer.h"
 #include "telemime/streaming/web_hub.h"
@@ -15,8 +14,8 @@
 
 namespace telemime {
 
-/// One open WebSocket, from the upgrade on. It lives as long as one of its operations is under way. For the
-/// server's thread only.
+/// One open WebSocket, from the upgrade on. It exists as long as one of its operations is in progress. For
+/// the server's thread only.
 class WebClient : public std::enable_shared_from_this<WebClient> {
  public:
   WebClient(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket, boost::beast::tcp_stream stream);
@@ -25,7 +24,7 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   WebClient& operator=(const WebClient&) = delete;
 
   void start(const WebRequest& request);
-  /// To be written when its turn comes; the client is closed when it lets too many wait.
+  /// Queues a message; the client is disconnected if too many are waiting.
   void push(WebMessage message);
   void set_topic(int topic, bool on) { queue_.set_topic(topic, on); }
 
@@ -37,9 +36,9 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   void write();
   void write_piece();
   void written(std::size_t bytes);
-  /// With words for the other side, which must answer soon.
+  /// Closes with a reason; the other side must respond soon.
   void close(Code code, const char* words);
-  /// At once.
+  /// Closes at once.
   void drop();
 
   std::shared_ptr<WebHub> hub_;
@@ -47,10 +46,10 @@ class WebClient : public std::enable_shared_from_this<WebClient> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
   boost::asio::steady_timer stalled_;
   boost::beast::flat_buffer buffer_;
-  std::uint64_t id_ = 0;  ///< 0: does not take part
+  std::uint64_t id_ = 0;  ///< 0: not registered
   WebQueue queue_;
   WebMessage current_;      ///< what is being written
-  std::size_t offset_ = 0;  ///< how much of it was
+  std::size_t offset_ = 0;  ///< how much of it was written
   bool writing_ = false;
   bool closing_ = false;
 };

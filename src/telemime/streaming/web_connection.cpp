@@ -16,7 +16,7 @@ namespace {
 namespace http = boost::beast::http;
 using boost::system::error_code;
 
-// All programs of localhost share their cookies, so that headers can be long.
+// All programs on localhost share their cookies, so headers can be long.
 constexpr std::size_t longest_header = 32 * 1024;
 constexpr std::chrono::seconds linger_time{2};
 
@@ -51,7 +51,7 @@ void WebConnection::read() {
   parser_.emplace();
   parser_->header_limit(longest_header);
   parser_->body_limit(hub_->options().most_posted);
-  // For the whole of it: a client that sends a byte now and then does not put this off.
+  // For the complete request: a client that sends a byte now and then does not extend it.
   stream_.expires_after(hub_->options().request_within);
   http::async_read_header(
       stream_, buffer_, *parser_,
@@ -65,7 +65,7 @@ void WebConnection::answer(error_code error) {
   } else if (error == http::error::body_limit) {
     respond(web_refusal(http::status::payload_too_large, "The body of the request is too long."));
   } else if (error && error != http::error::end_of_stream && error.category() == malformed) {
-    respond(web_refusal(http::status::bad_request, "This is no HTTP request."));
+    respond(web_refusal(http::status::bad_request, "This is not an HTTP request."));
   } else if (WebPost post;
              !error && web_post(parser_->get(), hub_->names(), local_, hub_->handlers(), post)) {
     read_body(std::move(post));
@@ -80,7 +80,7 @@ void WebConnection::answer(error_code error) {
   }
 }
 
-// Within the time of its header.
+// Within the same time limit as the header.
 void WebConnection::read_body(WebPost post) {
   body_.emplace(std::move(*parser_));
   http::async_read(
@@ -97,8 +97,8 @@ void WebConnection::read_body(WebPost post) {
 
 void WebConnection::ask(WebPost post) {
   post.address = remote_address(stream_.socket()).to_string();
-  // Nothing else keeps this connection alive until the answer or the end of patience. The hub lets go of it
-  // once, so that only the first of the two counts.
+  // Only the hub keeps this connection alive until the answer or the timeout. It releases it once, so that
+  // only the first of the two counts.
   hub_->hold(shared_from_this());
   stream_.expires_never();
   patience_.expires_after(hub_->options().stalled_after);
@@ -135,11 +135,12 @@ void WebConnection::put_content(WebContent content) {
 
 void WebConnection::upgrade() {
   if (stream_.secure()) {
-    respond(web_refusal(http::status::not_found, "There are no WebSockets here."));
+    respond(web_refusal(http::status::not_found, "WebSockets are not available at this address."));
     return;
   }
   if (buffer_.size() > 0) {
-    respond(web_refusal(http::status::bad_request, "A WebSocket must wait for the answer to its request."));
+    respond(web_refusal(http::status::bad_request,
+                        "A WebSocket client must wait for the response to its request."));
     return;
   }
   const auto client = std::make_shared<WebClient>(hub_, std::move(ticket_), stream_.take());
@@ -156,7 +157,7 @@ void WebConnection::respond(WebResponse answer) {
 }
 
 void WebConnection::write() {
-  // Restarted for each part: a slow reader has not stalled.
+  // Restarted for each part: a slow reader is not a stalled one.
   stream_.expires_after(hub_->options().stalled_after);
   http::async_write_some(stream_, *serializer_, [self = shared_from_this()](error_code error, std::size_t) {
     if (error) {

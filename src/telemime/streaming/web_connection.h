@@ -17,14 +17,14 @@
 
 namespace telemime {
 
-/// One HTTP connection: requests are read and answered one after the other, until one asks for a WebSocket,
-/// something is wrong, or nothing comes for too long. It lives as long as one of its operations is under way.
-/// For the server's thread only.
+/// One HTTP connection: reads and answers one request after the other until one asks for a WebSocket, one is
+/// invalid, or none arrives for too long. It exists as long as one of its operations is in progress. For the
+/// server's thread only.
 class WebConnection : public std::enable_shared_from_this<WebConnection> {
  public:
   WebConnection(std::shared_ptr<WebHub> hub, std::shared_ptr<void> ticket,
                 boost::asio::ip::tcp::socket socket);
-  /// Begins, once.
+  /// Starts; call once.
   void start();
 
  private:
@@ -42,13 +42,13 @@ class WebConnection : public std::enable_shared_from_this<WebConnection> {
   std::shared_ptr<WebHub> hub_;
   std::shared_ptr<void> ticket_;
   WebStream stream_;
-  boost::asio::steady_timer patience_;  ///< with an answer that is still being made
-  std::string local_;                   ///< the address at which it came in
+  boost::asio::steady_timer patience_;  ///< limits the wait for a response of a handler
+  std::string local_;                   ///< the address at which it was accepted
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> body_;  ///< of a POST
   WebResponse answer_;
-  std::optional<boost::beast::http::response_serializer<WebBody>> serializer_;  ///< of the answer
+  std::optional<boost::beast::http::response_serializer<WebBody>> serializer_;  ///< of the response
   std::array<char, 4096> rest_{};
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
 
-/// Digits alone; a number that is too big for 64 bits is the biggest.
+/// Only digits; a number that does not fit 64 bits becomes the largest.
 std::optional<std::uint64_t> number(std::string_view digits) {
   if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
     return std::nullopt;
@@ -54,7 +54,7 @@ WebRange web_range(std::string_view header, std::uint64_t size) {
   }
   const std::optional<std::uint64_t> from = number(range.substr(0, dash));
   const std::optional<std::uint64_t> to = number(range.substr(dash + 1));
-  if (dash == 0) {  // the last so many
+  if (dash == 0) {  // the last bytes
     if (!to) {
       return whole;
     }

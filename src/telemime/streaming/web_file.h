@@ -10,14 +10,14 @@
 
 namespace telemime {
 
-/// A file to send. It stays open: the content is that of this moment, also when the file is deleted.
+/// A file to send. It stays open, so its content can be sent even if the file is deleted.
 struct WebFile {
   boost::beast::file_posix file;
   std::uint64_t size = 0;  ///< bytes
   std::string tag;         ///< an entity tag with its quotes, which changes when the file does
 };
 
-/// Returns nothing when this is not a plain file or it cannot be read.
+/// Returns nothing if this is not a regular file or cannot be read.
 std::optional<WebFile> open_web_file(const std::filesystem::path& path);
 
 /// Which part of a file a client asks for.
@@ -25,14 +25,14 @@ struct WebRange {
   enum class Kind {
     whole,    ///< all of it
     part,     ///< some bytes: 206
-    nothing,  ///< bytes that it does not have: 416
+    nothing,  ///< bytes outside of the file: 416
   } kind = Kind::whole;
   std::uint64_t first = 0;
-  std::uint64_t size = 0;  ///< bytes; of `whole`, too
+  std::uint64_t size = 0;  ///< bytes; also for `whole`
 };
 
-/// What the header Range asks of `size` bytes (RFC 9110, 14.1.2): one range of bytes. Several ranges, other
-/// units and what is malformed mean all of it, as section 14.2 allows.
+/// The part of `size` bytes that the header Range asks for (RFC 9110, 14.1.2): one range of bytes. Several
+/// ranges, other units and malformed headers mean the whole file, as section 14.2 allows.
 WebRange web_range(std::string_view header, std::uint64_t size);
 
 }  // namespace telemime

@@ -67,7 +67,7 @@ void WebHub::leave(std::uint64_t id) {
     if (handlers_.closed) {
       handlers_.closed(id);
     }
-  } catch (...) {  // NOLINT(bugprone-empty-catch): nobody is left to be told
+  } catch (...) {  // NOLINT(bugprone-empty-catch): nobody is left to notify
   }
 }
 
@@ -123,7 +123,7 @@ void WebHub::drain() {
     inbox_ = WebQueue(std::numeric_limits<std::size_t>::max());
     drain_is_due_ = false;
   }
-  // A copy: a client that is full leaves while the message is given out.
+  // A copy: a client whose queue is full leaves during the loop.
   const std::map<std::uint64_t, std::weak_ptr<WebClient>> clients = clients_;
   while (const std::optional<WebMessage> message = arrived.pop()) {
     for (const auto& [id, weak] : clients) {

@@ -27,7 +27,7 @@ namespace telemime {
 
 class WebClient;
 
-/// Hands work of other threads to the server's thread, as long as there is one.
+/// Posts work from other threads to the server's thread, as long as it runs.
 class WebDoor {
  public:
   explicit WebDoor(boost::asio::io_context& io) : io_(&io) {}
@@ -39,7 +39,7 @@ class WebDoor {
       boost::asio::post(*io_, std::move(work));
     }
   }
-  /// The server ends: what is posted from now on is forgotten.
+  /// The server ends: work that is posted later is discarded.
   void close() {
     const std::lock_guard lock(mutex_);
     io_ = nullptr;
@@ -50,11 +50,10 @@ class WebDoor {
   boost::asio::io_context* io_;
 };
 
-/// What the connections of one server share. Unless said otherwise, for the server's thread only.
+/// State that the connections of one server share. For the server's thread only, unless stated otherwise.
 class WebHub {
  public:
-  /// `names`: under which the server may be called, with the port that it got.
-  /// `tls` may be null.
+  /// `names`: host names of the server, with its actual port. `tls` may be null.
   WebHub(const WebServerOptions& options, WebHandlers handlers, WebNames names, std::shared_ptr<WebDoor> door,
          std::shared_ptr<boost::asio::ssl::context> tls);
 
@@ -64,37 +63,37 @@ class WebHub {
   const std::shared_ptr<WebDoor>& door() const { return door_; }
   const std::shared_ptr<boost::asio::ssl::context>& tls() const { return tls_; }
 
-  /// To be kept by a connection as long as it is open; nothing when too many are.
+  /// A token that a connection holds while it is open; nothing if too many are open.
   std::shared_ptr<void> ticket();
-  /// So many are open that none is to be kept for another request.
+  /// True if so many connections are open that they must be closed after each request.
   bool crowded() const;
 
-  /// Keeps a connection that waits for other threads, until it is let go or the server ends.
+  /// Keeps a connection alive that waits for other threads, until it is released or the server ends.
   void hold(const std::shared_ptr<void>& connection) { held_.insert(connection); }
   /// False: it is not held.
   bool let_go(const std::shared_ptr<void>& connection) { return held_.erase(connection) > 0; }
 
-  /// A number for the client, which takes part from now on; nothing when too many do. `from_here`: its
-  /// connection came over loopback.
+  /// Registers a client and returns its number; nothing if there are too many. `from_here`: it is connected
+  /// over loopback.
   std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client, bool from_here);
-  /// Tells the handlers, once.
+  /// Removes a client and notifies the handlers, once.
   void leave(std::uint64_t id);
-  /// leave() for all.
+  /// Calls leave() for all.
   void leave_all();
 
-  /// The handlers, with what they throw as a `message` to the client.
+  /// Calls the handlers; their exceptions become a `message` to the client.
   std::vector<std::string> greeting(std::uint64_t id) const;
   std::optional<std::string> answer(std::uint64_t id, std::string_view text) const;
 
-  /// From any thread. True: drain() must be called.
+  /// Queues a message; from any thread. If it returns true, drain() must be called.
   bool put(WebMessage message);
-  /// Gives what was put to the clients.
+  /// Passes the queued messages to the clients.
   void drain();
   void set_topic(std::uint64_t client, int topic, bool on);
 
   std::size_t clients() const { return count_; }  ///< from any thread
   bool wanted(int topic) const;                   ///< from any thread
-  bool from_here(std::uint64_t client) const;     ///< from any thread; false when it is gone
+  bool from_here(std::uint64_t client) const;     ///< from any thread; false after it left
 
  private:
   const WebServerOptions options_;
@@ -108,7 +107,7 @@ class WebHub {
   std::atomic<std::size_t> count_ = 0;
   std::shared_ptr<std::size_t> connections_ = std::make_shared<std::size_t>(0);
 
-  mutable std::mutex mutex_;                           ///< of what follows
+  mutable std::mutex mutex_;                           ///< guards the members below
   std::map<std::uint64_t, std::set<int>> turned_off_;  ///< topics, of each client
   std::set<std::uint64_t> from_here_;                  ///< clients of this computer
   WebQueue inbox_{std::numeric_limits<std::size_t>::max()};

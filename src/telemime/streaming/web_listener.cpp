@@ -4,7 +4,6 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/v6_only.hpp>
 #include <chrono>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -22,7 +21,7 @@ ip::tcp::acceptor listen_on(boost::asio::io_context& io, const ip::tcp::endpoint
   ip::tcp::acceptor acceptor(io);
   acceptor.open(endpoint.protocol(), error);
   if (!error) {
-    // A port whose last connections are still dying is free.
+    // A port is free even if its last connections are still closing.
     acceptor.set_option(boost::asio::socket_base::reuse_address(true), error);
   }
   if (!error && endpoint.address().is_v6() && !endpoint.address().is_unspecified()) {
@@ -46,13 +45,12 @@ ip::tcp::acceptor listen_on(boost::asio::io_context& io, const ip::tcp::endpoint
                     std::to_string(port < 65535 ? port + 1 : port - 1) + " (--port 0 takes a free one).");
   }
   if (error == errors::access_denied) {
-    throw Error(ErrorKind::output, "port " + number + " is not for ordinary users",
-                "Choose one above 1023, for instance --port 7070.");
+    throw Error(ErrorKind::output, "port " + number + " is reserved for the system",
+                "Choose a port above 1023, for instance --port 7070.");
   }
   if (error == boost::system::errc::address_not_available) {
-    throw Error(
-        ErrorKind::usage, "this computer has no address " + address,
-        "127.0.0.1 is for this computer alone, 0.0.0.0 accepts any computer that can reach this one.");
+    throw Error(ErrorKind::usage, "this computer does not have the address " + address,
+                "127.0.0.1 is this computer only, 0.0.0.0 any computer that can reach this one.");
   }
   throw Error(ErrorKind::output,
               "nothing can be served at " + address + ", port " + number + ": " + error.message());
@@ -62,7 +60,7 @@ ip::address address_of(const std::string& text) {
   error_code error;
   ip::address address = ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
   if (error) {
-    throw Error(ErrorKind::usage, "'" + text + "' is no address",
+    throw Error(ErrorKind::usage, "'" + text + "' is not an address",
                 "Write numbers: 127.0.0.1 is for this computer alone, 0.0.0.0 accepts any computer that can "
                 "reach this one.");
   }
@@ -74,8 +72,8 @@ ip::address address_of(const std::string& text) {
 std::vector<ip::tcp::acceptor> listen_at(boost::asio::io_context& io, const std::string& address,
                                          std::uint16_t port) {
   const ip::address first = address_of(address);
-  // A port that is free at one of the two addresses may be taken at the other: when any will do, another is
-  // tried.
+  // A port that is free at one of the two addresses may be taken at the other: if any port will do, another
+  // is tried.
   for (int tries = port == 0 ? 20 : 1;; --tries) {
     std::vector<ip::tcp::acceptor> acceptors;
     error_code error;
@@ -110,7 +108,7 @@ void WebListener::accept() {
       accept();
       return;
     }
-    // Without a file descriptor left for the newcomer, asking again at once would take all of a processor.
+    // If no file descriptor is left for the new connection, retrying at once would use a whole processor.
     pause_.expires_after(std::chrono::milliseconds(100));
     pause_.async_wait([this](error_code cancelled) {
       if (!cancelled) {
@@ -126,7 +124,7 @@ void WebListener::welcome(ip::tcp::socket socket) {
     return;
   }
   if (hub_->tls()) {
-    return;  // words before the handshake would only look like a broken server
+    return;  // text before the handshake would look like a broken server
   }
   constexpr std::string_view full =
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Type: text/plain\r\n"

@@ -13,8 +13,8 @@
 
 namespace telemime {
 
-/// Sockets that listen at the address and the port, all at the same one: two for 127.0.0.1 (the other is ::1,
-/// where there is one). Throws as WebServer does.
+/// Sockets that listen at the address, all at the same port: two for 127.0.0.1 (the second one at ::1, if the
+/// system has it). Throws like WebServer.
 std::vector<boost::asio::ip::tcp::acceptor> listen_at(boost::asio::io_context& io, const std::string& address,
                                                       std::uint16_t port);
 

@@ -22,8 +22,8 @@ WebNames::WebNames(std::uint16_t port, const std::vector<std::string>& hosts, bo
   for (const std::string& host : hosts) {
     const std::optional<Name> name = parse(host, port);
     if (!name) {
-      throw Error(ErrorKind::usage, "'" + host + "' is no name of a host",
-                  "Write it as it stands in the browser's address line, for instance studio.local or "
+      throw Error(ErrorKind::usage, "'" + host + "' is not a host name",
+                  "Write it as the browser's address bar shows it, for instance studio.local or "
                   "studio.local:8080.");
     }
     names_.push_back(*name);

@@ -9,18 +9,19 @@
 
 namespace telemime {
 
-/// The names under which a server may be called. A page of another web site can make the browser ask this
-/// server: Host shows its own name for this address (DNS rebinding), Origin shows where requests come from.
+/// The host names under which a server responds. A page of another web site can make the browser send
+/// requests to this server: Host then shows that site's name for this address (DNS rebinding), Origin shows
+/// where the request comes from.
 class WebNames {
  public:
   /// localhost, 127.0.0.1 and [::1] at `port`, and `hosts`: names at `port`, or "name:port". Throws
-  /// Error(usage) for a host that is none. `secure`: asked for by https.
+  /// Error(usage) for an invalid host. `secure`: the page is served by https.
   WebNames(std::uint16_t port, const std::vector<std::string>& hosts, bool secure = false);
 
-  /// The value of a Host header. `local` is the address at which the connection came in, as text: its user
-  /// may have called it by that (a number cannot be rebound).
+  /// Whether the value of a Host header is accepted. `local`, the address at which the connection was
+  /// accepted, is accepted, too: an address cannot be rebound.
   bool host(std::string_view value, std::string_view local) const;
-  /// The value of an Origin header; "null" and anything but http(s) are refused.
+  /// Whether the value of an Origin header is accepted; "null" and anything but http(s) are refused.
   bool origin(std::string_view value, std::string_view local) const;
 
  private:
@@ -32,7 +33,7 @@ class WebNames {
   bool allowed(const std::optional<Name>& name, std::string_view local) const;
 
   std::uint16_t port_;
-  std::uint16_t usual_port_;  ///< that a Host header leaves out
+  std::uint16_t usual_port_;  ///< the port that a Host header omits
   std::vector<Name> names_;
 };
 

@@ -7,13 +7,13 @@
 
 namespace telemime {
 
-/// The path that a request's target ("/a%20b/./c?x=1") asks for: the query cut off, percent-decoded once, "."
-/// and empty segments left out ("/a b/c"; a final slash stays). Nothing for a target that does not start with
-/// "/", or is malformed, or not plain after decoding: "..", backslashes, control characters, bytes that are
-/// not UTF-8 (over-long forms and surrogates included).
+/// The path that a request's target ("/a%20b/./c?x=1") asks for: without its query, percent-decoded once,
+/// without "." and empty segments ("/a b/c"; a final slash stays). Nothing for a target that does not start
+/// with "/", is malformed, or contains "..", backslashes, control characters or invalid UTF-8 (overlong forms
+/// and surrogates included) after decoding.
 std::optional<std::string> web_path(std::string_view target);
 
-/// The MIME type by the ending of a file's name; "application/octet-stream" when it is unknown.
+/// The MIME type for the extension of a file name; "application/octet-stream" if it is unknown.
 std::string web_type(std::string_view file_name);
 
 }  // namespace telemime

@@ -17,14 +17,15 @@ struct WebMessage {
   std::shared_ptr<const std::string> bytes;
 };
 
-/// What waits for one client: all of topic 0, in order, which go first; of each other topic the newest, which
-/// keeps the place of the one that it replaces, so that topics take turns.
+/// Messages that wait for one client. All messages of topic 0 are sent first, in order. Of each other topic
+/// only the newest is kept, in the place of the one that it replaces, so that topics take turns.
 class WebQueue {
  public:
-  /// `most_important`: of topic 0.
+  /// `most_important`: largest number of waiting messages of topic 0.
   explicit WebQueue(std::size_t most_important = 1000) : most_important_(most_important) {}
 
-  /// False when too many of topic 0 wait: the message is not taken. One of a topic that is off is dropped.
+  /// Returns false, without adding the message, if too many of topic 0 are waiting. Drops messages of a topic
+  /// that is off.
   bool push(WebMessage message);
   std::optional<WebMessage> pop();
   /// Topic 0 is always on.

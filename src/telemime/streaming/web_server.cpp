@@ -33,8 +33,8 @@ struct WebServer::State {
     while (!io.stopped()) {
       try {
         io.run();
-      } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): memory is short
-        // The operation that threw is gone, and its connection with it; the others go on.
+      } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): out of memory
+        // The operation that threw is gone, and with it its connection; the others continue.
       }
     }
   }
@@ -66,7 +66,7 @@ void WebServer::stop() {
   if (state_->stopped.exchange(true)) {
     return;
   }
-  // All connections end with the io_context; the handlers hear of it from the thread that they know.
+  // All connections end with the io_context; the handlers are notified from the server's thread.
   boost::asio::post(state_->io, [state = state_.get()] {
     state->hub->leave_all();
     state->io.stop();
@@ -100,7 +100,7 @@ void WebServer::send_binary(int topic, std::shared_ptr<const std::string> bytes)
 }
 
 void WebServer::set_topic(std::uint64_t client, int topic, bool on) {
-  // In a handler at once: what the client hears next shall find it done.
+  // In a handler at once, so that it holds for the client's next message.
   boost::asio::dispatch(
       state_->io, [state = state_.get(), client, topic, on] { state->hub->set_topic(client, topic, on); });
 }

@@ -19,9 +19,9 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 
 constexpr std::chrono::milliseconds kLongestHandshake{5000};
-constexpr std::size_t kLongestIncoming = 64 * 1024;  // bytes of a message; all are thrown away
+constexpr std::size_t kLongestIncoming = 64 * 1024;  // bytes of a message; all are discarded
 
-/// Path and query as the receiver shall see them.
+/// Path and query as the receiver gets them.
 std::string target_of(const SendUrl& url) {
   std::string target = url.path;
   char mark = '?';
@@ -47,7 +47,7 @@ class WebSocketLink final : public Link {
     const auto shaken = std::make_shared<Completion>();
     stream_->async_handshake(host_and_port(host_, port_), target_, note<>(shaken));
     if (!loop_.wait([&] { return shaken->done; }, kLongestHandshake)) {
-      throw LinkBroken("it does not answer as a WebSocket server does");
+      throw LinkBroken("it does not answer like a WebSocket server");
     }
     if (shaken->error) {
       throw LinkBroken(shaken->error == beast::websocket::error::upgrade_declined
@@ -111,7 +111,7 @@ class WebSocketLink final : public Link {
   const std::uint16_t port_;
   const std::string target_;
   std::optional<PoseMessages> messages_;
-  std::shared_ptr<const StreamHeader> person_;  ///< whose messages_ are
+  std::shared_ptr<const StreamHeader> person_;  ///< of messages_
   beast::flat_buffer incoming_;
   std::optional<Stream> stream_;
 };

@@ -28,7 +28,7 @@ void require_readable(const std::filesystem::path& file, const std::string& what
   }
 }
 
-// Asked for by a key that has one; nobody sits there to type it.
+// Called for a key with a password, which nobody can type here.
 int no_password(char* /*buffer*/, int /*size*/, int /*writes*/, void* /*data*/) {
   return 0;
 }
@@ -62,8 +62,8 @@ std::shared_ptr<ssl::context> web_tls(const std::filesystem::path& certificate,
   ERR_clear_error();
   if (SSL_CTX_use_certificate_chain_file(native, certificate.c_str()) != 1) {
     ERR_clear_error();
-    throw Error(ErrorKind::usage, "there is no certificate to be used in " + certificate.string(),
-                "It is a file in PEM form: the server's own certificate first, then those in between.");
+    throw Error(ErrorKind::usage, "there is no usable certificate in " + certificate.string(),
+                "Use a PEM file: the server's certificate first, then the intermediate ones.");
   }
   if (SSL_CTX_use_PrivateKey_file(native, key.c_str(), SSL_FILETYPE_PEM) != 1) {
     const bool another = ERR_GET_LIB(ERR_peek_error()) == ERR_LIB_X509;
@@ -71,8 +71,8 @@ std::shared_ptr<ssl::context> web_tls(const std::filesystem::path& certificate,
     if (another) {
       throw Error(ErrorKind::usage, key.string() + " is not the key of " + certificate.string());
     }
-    throw Error(ErrorKind::usage, "there is no key to be used in " + key.string(),
-                "It is a file in PEM form, without a password.");
+    throw Error(ErrorKind::usage, "there is no usable key in " + key.string(),
+                "Use a PEM file without a password.");
   }
   return tls;
 }

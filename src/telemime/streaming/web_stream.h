@@ -13,23 +13,22 @@
 
 namespace telemime {
 
-/// The addresses of a connection. One of IPv4 is written as such, also on a socket of IPv6.
+/// The addresses of a connection. An IPv4 address is written as such, even on an IPv6 socket.
 boost::asio::ip::address local_address(const boost::asio::ip::tcp::socket& socket);
 boost::asio::ip::address remote_address(const boost::asio::ip::tcp::socket& socket);
 
-/// What a server of TLS (1.2 or newer) shows and proves: its certificate, with those in between behind it,
-/// and its key without a password, both in PEM form. Throws Error(usage) that says which of them cannot be
-/// used and why.
+/// The TLS context (1.2 or newer) of a server: its certificate followed by the intermediate ones, and its key
+/// without a password, both as PEM files. Throws Error(usage) that says which of them cannot be used and why.
 std::shared_ptr<boost::asio::ssl::context> web_tls(const std::filesystem::path& certificate,
                                                    const std::filesystem::path& key);
 
-/// A connection of the server's, plain or by TLS, as Beast reads and writes it. The time limit is that of
-/// the TCP connection below.
+/// A plain or TLS connection of the server, for reading and writing with Beast. The time limit is that of the
+/// underlying TCP connection.
 class WebStream {
  public:
   using executor_type = boost::beast::tcp_stream::executor_type;
 
-  /// `tls` may be null: plain.
+  /// `tls` may be null for a plain connection.
   WebStream(boost::asio::ip::tcp::socket socket, std::shared_ptr<boost::asio::ssl::context> tls)
       : tcp_(std::move(socket)), context_(std::move(tls)) {
     if (context_) {
@@ -46,10 +45,10 @@ class WebStream {
   void expires_after(std::chrono::nanoseconds time) { tcp_.expires_after(time); }
   void expires_never() { tcp_.expires_never(); }
   void close() { tcp_.close(); }
-  /// Of one that is plain; nothing is left here.
+  /// Moves the stream out of a plain connection.
   boost::beast::tcp_stream take() { return std::move(tcp_); }
 
-  /// For one by TLS: before anything is read, and when nothing more is written.
+  /// For TLS: before the first read, and after the last write.
   template <class Handler>
   void async_handshake(Handler&& handler) {
     tls_->async_handshake(boost::asio::ssl::stream_base::server, std::forward<Handler>(handler));

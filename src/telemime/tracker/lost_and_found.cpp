@@ -66,7 +66,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
   // No head, nobody to search for.
   if (!features.head) {
     state.waited = 0;
-    lose("nobody is found: the head must be in the picture", tracker, state, result);
+    lose("nobody is found: the head must be in the image", tracker, state, result);
     return;
   }
   // The frame in which the pose of a known person was given.
@@ -93,7 +93,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
   const Score score = objective.score(found, objective.cues().needs());
   result.motion.evaluations += objective.evaluations();
   if (score.region() > tracker.config.tracking.found_region && !landmarks_agree(score, features, tracker)) {
-    lose("somebody is there, but the body does not fit", tracker, state, result);
+    lose("a person is visible, but the body does not fit", tracker, state, result);
     return;
   }
   start_tracking(found, score, state, result);
@@ -102,7 +102,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
 void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result) {
   if (!features.person_present) {
-    lose("nobody is in the picture", tracker, state, result);
+    lose("nobody is in the image", tracker, state, result);
     return;
   }
   const TrackingConfig& config = tracker.config.tracking;
@@ -112,7 +112,7 @@ void check_fit(const FrameFeatures& features, const Score& score, const Tracker&
   state.bad_for = bad ? state.bad_for + state.steps : 0.0;
   // At a few frames a second one bad frame lasts as long as the patience.
   if (state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience)) {
-    lose("the body no longer fits the picture", tracker, state, result);
+    lose("the body no longer fits the image", tracker, state, result);
   }
 }
 

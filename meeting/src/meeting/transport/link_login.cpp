@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <exception>
 #include <memory>
-#include <optional>
 
 #include "meeting/protocol/outcome.h"
 #include "meeting/transport/login.h"
@@ -157,11 +156,11 @@ class Request {
   std::string reason_of_failure(CURLcode result) const {
     switch (result) {
       case CURLE_COULDNT_RESOLVE_HOST:
-        return "no computer of that name is known";
+        return "no computer of that name was found";
       case CURLE_COULDNT_CONNECT:
         return in_words({static_cast<int>(info(CURLINFO_OS_ERRNO)), boost::system::system_category()});
       case CURLE_OPERATION_TIMEDOUT:
-        return "no answer from there";
+        return "it does not respond";
       case CURLE_GOT_NOTHING:
       case CURLE_SEND_ERROR:
       case CURLE_RECV_ERROR:
@@ -176,7 +175,7 @@ class Request {
       }
       case CURLE_UNSUPPORTED_PROTOCOL:
       case CURLE_WEIRD_SERVER_REPLY:
-        return "there is no server of a meeting";
+        return "there is no meeting server";
       default:
         return curl_easy_strerror(result);
     }

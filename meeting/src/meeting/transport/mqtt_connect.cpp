@@ -113,7 +113,7 @@ void MqttConnection::connect(const std::string& address, const std::string& clie
   watch_time();
   if (!loop_.wait([this] { return answer_.has_value() || refused_; }, kLongestConnect)) {
     if (!check_socket()) {
-      throw Unreachable("no answer from there");
+      throw Unreachable("it does not respond");
     }
     throw LinkBroken(reason(MOSQ_ERR_KEEPALIVE, 0));
   }

@@ -120,8 +120,8 @@ bool fails_with(const Sender& sender, const std::string& text) {
 }
 
 TEST(MqttSender, RefusedConnectionIsReported) {
-  EXPECT_TRUE(fails_with(*sender_to(free_port()), "nobody listens there"));
-  EXPECT_TRUE(fails_with(*sender_to(free_port(), "mqtts"), "nobody listens there"));
+  EXPECT_TRUE(fails_with(*sender_to(free_port()), "no program is listening there"));
+  EXPECT_TRUE(fails_with(*sender_to(free_port(), "mqtts"), "no program is listening there"));
 }
 
 TEST(MqttSender, OtherServersAreReported) {
@@ -197,7 +197,7 @@ TEST(MqttSender, OptionsAreChecked) {
   expect_error("mqtt://localhost/home/studio/", "name a meeting");
   expect_error("mqtt://localhost/Home/studio", "name a meeting");
   expect_error("mqtt://localhost/home//studio", "name a meeting");
-  expect_error("mqtt:///home/studio", "which computer");
+  expect_error("mqtt:///home/studio", "the computer to send to");
   expect_error("mqtt://localhost:0/home/studio", "port");
   expect_error("mqtt://localhost/a/b?nam=Ana", "name, look, seat, participant, key, ca, mirror");
   expect_error("mqtt://localhost/a/b?name=" + std::string(41, 'x'), "40 characters");

@@ -78,7 +78,7 @@ class BvhEncoder final : public Encoder {
       EulerAngles& last = last_[bone];
       const EulerAngles angles = decompose(motion.parent_from_bone[bone], kOrder, last);
       for (std::size_t i = 0; i < 3; ++i) {
-        // Going on past 180 degrees keeps programs that interpolate between frames from spinning the bone
+        // Continuing beyond 180 degrees keeps programs that interpolate between frames from spinning the bone
         // back.
         last[i] += wrap_angle(angles[i] - last[i]);
         append_fixed(text, last[i] * kDegreesPerRadian, kDecimals);

@@ -22,7 +22,7 @@ class CsvEncoder final : public Encoder {
       line.append(",").append(name).append("_deg");
     }
     line += ",root_x_mm,root_y_mm,root_z_mm";
-    for (std::size_t j = 1; j < kJointCount; ++j) {  // joint 0 is the root, whose place stands before
+    for (std::size_t j = 1; j < kJointCount; ++j) {  // joint 0 is the root, whose position was written before
       for (const char* const axis : {"_x_mm", "_y_mm", "_z_mm"}) {
         line.append(",").append(kJointNames[j]).append(axis);
       }

@@ -94,7 +94,7 @@ Json spread_json(const PoseSpread& spread) {
           {"effective_particles", rounded(spread.effective_particles, 1)}};
 }
 
-/// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement marks.
+/// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement characters.
 std::string line(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

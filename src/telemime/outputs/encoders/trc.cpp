@@ -63,7 +63,7 @@ class TrcEncoder final : public Encoder {
   std::optional<Patch> patch() const override { return Patch{counts_offset_, counts()}; }
 
  private:
-  /// The number of frames stands in the head twice.
+  /// The head contains the number of frames twice.
   std::string counts() const {
     return padded_count(count_, kCountWidth) + between_counts_ + padded_count(count_, kCountWidth);
   }

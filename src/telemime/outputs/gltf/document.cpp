@@ -93,7 +93,7 @@ std::size_t add_accessor(GltfDocument& document, std::span<const std::uint16_t> 
 }
 
 std::size_t add_indices(GltfDocument& document, std::span<const std::uint32_t> values) {
-  // 65535 itself is left out: it restarts strips.
+  // 65535 itself is excluded: it restarts strips.
   if (std::all_of(values.begin(), values.end(), [](std::uint32_t v) { return v < 65535; })) {
     const std::vector<std::uint16_t> narrow(values.begin(), values.end());
     return add(document, std::span<const std::uint16_t>(narrow), kUnsignedShort, "SCALAR",

@@ -18,11 +18,11 @@ std::size_t add_humanoid_skin(GltfDocument& document, const HumanoidSkeleton& sk
 /// Adds a mesh as a node of the scene that this skin moves; returns the node's index.
 std::size_t add_skinned_mesh(GltfDocument& document, const char* name, std::size_t mesh, std::size_t skin);
 
-/// Adds a mesh of one rounded piece along every bone, each following its bone alone: something to see the
-/// motion by, and what makes Blender import the bones as an armature. Returns the mesh's index.
+/// Adds a mesh with one rounded piece along every bone, which follows only that bone. It shows the motion and
+/// makes Blender import the bones as an armature. Returns the mesh's index.
 std::size_t add_mannequin(GltfDocument& document, const HumanoidSkeleton& skeleton, double stature);
 
-/// The map from names of bones to nodes, as VRMC_vrm and VRMC_vrm_animation have it.
+/// The map from names of bones to nodes, as in VRMC_vrm and VRMC_vrm_animation.
 nlohmann::ordered_json human_bones();
 
 }  // namespace telemime

@@ -11,7 +11,7 @@
 
 namespace telemime {
 
-/// The bones of the upper body, which have a track each: all before the legs.
+/// The bones of the upper body, each with a track: all before the legs.
 inline constexpr std::size_t kMovingBoneCount = static_cast<std::size_t>(HumanBone::l_upper_leg);
 
 /// A motion as the keys of a glTF animation.
@@ -19,19 +19,20 @@ class MotionKeys {
  public:
   explicit MotionKeys(const Body& body);
 
-  /// A frame with finite numbers. One that is lost makes no key; the pose before it holds until the frame
-  /// before the next key, so that nothing glides through the gap. A frame that is not later than the one
-  /// before is left out.
+  /// Adds a frame with finite numbers. A lost frame makes no key; the pose before it is held until the frame
+  /// before the next key, so that nothing glides through the gap. A frame that is not later than the previous
+  /// one is skipped.
   void add(const MotionFrame& frame);
 
-  /// Keys of tracked frames and of poses that hold, so far.
+  /// Keys of tracked frames and of held poses so far.
   std::size_t count() const { return columns_.times.size(); }
 
   /// Adds one animation with linear tracks: the translation of the hips and the rotation of every moving
-  /// bone, for nodes that are numbered as the bones. There is always at least one key, if only the rest pose.
+  /// bone, for nodes that are numbered like the bones. There is always at least one key: the rest pose, if
+  /// nothing was tracked.
   void add_animation(GltfDocument& document) const;
 
-  /// The place of the root (m, camera frame) over which the hips stand as in the T-pose: that of the first
+  /// The position of the root (m, camera frame) at which the hips are as in the T-pose: that of the first
   /// tracked frame.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 

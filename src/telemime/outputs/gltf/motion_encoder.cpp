@@ -12,7 +12,7 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kFirstSnapshot = 32;
-/// Room in the JSON for numbers that get longer: each of some 60 by at most 9 digits, the place of the
+/// Space in the JSON for numbers that get longer: some 60 by at most 9 digits each, and the position of the
 /// origin.
 constexpr std::size_t kRoomToGrow = 1024;
 
@@ -49,7 +49,7 @@ class GltfMotionEncoder final : public Encoder {
   std::optional<Patch> patch() const override { return Patch{0, head_}; }
 
  private:
-  /// All keys so far, to be appended; makes the head that points at them.
+  /// All keys so far, to be appended; updates the head to refer to them.
   std::string snapshot() {
     GltfDocument document;
     document.json = fixed_.json;
@@ -75,7 +75,7 @@ class GltfMotionEncoder final : public Encoder {
   }
 
   bool mannequin_;      ///< shows the motion; otherwise VRM animation
-  GltfDocument fixed_;  ///< what does not change: skeleton and mannequin
+  GltfDocument fixed_;  ///< the constant part: skeleton and mannequin
   std::optional<MotionKeys> keys_;
   FiniteFrames finite_;
   std::string head_;           ///< always of the same size
