@@ -288,7 +288,7 @@ TEST(Tracker, StartsWithKnownPerson) {
   known.person.shape[Segment::l_forearm].length *= 1.02;
 
   TrackingRun second = learned_run();
-  second.state.known = known;
+  second.state.known_start = known;
   const FrameRecord taken = track_frame(clip().person.front(), second);
   EXPECT_EQ(taken.estimate.motion.state, TrackState::tracking);
   EXPECT_EQ(taken.estimate.motion.pose.vector(), known.pose.vector());
@@ -302,12 +302,12 @@ TEST(Tracker, TracksKnownPersonBeforeFittedFrame) {
   const FrameRecord start = track_frame(clip().person.front(), first);
   ASSERT_TRUE(first.state.person);
   KnownStart known = {
-      .person = *first.state.person, .frame = 5, .pose = start.estimate.motion.pose, .since = 0};
+      .person = *first.state.person, .frame = 5, .pose = start.estimate.motion.pose, .visible_since = 0};
   known.person.shape[Segment::l_forearm].length *= 1.02;
   const auto forearm_at_first = [&](std::int64_t since) {
-    known.since = since;
+    known.visible_since = since;
     TrackingRun second = learned_run();
-    second.state.known = known;
+    second.state.known_start = known;
     EXPECT_EQ(track_frame(clip().person.front(), second).estimate.motion.state, TrackState::tracking);
     return second.state.person->shape[Segment::l_forearm].length;
   };

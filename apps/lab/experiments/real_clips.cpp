@@ -59,7 +59,7 @@ void follow(const LearnedClip& clip, const Config& config, std::int64_t most_fra
             const std::function<void(const MotionFrame&)>& work) {
   TrackingRun run = make_tracking_run(config, clip.camera);
   run.scene.features.set_calibration(clip.scene);
-  run.state.known = clip.start;
+  run.state.known_start = clip.start;
   const auto source = open_source(clip.input);
   while (const std::optional<Frame> frame = source->next()) {
     if (frame->index > clip.start.frame + most_frames) {

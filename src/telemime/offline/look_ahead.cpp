@@ -149,8 +149,10 @@ struct Scouting {
     }
     const MotionFrame& motion = record.estimate.motion;
     if (first.candidates.empty()) {
-      first.start = {
-          .person = *run.state.person, .frame = motion.frame, .pose = motion.pose, .since = run.scene.since};
+      first.start = {.person = *run.state.person,
+                     .frame = motion.frame,
+                     .pose = motion.pose,
+                     .visible_since = run.scene.head_since};
     }
     if (is_tracked(record) && tracked++ % kStride == 0 && record.features.head) {
       first.candidates.push_back({.keyframe = {*record.estimate.prepared, motion.pose, motion.region_score},
@@ -194,7 +196,7 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
     FrameRecord record{.frame = *frame, .features = {}, .estimate = {}};
     record.features = extract(*frame, colour_request(run.state), run.scene);
     keep_picture(calls.longest_side, record.frame);
-    if (scouting.first.candidates.empty() && run.scene.since >= frame->index) {
+    if (scouting.first.candidates.empty() && run.scene.head_since >= frame->index) {
       for (FrameRecord& earlier : result.records) {
         if (calls.settle) {
           calls.settle(std::move(earlier));
@@ -217,7 +219,7 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
   // The person's shape, and all frames from where they came into the picture once more with it.
   result.person = fit_person(run.tracker, std::move(scouting));
   run.state = std::move(before);
-  run.state.known = result.person->start;
+  run.state.known_start = result.person->start;
   for (FrameRecord& record : result.records) {
     record.estimate = estimate(record.features, run.tracker, run.state);
   }

@@ -8,7 +8,7 @@
 namespace telemime {
 namespace {
 
-// Whether a network sees the person where the body is: then the pose may stand although regions disagree.
+// Whether a network sees the person where the body is: then the pose is accepted although regions disagree.
 constexpr double kAgrees = 1.5;  // standard deviations
 bool landmarks_agree(const Score& score, const FrameFeatures& features, const Tracker& tracker) {
   return features.landmarks && tracker.config.cues[cue::kLandmarks].enabled &&
@@ -30,23 +30,23 @@ void start_tracking(const Pose& pose, const Score& score, TrackerState& state, F
   adopt(pose, score, state, result);
 }
 
-// The shape and pose of somebody new, fitted to one frame.
+// Fits the shape and pose of a new person to one frame.
 void calibrate_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
                       FrameEstimate& result) {
   const Config& config = tracker.config;
-  // A person in profile has a head, too, but no shape that could be fitted.
+  // A person in profile also has a head, but no shape that could be fitted.
   if (!features.landmarks && !features.head->detected && !features.face_learned) {
-    lose("waiting for a face that looks at the camera", tracker, state, result);
+    mark_lost("waiting for a face that looks at the camera", tracker, state, result);
     state.steps_until_search = 1.0;
     return;
   }
   const Calibration fit = calibrate(*tracker.backend, *result.prepared, *features.head, tracker.limits,
                                     config.calibration, config.registration, state.random);
   result.motion.evaluations += fit.evaluations;
-  const bool patient = state.waited < config.tracking.calibration_patience;
+  const bool patient = state.frames_waiting < config.tracking.calibration_patience;
   const bool agrees = landmarks_agree(fit.score, features, tracker);
   if (!agrees && (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient))) {
-    lose("waiting for a better first frame: " + fit.refusal, tracker, state, result);
+    mark_lost("waiting for a better first frame: " + fit.refusal, tracker, state, result);
     return;
   }
   set_person({.shape = fit.shape,
@@ -63,37 +63,38 @@ void calibrate_person(const FrameFeatures& features, const Tracker& tracker, Tra
 void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
                  FrameEstimate& result) {
   const std::int64_t frame = result.motion.frame;
-  // No head, nobody to search for.
+  // Without a head there is nobody to search for.
   if (!features.head) {
-    state.waited = 0;
-    lose("nobody is found: the head must be in the image", tracker, state, result);
+    state.frames_waiting = 0;
+    mark_lost("nobody is found: the head must be in the image", tracker, state, result);
     return;
   }
-  // The frame in which the pose of a known person was given.
-  if (state.known && frame == state.known->frame) {
-    set_person(state.known->person, state);
+  // The frame for which the pose of a known person is given.
+  if (state.known_start && frame == state.known_start->frame) {
+    set_person(state.known_start->person, state);
     Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits);
-    const Pose pose = state.known->pose;
+    const Pose pose = state.known_start->pose;
     start_tracking(pose, objective.score(pose, objective.cues().needs()), state, result);
     return;
   }
-  // Somebody new. A person whose shape is known and who is in the picture already needs a pose only.
+  // A new person; one whose shape is known and who is already visible needs only a pose.
   if (!state.person) {
-    if (state.known && frame >= state.known->since && (features.head->detected || features.face_learned)) {
-      set_person(state.known->person, state);
+    if (state.known_start && frame >= state.known_start->visible_since &&
+        (features.head->detected || features.face_learned)) {
+      set_person(state.known_start->person, state);
     } else {
       calibrate_person(features, tracker, state, result);
       return;
     }
   }
-  // The pose of the known person, searched for in the whole image.
+  // Search the whole image for the pose of the known person.
   Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits);
   const Pose found = initialise_pose(objective, *features.head, tracker.config.calibration,
                                      tracker.config.registration, state.random);
   const Score score = objective.score(found, objective.cues().needs());
   result.motion.evaluations += objective.evaluations();
   if (score.region() > tracker.config.tracking.found_region && !landmarks_agree(score, features, tracker)) {
-    lose("a person is visible, but the body does not fit", tracker, state, result);
+    mark_lost("a person is visible, but the body does not fit", tracker, state, result);
     return;
   }
   start_tracking(found, score, state, result);
@@ -102,7 +103,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
 void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result) {
   if (!features.person_present) {
-    lose("nobody is in the image", tracker, state, result);
+    mark_lost("nobody is in the image", tracker, state, result);
     return;
   }
   const TrackingConfig& config = tracker.config.tracking;
@@ -110,13 +111,14 @@ void check_fit(const FrameFeatures& features, const Score& score, const Tracker&
                    !landmarks_agree(score, features, tracker);
   state.bad_frames = bad ? state.bad_frames + 1 : 0;
   state.bad_for = bad ? state.bad_for + state.steps : 0.0;
-  // At a few frames a second one bad frame lasts as long as the patience.
+  // At a few frames per second one bad frame lasts as long as the patience.
   if (state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience)) {
-    lose("the body no longer fits the image", tracker, state, result);
+    mark_lost("the body no longer fits the image", tracker, state, result);
   }
 }
 
-void lose(const std::string& reason, const Tracker& tracker, TrackerState& state, FrameEstimate& result) {
+void mark_lost(const std::string& reason, const Tracker& tracker, TrackerState& state,
+               FrameEstimate& result) {
   state.phase = state.person ? Phase::lost : Phase::waiting;
   state.bad_frames = 0;
   state.bad_for = 0.0;

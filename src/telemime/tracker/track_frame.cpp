@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The method. `extract` is the image side and `estimate` the search side of one frame; everything they
-// remember is in SceneState and TrackerState.
+// The method: `extract` is the image side and `estimate` the search side of one frame. All their state is in
+// SceneState and TrackerState.
 #include "telemime/tracker/track_frame.h"
 
 #include <algorithm>
@@ -14,20 +14,19 @@
 namespace telemime {
 namespace {
 
-constexpr int kFacelessFrames = 25;  // with a head but no face, until the head's outline must do
-constexpr double kRate = 25.0;       // frames a second that the motion model is made for
+constexpr int kFacelessFrames = 25;  // with a head but no face, until the outline of the head is used
+constexpr double kRate = 25.0;       // frames per second of the motion model
 
-// The person's colours, learned from a frame that shows their face. True where colours are known now.
+// Learns the person's colours from a frame that shows their face. Returns whether colours are known now.
 bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
-  // A person whom landmarks found may be followed before their colours are known: they are learned on the
-  // way.
+  // A person whom landmarks found may be tracked before their colours are known: they are learned meanwhile.
   constexpr std::int64_t kEvery = 5;
   const bool known = scene.features.calibration().colours.known();
   if (request == ColourRequest::keep && (known || frame.index % kEvery != 0)) {
     return known;
   }
-  // A masked face is never found: after a while the head's outline must do, and colours that were learned
-  // from somebody still walking are learned again.
+  // A masked face is never found: after a while the outline of the head is used, and colours that were
+  // learned while the person was still walking are learned again.
   const bool faceless = request == ColourRequest::learn_faceless;
   if (scene.features.calibration().colours.known() && !faceless && !scene.relearn_colours) {
     return true;
@@ -36,13 +35,13 @@ bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene,
   features.note = report.reason;
   features.face_learned = report.accepted;
   if (report.accepted) {
-    scene.since = frame.index;
+    scene.head_since = frame.index;
     scene.relearn_colours = false;
   }
   return report.accepted || faceless;
 }
 
-// The estimate of a frame before anything is known of it: the last pose stands.
+// The estimate of a frame before its search: the last pose.
 FrameEstimate begin_estimate(const FrameFeatures& features, const TrackerState& state) {
   FrameEstimate result;
   result.motion.frame = features.frame;
@@ -60,9 +59,9 @@ void advance_time(double time, TrackerState& state) {
 }
 
 bool search_is_due(std::int64_t frame, TrackerState& state) {
-  ++state.waited;
+  ++state.frames_waiting;
   state.steps_until_search -= state.steps;
-  return state.steps_until_search <= 0.0 || (state.known && frame == state.known->frame);
+  return state.steps_until_search <= 0.0 || (state.known_start && frame == state.known_start->frame);
 }
 
 // One step of the particle filter (thesis 4.4): the stages are in ParticleFilter::step.
@@ -91,10 +90,10 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
   search.iterations = std::max(1, static_cast<int>(std::lround(effort * search.iterations)));
   const double velocity = tracker.config.tracking.velocity * state.steps / state.steps_before;
   const Pose predicted = predict_pose(state.pose, state.previous, velocity, tracker.limits);
-  // The start is chosen without a prior, and is then the prior of the search.
+  // The start is chosen without a prior, and then becomes the prior of the search.
   Objective by_image(*tracker.backend, *result.prepared, state.model, tracker.limits);
-  const bool goes_on = by_image(predicted, search.region) < by_image(state.pose, search.region);
-  const Pose start = goes_on ? predicted : state.pose;
+  const bool moved = by_image(predicted, search.region) < by_image(state.pose, search.region);
+  const Pose start = moved ? predicted : state.pose;
   Objective objective(*tracker.backend, *result.prepared, state.model, tracker.limits,
                       prior_at(state.model.body, start));
   const RegistrationResult found = register_pose(objective, start, search, state.random);
@@ -105,7 +104,7 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
   return found.score;
 }
 
-// The best pose of each mode of the posterior, which the passes over a whole file choose among.
+// The best pose of each mode of the posterior, for the passes over a whole file.
 std::vector<Pose> modes_of(const Tracker& tracker, const TrackerState& state) {
   return state.filter.started()
              ? mode_poses(tracker.config.filter, state.filter.particles, state.model.body, state.pose)
@@ -118,8 +117,8 @@ ColourRequest colour_request(const TrackerState& state) {
   if (state.calibrated()) {
     return ColourRequest::keep;
   }
-  const bool faceless =
-      state.phase == Phase::waiting && state.waited > 0 && state.waited % kFacelessFrames == 0;
+  const bool faceless = state.phase == Phase::waiting && state.frames_waiting > 0 &&
+                        state.frames_waiting % kFacelessFrames == 0;
   return faceless ? ColourRequest::learn_faceless : ColourRequest::learn;
 }
 
@@ -130,20 +129,19 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   const bool has_colours = learn_colours(frame, request, scene, learned);
   // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1).
   FrameFeatures features = scene.features.extract(frame);
-  // Whom and what the scene model sees, and what breaks its assumptions.
+  // Whether a person is present, and warnings where the assumptions of the scene model do not hold.
   features.warnings = scene.features.status().warnings;
   features.person_present = scene.features.status().person;
   features.note = learned.note;
   features.face_learned = learned.face_learned;
-  // Without colours, skin and clothes are grey alike: regions say nothing, landmarks and outlines do.
+  // Without colours, skin and clothes look alike: only landmarks and outlines help.
   features.has_colour_model = has_colours && has_colour(scene.features.status());
   if (!has_colour(scene.features.status()) && !features.landmarks) {
     features.note =
-        "the image has no colour, and no network sees a person in it: more light or a camera with colours "
-        "helps";
+        "the image has no colour, and no network sees a person in it: more light or a colour camera helps";
   }
   if (!features.head) {
-    scene.since = frame.index + 1;
+    scene.head_since = frame.index + 1;
   }
   features.frame = frame.index;
   features.time = frame.time;
@@ -164,14 +162,14 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
       const Score score = tracker.filter ? follow_with_filter(tracker, effort, state, result)
                                          : follow_with_registration(tracker, effort, state, result);
       adopt(state.pose, score, state, result);
-      // Lost: nobody in the picture, or a body that no longer fits.
+      // Lost: nobody is in the image, or the body no longer fits.
       check_fit(features, score, tracker, state, result);
     } else if (search_is_due(features.frame, state)) {
-      // Found: the first frame that the body can be fitted to (thesis 3.3), or the known person again.
+      // Found: the first frame to which the body can be fitted (thesis 3.3), or the known person again.
       find_person(features, tracker, state, result);
     }
   }
-  // What passes over a whole file choose among.
+  // Poses for the passes over a whole file.
   const bool tracking = state.phase == Phase::tracking;
   if (tracking && tracker.config.look_back) {
     result.heading = state.heading;
@@ -194,7 +192,7 @@ FrameRecord track_frame(const Frame& frame, TrackingRun& run) {
 
 double steps_between(double before, double now) {
   const double steps = kRate * (now - before);
-  // The clocks of cameras are not that exact.
+  // Time stamps of cameras are not that exact.
   return std::abs(steps - 1.0) < 0.05 || !(steps > 0.0) ? 1.0 : std::clamp(steps, 0.2, 8.0);
 }
 

@@ -52,12 +52,12 @@ void forget_person(TrackingRun& run) {
   TrackerState& state = run.state;
   state.phase = Phase::waiting;
   state.person.reset();
-  state.known.reset();
+  state.known_start.reset();
   state.filter.particles.clear();
   state.heading = 0.0;
   state.bad_frames = 0;
   state.bad_for = 0.0;
-  state.waited = 0;
+  state.frames_waiting = 0;
   state.steps_until_search = 0.0;
 }
 

@@ -15,7 +15,7 @@
 
 namespace telemime {
 
-/// The person as calibration found them: enough to track them again without calibrating.
+/// The result of a calibration, with which the person can be tracked again without calibrating.
 struct CalibratedPerson {
   Shape shape;
   std::string scale_from;     ///< where the absolute scale comes from: a sentence part for reports
@@ -29,29 +29,29 @@ struct KnownStart {
   CalibratedPerson person;
   std::int64_t frame = 0;  ///< tracking starts here with `pose`, unless a search found the person earlier
   Pose pose;
-  /// From this frame on the person had the colours that are known and stayed in the picture, so that a search
-  /// may find them although their shape could not be fitted yet.
-  std::int64_t since = frame;
+  /// From this frame on the person was visible with the colours that are known, so that a search may find
+  /// them although their shape could not be fitted yet.
+  std::int64_t visible_since = frame;
 };
 
 enum class Phase {
   waiting,   ///< nobody is calibrated
-  tracking,  ///< the person is followed from frame to frame
+  tracking,  ///< the person is tracked from frame to frame
   lost       ///< the person is known and searched for
 };
 
-/// Everything that `estimate` carries from frame to frame: plain data, so that a copy is a snapshot that
-/// tracking can go on from.
+/// Everything that `estimate` carries from frame to frame: plain data, so that a copy is a snapshot from
+/// which tracking can continue.
 struct TrackerState {
   Phase phase = Phase::waiting;
   std::optional<CalibratedPerson> person;
-  std::optional<KnownStart> known;  ///< set before the first frame, or not at all
-  Model model;                      ///< of the person, or of an average body
-  Pose pose;                        ///< of the last frame in which the person was tracked
-  Pose previous;                    ///< of the one before
-  FilterState filter;               ///< particles; empty while nobody is tracked or the method has none
-  double heading = 0.0;             ///< torsion of the root that the filter's last step predicted, rad
-  Random random{1};                 ///< of every draw outside the filter
+  std::optional<KnownStart> known_start;  ///< set before the first frame or never
+  Model model;                            ///< of the person, or of an average body
+  Pose pose;                              ///< of the last frame in which the person was tracked
+  Pose previous;                          ///< of the one before
+  FilterState filter;                     ///< particles; empty while nobody is tracked or the method has none
+  double heading = 0.0;                   ///< torsion of the root that the filter's last step predicted, rad
+  Random random{1};                       ///< for every draw outside the filter
 
   double time = 0.0;                ///< of the last frame, s
   double steps = 1.0;               ///< between the last two frames, in 1/25 s
@@ -59,7 +59,7 @@ struct TrackerState {
   int bad_frames = 0;               ///< in a row: frames that the body does not fit
   double bad_for = 0.0;             ///< how long that has lasted, in 1/25 s
   double steps_until_search = 0.0;  ///< while not tracking, until the next search, in 1/25 s
-  int waited = 0;                   ///< frames since a head came into the picture, while not tracking
+  int frames_waiting = 0;           ///< frames with a head since the person was last tracked
 
   bool calibrated() const { return person.has_value(); }
 };
@@ -78,13 +78,13 @@ struct Tracker {
 /// What `extract` carries from frame to frame: the scene, the person's colours, the head.
 struct SceneState {
   FeatureExtractor features;
-  /// The frame since which a head has been in the picture, with the colours that are known now.
-  std::int64_t since = 0;
+  /// The first frame from which on a head was visible, with the colours that are known now.
+  std::int64_t head_since = 0;
   bool relearn_colours = false;  ///< the known colours may be somebody else's
 };
 
-/// A tracker and what it remembers. `extract` changes the scene alone and `estimate` the state alone, so that
-/// two threads can run them side by side on consecutive frames.
+/// A tracker and its state. `extract` changes only the scene and `estimate` only the state, so that two
+/// threads can run them in parallel on consecutive frames.
 struct TrackingRun {
   Tracker tracker;
   SceneState scene;
@@ -94,11 +94,11 @@ struct TrackingRun {
 /// `camera` is that of the input's frames. Throws Error(config).
 TrackingRun make_tracking_run(const Config& config, const Camera& camera);
 
-/// Takes over the person and the scene that another run of the same camera calibrated.
+/// Uses the person and the scene that another run with the same camera calibrated.
 void use_calibration(const CalibratedPerson& person, const ImageCalibration& image, TrackingRun& run);
 
-/// Forgets the person, but not the scene: the next frames calibrate the person they show, colours
-/// included. Neither `extract` nor `estimate` may run at the same time.
+/// Forgets the person, but not the scene: the next frames calibrate the person that they show, with
+/// their colours. Neither `extract` nor `estimate` may run at the same time.
 void forget_person(TrackingRun& run);
 
 }  // namespace telemime
