@@ -16,6 +16,19 @@
 namespace telemime {
 namespace {
 
+constexpr double kReferenceWidth = 160.0;  // px: lengths of the settings are given for this width
+constexpr int kHalf = 127;                 // of the probability in a mask, 0 to 255
+// Around the head, in its radii: where an arm hides the outline of the head.
+constexpr double kAside = 1.6;
+constexpr double kAbove = 1.5;
+constexpr double kBelow = 0.8;
+constexpr int kFewArms = 50;  // one pixel in so many there
+// Share of the background that must be known to look for a head by its outline.
+constexpr double kEnoughBackground = 0.3;
+// A head region with less skin and hair than this, for more frames than these, is not the head.
+constexpr double kLeastSkin = 0.25;
+constexpr int kMostWithoutSkin = 4;
+
 /// Takes what a network does not take for the person, such as somebody else behind, out of the silhouette. It
 /// is unknown what it is: no cue counts it. Where the network sees only a part of the silhouette, it is not
 /// believed.
@@ -34,7 +47,7 @@ bool covers_everything(const cv::Mat& silhouette) {
 
 /// The silhouette where a network sees the person. What of it are arms or clothes is not known.
 Segmentation silhouette_of_mask(const cv::Mat& mask, Segmentation segmentation) {
-  cv::compare(mask, 127, segmentation.silhouette, cv::CMP_GT);
+  cv::compare(mask, kHalf, segmentation.silhouette, cv::CMP_GT);
   segmentation.labels.setTo(static_cast<unsigned char>(Label::background), segmentation.silhouette == 0);
   segmentation.labels.setTo(
       static_cast<unsigned char>(Label::ignore),
@@ -52,13 +65,13 @@ double relative_light(const LightChange& light) {
 
 /// Whether an arm is beside or in front of the head, so that the outline there is not the head's.
 bool arms_near(const HeadRegion& head, const cv::Mat& labels) {
-  const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(head.centre.x() - 1.6 * head.radii.x()),
-                                          static_cast<int>(head.centre.y() - 1.5 * head.radii.y())),
-                                cv::Point(static_cast<int>(head.centre.x() + 1.6 * head.radii.x()),
-                                          static_cast<int>(head.centre.y() + 0.8 * head.radii.y()))) &
+  const cv::Rect box = cv::Rect(cv::Point(static_cast<int>(head.centre.x() - kAside * head.radii.x()),
+                                          static_cast<int>(head.centre.y() - kAbove * head.radii.y())),
+                                cv::Point(static_cast<int>(head.centre.x() + kAside * head.radii.x()),
+                                          static_cast<int>(head.centre.y() + kBelow * head.radii.y()))) &
                        cv::Rect(cv::Point(0, 0), labels.size());
   return !box.empty() &&
-         cv::countNonZero(labels(box) == static_cast<unsigned char>(Label::arms)) * 50 > box.area();
+         cv::countNonZero(labels(box) == static_cast<unsigned char>(Label::arms)) * kFewArms > box.area();
 }
 
 }  // namespace
@@ -169,7 +182,7 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   std::optional<TrackedFace> face =
       landmarks ? face_of(landmarks, p)
                 : head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p));
-  if (!face && known_background_share() > 0.3) {
+  if (!face && known_background_share() > kEnoughBackground) {
     WorkingImages copy = p;
     copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};
     const BackgroundEnergy scene = background_energy_of(copy, std::nullopt);
@@ -196,7 +209,7 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   for (int turn = 0; turn < 2; ++turn) {
     rough = segment(p.colour, background, PersonColours{}, head, config_.segmentation);
     if (landmarks) {
-      cv::compare(mask, 127, rough.silhouette, cv::CMP_GT);
+      cv::compare(mask, kHalf, rough.silhouette, cv::CMP_GT);
     } else if (!background_complete_) {
       // Neither the background nor the colours are known yet: a graph cut separates the person.
       rough.silhouette = cut_person(p.bgr, *head);
@@ -253,10 +266,10 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     segmentation = silhouette_of_mask(out.landmarks->mask, std::move(segmentation));
   }
   // The correlation can drift off the head. The colours inside the head region reveal it.
-  frames_without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < 0.25
+  frames_without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < kLeastSkin
                              ? frames_without_skin_ + 1
                              : 0;
-  if (frames_without_skin_ > 4) {
+  if (frames_without_skin_ > kMostWithoutSkin) {
     head_.reset();
     frames_without_skin_ = 0;
   }
@@ -289,7 +302,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   cv::dilate(out.silhouette, grown, square);
   out.edges =
       find_edges(deriche_gradient(p.grey, config_.edges.alpha), grown, config_.edges.low, config_.edges.high);
-  out.distance = distance_map(out.edges, config_.edges.distance_cap * config_.width / 160.0);
+  out.distance = distance_map(out.edges, config_.edges.distance_cap * config_.width / kReferenceWidth);
 
   // Adapt the background model outside the person. A camera that was moved invalidates it.
   cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);

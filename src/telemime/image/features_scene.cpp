@@ -15,6 +15,20 @@
 namespace telemime {
 namespace {
 
+constexpr double kMotionWidth = 160.0;     // px: motions of the camera are stated for this width
+constexpr double kSkinOfFace = 0.2;        // share of a face that must have the colour of skin
+constexpr std::size_t kFewestSamples = 8;  // of a clip without a face, to learn around the person
+// Weights of a new measurement of the camera's motion, and of the last one where nothing can be tracked.
+constexpr double kMotionWeight = 0.3;
+constexpr double kOldMotionWeight = 0.03;
+// Shares of the image that the outline of a person without a visible head covers.
+constexpr double kLeastOutline = 0.02;
+constexpr double kMostOutline = 0.9;
+// Weights of a new frame in the shares of coloured pixels and of skin.
+constexpr double kColourWeight = 0.1;
+constexpr double kSkinWeight = 0.03;
+constexpr double kLeastLabelled = 0.02;  // share of arms and clothes from which skin is measured
+
 cv::Mat working_image(const Frame& frame, const ImageConfig& config) {
   cv::Mat out;
   cv::resize(frame.image, out, cv::Size(config.width, config.height), 0, 0, cv::INTER_AREA);
@@ -68,7 +82,7 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
                                       grey_at_most(working_image(clip[other], config), config.width),
                                       around_person(samples[i]));
     if (shared) {
-      motions.push_back(shared->pixels * 160.0 / config.width);
+      motions.push_back(shared->pixels * kMotionWidth / config.width);
     }
   }
   if (motions.size() < kFewest) {
@@ -182,10 +196,11 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
         return found;
       }
       const LogColour colours = log_colour(image);
-      const bool found = head_
-                             .detect(grey_at_most(image, image.cols), cv::Rect(0, 0, image.cols, image.rows),
-                                     [&](const cv::Rect& face) { return possible_skin(colours, face) > 0.2; })
-                             .has_value();
+      const bool found =
+          head_
+              .detect(grey_at_most(image, image.cols), cv::Rect(0, 0, image.cols, image.rows),
+                      [&](const cv::Rect& face) { return possible_skin(colours, face) > kSkinOfFace; })
+              .has_value();
       head_.reset();
       return found;
     };
@@ -202,7 +217,7 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     }
   }
   // Second choice: learn around the person, as long as the camera does not move.
-  if (with_head == 0 && samples.size() < 8) {
+  if (with_head == 0 && samples.size() < kFewestSamples) {
     set_calibration(fresh);
     report.sentence = "no face was found: the background could not be learned";
     return report;
@@ -240,10 +255,10 @@ void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
   frames_since_motion_ = 0;
   if (!motion_image_.empty()) {
     const auto shared = shared_motion(motion_image_, grey, motion_mask_ & background_mask_);
-    camera_step_ = shared ? shared->pixels * 160.0 / config_.width : 0.0;
+    camera_step_ = shared ? shared->pixels * kMotionWidth / config_.width : 0.0;
     // Where nothing can be followed, a camera that moved is believed to go on for a while.
     constexpr double kLargestStep = 5.0;
-    const double weight = shared ? 0.3 : 0.03;
+    const double weight = shared ? kMotionWeight : kOldMotionWeight;
     status_.camera_motion += weight * (std::min(camera_step_, kLargestStep) - status_.camera_motion);
   }
   motion_image_ = grey;
@@ -258,21 +273,21 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   };
   status_.silhouette_share = cv::countNonZero(features.silhouette) / total;
   // Everything differs from the background when a hand covers the lens, or the camera was turned away.
-  const bool outline = status_.silhouette_share > 0.02 && status_.silhouette_share < 0.9;
+  const bool outline = status_.silhouette_share > kLeastOutline && status_.silhouette_share < kMostOutline;
   status_.person = shows_something(status_) && (features.head.has_value() || outline);
   status_.people = features.landmarks ? finder_.people() : 0;
   const double coloured = coloured_share_of(p.bgr);
   status_.coloured_share =
-      seen_ ? status_.coloured_share + 0.1 * (coloured - status_.coloured_share) : coloured;
+      seen_ ? status_.coloured_share + kColourWeight * (coloured - status_.coloured_share) : coloured;
   seen_ = true;
   status_.known_background = known_background_share();
   background_complete_ = status_.known_background >= 1.0;
   // Share of skin on the arms: the first frames decide quickly, later ones correct slowly.
   const double arms = share(Label::arms);
   const double clothes = share(Label::clothes);
-  if (arms + clothes > 0.02) {
+  if (arms + clothes > kLeastLabelled) {
     const double now = arms / (arms + clothes);
-    status_.skin_share += (status_.skin_share == 0.0 ? 1.0 : 0.03) * (now - status_.skin_share);
+    status_.skin_share += (status_.skin_share == 0.0 ? 1.0 : kSkinWeight) * (now - status_.skin_share);
   }
   status_.warnings = warnings_of(status_, calibration_.colours);
 }

@@ -12,6 +12,25 @@
 namespace telemime {
 namespace {
 
+// Where a head by its outline ends and the shoulders begin, in widths of the head so far.
+constexpr double kLeastRows = 0.7;    // above the shoulders
+constexpr double kMostRows = 2.4;     // without shoulders: not a head
+constexpr double kShoulders = 1.5;    // width of the first row of the shoulders
+constexpr double kHeadsAbove = 1.25;  // heights of the head from the crown to the shoulders
+// Height of a head over its width: usual, least and most.
+constexpr double kUsualHeight = 1.4, kLeastHeight = 1.2, kMostHeight = 1.7;
+// Where adapted() measures the outline of the head, in its radii.
+constexpr double kReachUp = 1.5, kReachAside = 1.6;
+constexpr double kCrownColumns = 0.4;                   // to both sides of the centre
+constexpr double kSideAbove = 0.45, kSideBelow = 0.15;  // rows above and below the centre
+// Quantiles of the measured distances: hair and ears stick out, shadows cut in.
+constexpr double kTopQuantile = 0.7, kLeftQuantile = 0.4, kRightQuantile = 0.6;
+// Width of a head, least and most, over the square root of the person's area.
+constexpr double kThinnestHead = 0.14, kWidestHead = 0.5;
+// faces_camera(): a row through the shoulders (head radii below its centre), the least half width there (head
+// radii), and the largest ratio of the two halves.
+constexpr double kShoulderRow = 2.3, kLeastShoulder = 1.5, kMostUneven = 1.7;
+
 /// Range of a value of HeadShape.
 struct Range {
   double least;
@@ -107,11 +126,12 @@ std::optional<HeadRegion> head_of_person(const cv::Mat& person, double thinnest,
       head_run = widest_of_upper();
       const double so_far = head_run.width();
       const auto rows = static_cast<double>(runs.size());
-      if (so_far >= thinnest && (rows >= 0.7 * so_far || cut_by_picture) && run.width() > 1.5 * so_far) {
+      if (so_far >= thinnest && (rows >= kLeastRows * so_far || cut_by_picture) &&
+          run.width() > kShoulders * so_far) {
         shoulders = true;
         break;
       }
-      if (rows > 2.4 * std::max(so_far, thinnest)) {
+      if (rows > kMostRows * std::max(so_far, thinnest)) {
         break;
       }
     }
@@ -123,12 +143,13 @@ std::optional<HeadRegion> head_of_person(const cv::Mat& person, double thinnest,
   if (!shoulders || width > widest) {
     return std::nullopt;
   }
-  // From crown to shoulders there are about 1.25 heads, and a head is 1.2 to 1.7 times as high as wide.
-  const double height = cut_by_picture ? 1.4 * width : std::clamp(rows / 1.25, 1.2 * width, 1.7 * width);
+  const double height = cut_by_picture
+                            ? kUsualHeight * width
+                            : std::clamp(rows / kHeadsAbove, kLeastHeight * width, kMostHeight * width);
   HeadRegion head;
   head.radii = {0.5 * width, 0.5 * height};
   head.centre = {0.5 * (head_run.left + head_run.right),
-                 cut_by_picture ? top + rows / 1.25 - 0.5 * height : top - 0.5 + 0.5 * height};
+                 cut_by_picture ? top + rows / kHeadsAbove - 0.5 * height : top - 0.5 + 0.5 * height};
   return head;
 }
 
@@ -167,8 +188,8 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
 
   // Distances from the centre to the crown, in columns near the middle.
   std::vector<double> tops;
-  const int reach_up = static_cast<int>(1.5 * head.radii.y());
-  const int across = std::max(1, static_cast<int>(0.4 * head.radii.x()));
+  const int reach_up = static_cast<int>(kReachUp * head.radii.y());
+  const int across = std::max(1, static_cast<int>(kCrownColumns * head.radii.x()));
   for (int c = middle_column - across; c <= middle_column + across; ++c) {
     if (!inside(middle_row, c)) {
       continue;
@@ -181,9 +202,9 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
   // Left and right outline, in rows around the centre.
   std::vector<double> lefts;
   std::vector<double> rights;
-  const int reach = static_cast<int>(1.6 * head.radii.x());
-  const int first = static_cast<int>(std::lround(head.centre.y() - 0.45 * head.radii.y()));
-  const int last = static_cast<int>(std::lround(head.centre.y() + 0.15 * head.radii.y()));
+  const int reach = static_cast<int>(kReachAside * head.radii.x());
+  const int first = static_cast<int>(std::lround(head.centre.y() - kSideAbove * head.radii.y()));
+  const int last = static_cast<int>(std::lround(head.centre.y() + kSideBelow * head.radii.y()));
   for (int r = first; r <= last; ++r) {
     if (!inside(r, middle_column)) {
       continue;
@@ -203,11 +224,11 @@ HeadShape adapted(const HeadShape& shape, const HeadRegion& head, const cv::Mat&
   const auto move = [rate](double& value, double measured, const Range& range) {
     value += rate * (clamped(range, measured) - value);
   };
-  if (const auto top = quantile(tops, 0.7)) {
+  if (const auto top = quantile(tops, kTopQuantile)) {
     move(out.crown, (face_y - (head.centre.y() - *top)) / side_y, kCrown);
   }
-  const auto left = quantile(lefts, 0.4);
-  const auto right = quantile(rights, 0.6);
+  const auto left = quantile(lefts, kLeftQuantile);
+  const auto right = quantile(rights, kRightQuantile);
   if (left && right) {
     move(out.shift, (0.5 * (*left + *right) - face_x) / side_x, kShift);
     move(out.half_width, 0.5 * (*right - *left) / side_x, kHalfWidth);
@@ -226,26 +247,27 @@ std::optional<HeadRegion> head_from_silhouette(const cv::Mat& silhouette) {
       largest->area < kSmallestPerson * static_cast<double>(silhouette.total())) {
     return std::nullopt;
   }
-  // Remove spikes of the outline: the width of a head is at least this share of the person's size.
+  // Remove spikes of the outline that are thinner than a head.
   const double scale = std::sqrt(static_cast<double>(largest->area));
-  const double thinnest = 0.14 * scale;
+  const double thinnest = kThinnestHead * scale;
   const int brush = std::max(3, static_cast<int>(0.5 * thinnest) | 1);
   cv::Mat person = cv::Mat::zeros(silhouette.size(), CV_8UC1);
   pieces.paint(*largest, 255, person);
   cv::morphologyEx(person, person, cv::MORPH_OPEN,
                    cv::getStructuringElement(cv::MORPH_ELLIPSE, cv::Size(brush, brush)));
-  return head_of_person(person, thinnest, 0.5 * scale);
+  return head_of_person(person, thinnest, kWidestHead * scale);
 }
 
 bool faces_camera(const HeadRegion& head, const cv::Mat& silhouette) {
-  const int row = static_cast<int>(head.centre.y() + 2.3 * head.radii.y());
+  const int row = static_cast<int>(head.centre.y() + kShoulderRow * head.radii.y());
   const int column = static_cast<int>(head.centre.x());
   if (row < 0 || row >= silhouette.rows || column < 0 || column >= silhouette.cols) {
     return false;
   }
   const double left = run_length(silhouette, row, column, 0, -1, silhouette.cols);
   const double right = run_length(silhouette, row, column, 0, 1, silhouette.cols);
-  return std::min(left, right) > 1.5 * head.radii.x() && std::max(left, right) < 1.7 * std::min(left, right);
+  return std::min(left, right) > kLeastShoulder * head.radii.x() &&
+         std::max(left, right) < kMostUneven * std::min(left, right);
 }
 
 cv::Rect2d face_square(const HeadRegion& head, const HeadShape& shape, double scale_x, double scale_y) {

@@ -13,6 +13,12 @@
 namespace telemime {
 namespace {
 
+constexpr int kMostAttempts = 20;  // to draw an arm inside the limits that does not touch the body
+// How far outside the joint limits (rad) an arm may be before it is clamped to them.
+constexpr double kRandomSlack = 0.05;
+constexpr double kFanSlack = 0.15;  // clamped by this much, a forearm still points near the wanted direction
+constexpr double kBehind = 0.25;    // directions of the fan that point backward, of the unit sphere's radius
+
 struct Candidate {
   Pose pose;
   double cost = 0.0;
@@ -30,8 +36,8 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
   const Eigen::Vector3d shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
   const Eigen::Matrix3d& chest = k[Segment::chest].linear();
   Pose arm = rest;
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    // In the chest's frame: x outward, y up, z forward.
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    // In the chest's frame: x outward, y up, z forward. Densest where arms hang or gesture in front.
     const Eigen::Vector3d upper = Eigen::Vector3d(outward * random.normal(0.45, 0.5),
                                                   random.normal(-0.55, 0.6), random.normal(0.2, 0.45))
                                       .normalized();
@@ -41,7 +47,7 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
     const Eigen::Vector3d elbow = shoulder + chest * upper * body.upper_arm_length[i];
     const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[i];
     set_arm_angles(arm, side, arm_through(body, rest, side, elbow, wrist, limits));
-    if (limits.contains(arm, 0.05) &&
+    if (limits.contains(arm, kRandomSlack) &&
         interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
       break;
     }
@@ -60,7 +66,6 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
                             : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot}) {
     straight[a] = 0.0;
   }
-  constexpr double kBehind = 0.25;  // of the unit sphere's radius
   constexpr double kGoldenAngle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
   const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double shift = random.uniform();
@@ -73,8 +78,7 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
     const Eigen::Vector3d wrist = elbow + chest * fore * body.forearm_length[static_cast<std::size_t>(side)];
     Pose arm = straight;
     set_arm_angles(arm, side, arm_through(body, straight, side, elbow, wrist, limits));
-    // A pose that the limits clamp only a little still points near the wanted direction.
-    if (limits.contains(arm, 0.15)) {
+    if (limits.contains(arm, kFanSlack)) {
       arm = limits.clamp(arm);
       if (interpenetration(body, forward_kinematics(body, arm)) < kInvalidInterpenetration) {
         fan.push_back(arm);

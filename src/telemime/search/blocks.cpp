@@ -83,7 +83,8 @@ Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& 
   const Eigen::Vector3d line = target.wrist - shoulder;
   const double distance = std::max(1e-6, line.norm());
   // The shoulder moves with the arm, so one step does not always do.
-  for (const double slack : {0.002, 0.02, 0.06, 0.12}) {
+  constexpr std::array kSlack = {0.002, 0.02, 0.06, 0.12};  // m to the shortest, share of the longest reach
+  for (const double slack : kSlack) {
     const double wanted = std::clamp(distance, shortest + slack, longest * (1.0 - slack));
     const ArmTarget nearer = {shoulder + line * (wanted / distance), target.swivel};
     if (const auto angles = solve_arm(body, pose, side, nearer, limits)) {
@@ -161,10 +162,14 @@ SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const Joi
   const Eigen::Vector3d upper = elbow - shoulder;
   const Eigen::Vector3d fore = wrist - elbow;
   SearchBlock block = with_hand(left ? "left bones" : "right bones", pose, side, limits, factor);
-  constexpr double kMost = 1.2;
+  constexpr double kMost = 1.2;       // rad, of a bone from its start
+  constexpr double kUpperTurn = 4.0;  // degrees: typical turns of the upper arm from frame to frame,
+  constexpr double kUpperLift = 6.0;  // across and along its plane,
+  constexpr double kForeTurn = 6.0;   // and of the forearm
+  constexpr double kForeLift = 9.0;
   block.start.head<4>().setZero();
-  block.steps.head<4>() << factor * 4.0 * kDegree, factor * 6.0 * kDegree, factor * 6.0 * kDegree,
-      factor * 9.0 * kDegree;
+  block.steps.head<4>() << factor * kUpperTurn * kDegree, factor * kUpperLift * kDegree,
+      factor * kForeTurn * kDegree, factor * kForeLift * kDegree;
   block.bounds.low.head<4>().setConstant(-kMost);
   block.bounds.high.head<4>().setConstant(kMost);
   block.decode = [&body, pose, side, &limits, shoulder, upper, fore,
@@ -200,9 +205,10 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
   const double z = std::max(kNearest, target.wrist.z());
   constexpr double kAcross = 0.025;  // m, typical change of a wrist from frame to frame
   constexpr double kAlong = 0.030;
+  constexpr double kSwivel = 8.0;  // degrees
   block.start.head<4>() << target.wrist.x() / z, target.wrist.y() / z, z, target.swivel;
   block.steps.head<4>() << factor * kAcross / z, factor * kAcross / z, factor * kAlong,
-      factor * 8.0 * kDegree;
+      factor * kSwivel * kDegree;
   block.bounds.low.head<4>() << -4.0, -4.0, kNearest, target.swivel - std::numbers::pi;
   block.bounds.high.head<4>() << 4.0, 4.0, kFarthest, target.swivel + std::numbers::pi;
   block.decode = [&body, pose, side, &limits](const Eigen::VectorXd& x) {

@@ -18,6 +18,17 @@ constexpr double kCrown = 0.271;
 constexpr double kAhead = 0.045;
 constexpr double kDesignStature = 1.70;
 
+// A joint nearer to the camera than this cannot be measured.
+constexpr double kTooNear = 0.1;  // m
+// A hand between the shoulders is in front of the body, except for this share of their distance at both
+// sides.
+constexpr double kBesideBody = 0.1;
+// The first frame tries distances of the head, each this factor from the next, kDistances to both sides.
+constexpr double kDistanceFactor = 1.035;
+constexpr int kDistances = 6;
+constexpr double kDistanceCost = 0.05;  // of the farthest of them, beside the share of pixels that differ
+constexpr double kArmsAside = 0.3;      // rad, abduction and flexion of the elbows meanwhile
+
 ObjectiveWeights search_weights(const CueTable& cues) {
   return {.cues = step_weights(cues, &Cue::edge_step), .natural = 0.04};
 }
@@ -79,7 +90,7 @@ std::string arm_problem(const Model& model, const Pose& pose, const Camera& came
   const Eigen::Vector2d l = camera.project(k.joints[Joint::l_shoulder]);
   const Eigen::Vector2d r = camera.project(k.joints[Joint::r_shoulder]);
   for (const Joint j : {left ? Joint::l_elbow : Joint::r_elbow, left ? Joint::l_wrist : Joint::r_wrist}) {
-    if (k.joints[j].z() < 0.1) {
+    if (k.joints[j].z() < kTooNear) {
       return "the " + name + " arm is too near the camera";
     }
     const Eigen::Vector2d p = camera.project(k.joints[j]);
@@ -88,7 +99,7 @@ std::string arm_problem(const Model& model, const Pose& pose, const Camera& came
     }
     const double low = std::min(l.x(), r.x());
     const double high = std::max(l.x(), r.x());
-    const double margin = 0.1 * (high - low);
+    const double margin = kBesideBody * (high - low);
     if (j != Joint::l_elbow && j != Joint::r_elbow && p.x() > low + margin && p.x() < high - margin) {
       return "the " + name + " hand is in front of the body";
     }
@@ -174,14 +185,14 @@ Pose initialise_pose(Objective& objective, const HeadRegion& head, const Calibra
   // overlap best. The arms are not known yet, so they do not count.
   Pose best = placed;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (int i = -6; i <= 6; ++i) {
-    const double z = std::clamp(z_head * std::pow(1.035, i), config.nearest, config.farthest);
+  for (int i = -kDistances; i <= kDistances; ++i) {
+    const double z = std::clamp(z_head * std::pow(kDistanceFactor, i), config.nearest, config.farthest);
     Pose pose = placed;
     pose.root = camera.ray(head.centre) * z - camera_from_body_at_rest() * g.centre_from_root;
-    set_arm_angles(pose, Side::left, {0.0, 0.0, 0.3, -0.3});
-    set_arm_angles(pose, Side::right, {0.0, 0.0, -0.3, -0.3});
+    set_arm_angles(pose, Side::left, {0.0, 0.0, kArmsAside, -kArmsAside});
+    set_arm_angles(pose, Side::right, {0.0, 0.0, -kArmsAside, -kArmsAside});
     const Score s = objective.score(pose, Reduction::overlap);
-    double cost = 0.05 * std::abs(static_cast<double>(i)) / 6.0;
+    double cost = kDistanceCost * std::abs(static_cast<double>(i)) / kDistances;
     for (const std::size_t c : {std::size_t{0}, std::size_t{2}}) {
       const int either = s.reductions.observed[c] + s.reductions.model[c] - s.reductions.both[c];
       cost += either > 0 ? 0.5 * (either - s.reductions.both[c]) / either : 0.0;

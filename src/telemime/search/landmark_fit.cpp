@@ -103,6 +103,20 @@ Residuals row_weights(const Residuals& r) {
   return w;
 }
 
+// Levenberg-Marquardt.
+constexpr int kMostSteps = 12;
+constexpr int kMostDampings = 6;        // of one step, each with more damping
+constexpr double kDelta = 1e-5;         // rad and m, for the numerical derivatives
+constexpr double kEnough = 1e-3;        // relative gain of a step below which the fit has converged
+constexpr double kFirstDamping = 1e-3;  // relative to the diagonal
+constexpr double kLeastDamping = 1e-6;
+constexpr double kLessDamping = 0.2;  // factor after a step that gained
+constexpr double kMoreDamping = 10.0;
+// The first pose of a person.
+constexpr double kSteepest =
+    0.95;  // largest slope of a bone that is believed, sine of its angle to the image
+constexpr double kFirstTurn = 0.7;  // rad, of the trunk to either side
+
 // The likeliest pose of a person of whom nothing is known: upright, facing the camera, arms bent a little.
 Pose neutral_pose() {
   Pose pose;
@@ -144,14 +158,11 @@ std::optional<double> distance_from_pairs(const Body& body, const Camera& camera
 
 LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyLandmarks& landmarks,
                              const LandmarkPrior& prior, const Pose& start, const JointLimits& limits) {
-  constexpr int kMostSteps = 12;
-  constexpr double kDelta = 1e-5;
-  constexpr double kEnough = 1e-3;  // relative gain of a step below which the fit has converged
   const Problem problem{body, camera, landmarks, prior};
   PoseVector x = limits.clamp(start).vector();
   Residuals r = problem(x);
   double cost = cost_of(r);
-  double damping = 1e-3;
+  double damping = kFirstDamping;
   for (int step = 0; step < kMostSteps; ++step) {
     // Linearise about the pose.
     Jacobian jacobian;
@@ -167,7 +178,7 @@ LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyL
     // Damp more until the step gains something.
     bool gained = false;
     const double before = cost;
-    for (int attempt = 0; attempt < 6 && !gained; ++attempt) {
+    for (int attempt = 0; attempt < kMostDampings && !gained; ++attempt) {
       Eigen::Matrix<double, kPoseSize, kPoseSize> damped = normal;
       damped.diagonal() *= 1.0 + damping;
       const PoseVector change = damped.ldlt().solve(gradient);
@@ -179,9 +190,9 @@ LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyL
         x = candidate;
         r = errors;
         cost = new_cost;
-        damping = std::max(1e-6, 0.2 * damping);
+        damping = std::max(kLeastDamping, kLessDamping * damping);
       } else {
-        damping *= 10.0;
+        damping *= kMoreDamping;
       }
     }
     if (!gained || before - cost < kEnough * before) {
@@ -222,7 +233,7 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
     }
     const Eigen::Vector2d in_picture = pixel(landmarks, to) - pixel(landmarks, from);
     const BoneObservation& slope = landmarks.bones[static_cast<std::size_t>(bone)];
-    const double along = slope.seen ? std::clamp(slope.along, -0.95, 0.95) : 0.0;
+    const double along = slope.seen ? std::clamp(slope.along, -kSteepest, kSteepest) : 0.0;
     const double across = std::sqrt(1.0 - along * along);
     Eigen::Vector3d direction(in_picture.x(), in_picture.y(), 0.0);
     direction.normalize();
@@ -250,7 +261,7 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
   LandmarkFit best{start, std::numeric_limits<double>::infinity()};
   prior.pose = neutral_pose();
   prior.pose.root = start.root;
-  for (const double turn : {0.0, -0.7, 0.7}) {
+  for (const double turn : {0.0, -kFirstTurn, kFirstTurn}) {
     Pose turned = start;
     turned[Angle::root_torsion] = turn;
     const LandmarkFit fit = fit_to_landmarks(body, camera, landmarks, prior, limits.clamp(turned), limits);

@@ -26,11 +26,33 @@ double outside_limits(const JointLimits& limits, const Pose& pose) {
 // The most that one joint costs, however far from its prediction: a lost joint must be able to return.
 constexpr double kMostDistance = 2.0;
 
+// Changes between two frames that cost 1: of an elbow or wrist, of the root, and of an angle of trunk or
+// neck.
+constexpr double kArmChange = 0.15;   // m
+constexpr double kRootChange = 0.03;  // m
+constexpr double kBendChange = 0.1;   // rad
+// Depth of an elbow or wrist relative to its shoulder that costs 1 in the first frame.
+constexpr double kFrontoParallel = 0.1;  // m
+
+// Zones of convenient reach (ArmPrior::reach), as shares of the arm's length.
+constexpr double kWristBehind = 0.25;    // behind the shoulder: costs 1
+constexpr double kElbowBehind = 0.35;    // the same of the elbow
+constexpr double kForearmForward = 0.1;  // of the forearm's length: less is unusual
+constexpr double kForearmBehind = 0.3;   // by which it is less: costs 1
+constexpr double kUsualReach = 0.3;      // of the wrist before the shoulder
+
+// Angles that cost 1 (rad), about a third of the range of motion.
+constexpr double kTorsion = 0.5, kRoll = 0.25, kTilt = 0.3;                   // of the trunk
+constexpr double kNeckTorsion = 0.6, kNeckRoll = 0.3, kNeckTilt = 0.3;        // of the neck
+constexpr double kWristFlexion = 0.5, kWristPivot = 0.25, kWristTwist = 1.0;  // of the wrists
+// Their weights; the neck has 1.
+constexpr double kTrunkWeight = 0.3, kWristWeight = 0.5, kTwistWeight = 0.1;
+
 double trunk_change(const Pose& pose, const Pose& predicted) {
-  double sum = (pose.root - predicted.root).squaredNorm() / square(0.03);
+  double sum = (pose.root - predicted.root).squaredNorm() / square(kRootChange);
   for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_torsion,
                         Angle::neck_roll, Angle::neck_tilt}) {
-    sum += square((pose[a] - predicted[a]) / 0.1);
+    sum += square((pose[a] - predicted[a]) / kBendChange);
   }
   return sum;
 }
@@ -39,8 +61,8 @@ double depth_of_arms(const Kinematics& k) {
   double sum = 0.0;
   for (const bool left : {true, false}) {
     const double shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder].z();
-    sum += square((k.joints[left ? Joint::l_elbow : Joint::r_elbow].z() - shoulder) / 0.1);
-    sum += square((k.joints[left ? Joint::l_wrist : Joint::r_wrist].z() - shoulder) / 0.1);
+    sum += square((k.joints[left ? Joint::l_elbow : Joint::r_elbow].z() - shoulder) / kFrontoParallel);
+    sum += square((k.joints[left ? Joint::l_wrist : Joint::r_wrist].z() - shoulder) / kFrontoParallel);
   }
   return sum / 4.0;
 }
@@ -55,12 +77,12 @@ double reach_cost(const Body& body, const Kinematics& k) {
         chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
     const Eigen::Vector3d elbow = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
     const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
-    sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / 0.25);
-    sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / 0.35);
+    sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / kWristBehind);
+    sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / kElbowBehind);
     // A forearm that points away from the camera is rare: people gesture towards their listener.
-    sum +=
-        2.0 * square(std::min(0.0, (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1] - 0.1) / 0.3);
-    sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - 0.3);
+    const double forward = (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1];
+    sum += 2.0 * square(std::min(0.0, forward - kForearmForward) / kForearmBehind);
+    sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - kUsualReach);
   }
   return sum;
 }
@@ -92,7 +114,7 @@ double distance_from_predicted(const Kinematics& k, const JointPositions& predic
   constexpr std::array<Joint, 4> kArms = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist, Joint::r_wrist};
   double sum = 0.0;
   for (const Joint j : kArms) {
-    const double way = (k.joints[j] - predicted[j]).squaredNorm() / square(0.15);
+    const double way = (k.joints[j] - predicted[j]).squaredNorm() / square(kArmChange);
     sum += way / (1.0 + way / kMostDistance);
   }
   return sum / static_cast<double>(kArms.size());
@@ -111,12 +133,15 @@ ArmPrior arm_prior_of(const PreparedFrame& frame) {
 double natural_cost(const Body& body, const Pose& pose, const Kinematics& k, double heading, ArmPrior arms) {
   double sum = arms == ArmPrior::reach ? reach_cost(body, k) : kNewEachFrame * 0.5 * arm_rarity(k);
   const auto bend = [&](Angle a, double range) { return square(pose[a] / range); };
-  sum += 0.3 * (square(wrap_angle(pose[Angle::root_torsion] - heading) / 0.5) + bend(Angle::root_roll, 0.25) +
-                bend(Angle::root_tilt, 0.3));
-  sum += bend(Angle::neck_torsion, 0.6) + bend(Angle::neck_roll, 0.3) + bend(Angle::neck_tilt, 0.3);
-  sum += 0.5 * (bend(Angle::l_wrist_flexion, 0.5) + bend(Angle::r_wrist_flexion, 0.5) +
-                bend(Angle::l_wrist_pivot, 0.25) + bend(Angle::r_wrist_pivot, 0.25));
-  sum += 0.1 * (bend(Angle::l_wrist_twisting, 1.0) + bend(Angle::r_wrist_twisting, 1.0));
+  sum += kTrunkWeight * (square(wrap_angle(pose[Angle::root_torsion] - heading) / kTorsion) +
+                         bend(Angle::root_roll, kRoll) + bend(Angle::root_tilt, kTilt));
+  sum += bend(Angle::neck_torsion, kNeckTorsion) + bend(Angle::neck_roll, kNeckRoll) +
+         bend(Angle::neck_tilt, kNeckTilt);
+  sum += kWristWeight *
+         (bend(Angle::l_wrist_flexion, kWristFlexion) + bend(Angle::r_wrist_flexion, kWristFlexion) +
+          bend(Angle::l_wrist_pivot, kWristPivot) + bend(Angle::r_wrist_pivot, kWristPivot));
+  sum += kTwistWeight *
+         (bend(Angle::l_wrist_twisting, kWristTwist) + bend(Angle::r_wrist_twisting, kWristTwist));
   return sum / 4.0;
 }
 

@@ -224,12 +224,16 @@ Fitted search_girths(Refiner& refiner, const Fitted& from, double step, int shap
 
 }  // namespace
 
+constexpr double kNearestJoint = 0.1;  // m, distance of a joint that can be seen
+constexpr double kWorst = 1.1;         // F of a keyframe, over the median of all candidates
+
 bool shows_arms(const Body& body, const Keyframe& keyframe) {
   const Camera& camera = keyframe.frame.camera;
   const JointPositions joints = forward_kinematics(body, keyframe.pose).joints;
   for (const Joint j :
        {Joint::l_elbow, Joint::l_wrist, Joint::l_hand, Joint::r_elbow, Joint::r_wrist, Joint::r_hand}) {
-    const Eigen::Vector2d p = joints[j].z() > 0.1 ? camera.project(joints[j]) : Eigen::Vector2d(-1.0, -1.0);
+    const Eigen::Vector2d p =
+        joints[j].z() > kNearestJoint ? camera.project(joints[j]) : Eigen::Vector2d(-1.0, -1.0);
     if (p.x() < 0.0 || p.y() < 0.0 || p.x() > camera.width - 1 || p.y() > camera.height - 1) {
       return false;
     }
@@ -243,7 +247,7 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
   if (candidates.empty() || count == 0) {
     return picked;
   }
-  // Good candidates: both arms visible, and F at most 1.1 times the median.
+  // Good candidates: both arms visible, and F not far above the median.
   std::vector<double> regions;
   std::vector<ArmPoints> points;
   for (const Keyframe& k : candidates) {
@@ -252,7 +256,7 @@ std::vector<std::size_t> pick_keyframes(const Body& body, std::span<const Keyfra
   }
   const auto middle = regions.begin() + static_cast<std::ptrdiff_t>(regions.size() / 2);
   std::nth_element(regions.begin(), middle, regions.end());
-  const double worst = 1.1 * *middle;
+  const double worst = kWorst * *middle;
   std::vector<double> distance(candidates.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].region > worst || !shows_arms(body, candidates[i])) {

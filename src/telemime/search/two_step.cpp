@@ -155,8 +155,11 @@ SettingTable settings_of(RegistrationConfig& c) {
   return table;
 }
 
+// A simplex over more than this many times the usual motion is no longer a local search.
+constexpr double kMostSimplexFactor = 20.0;
+
 RegistrationConfig for_time_step(RegistrationConfig config, double frames) {
-  config.simplex_factor = std::min(20.0, config.simplex_factor * std::sqrt(frames));
+  config.simplex_factor = std::min(kMostSimplexFactor, config.simplex_factor * std::sqrt(frames));
   for (ObjectiveWeights* w : {&config.region, &config.edge}) {
     w->temporal /= frames;
     w->trunk /= frames;

@@ -15,6 +15,10 @@ namespace telemime {
 namespace {
 
 constexpr int kFacelessFrames = 25;  // with a head but no face, until the outline of the head is used
+constexpr double kExact = 0.05;      // of a step: time stamps of cameras are not more exact
+constexpr double kLeastSteps = 0.2;  // between two frames
+constexpr double kMostSteps = 8.0;   // after a longer gap the motion model says nothing
+constexpr double kNearest = 0.01;    // m, of a joint that is projected
 constexpr double kRate = 25.0;       // frames per second of the motion model
 
 // Learns the person's colours from a frame that shows their face. Returns whether colours are known now.
@@ -192,15 +196,14 @@ FrameRecord track_frame(const Frame& frame, TrackingRun& run) {
 
 double steps_between(double before, double now) {
   const double steps = kRate * (now - before);
-  // Time stamps of cameras are not that exact.
-  return std::abs(steps - 1.0) < 0.05 || !(steps > 0.0) ? 1.0 : std::clamp(steps, 0.2, 8.0);
+  return std::abs(steps - 1.0) < kExact || !(steps > 0.0) ? 1.0 : std::clamp(steps, kLeastSteps, kMostSteps);
 }
 
 void place_joints(const Body& body, const Camera& camera, MotionFrame& motion) {
   motion.joints = forward_kinematics(body, motion.pose).joints;
   for (std::size_t i = 0; i < kJointCount; ++i) {
     Eigen::Vector3d p = motion.joints.at[i];
-    p.z() = std::max(p.z(), 0.01);
+    p.z() = std::max(p.z(), kNearest);
     motion.pixels[i] = camera.project(p);
   }
 }

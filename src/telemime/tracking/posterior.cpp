@@ -29,8 +29,10 @@ constexpr double kCut = 0.25;
 // Without the boundary between sleeve and skin an arm of one colour shows its elbow by its outline alone.
 constexpr double kCovered = 2.0;
 
+constexpr double kNearestSeen = 0.05;  // m: what is nearer to the camera cannot be seen
+
 bool is_in_image(const Camera& camera, const Eigen::Vector3d& point) {
-  if (point.z() < 0.05) {
+  if (point.z() < kNearestSeen) {
     return false;
   }
   const Eigen::Vector2d p = camera.project(point);

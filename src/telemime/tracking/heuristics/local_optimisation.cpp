@@ -17,10 +17,17 @@ struct Job {
   int number = 0;  // among the jobs of the same parent
 };
 
+// Weights of a metre of interpenetration beside F and beside D_C (pixels).
+constexpr double kInsideRegion = 4.0;
+constexpr double kInsideContour = 40.0;
+// The simplex over the edges starts with this share of the one over the regions.
+constexpr double kRestart = 0.2;
+
 // F or D_C, each with a penalty for segments inside each other (thesis 3.5.4).
 double cost_of(const Body& body, const Particle& particle, bool contour) {
   const double inside = interpenetration(body, forward_kinematics(body, particle.pose));
-  return contour ? particle.score.contour() + 40.0 * inside : particle.score.region() + 4.0 * inside;
+  return contour ? particle.score.contour() + kInsideContour * inside
+                 : particle.score.region() + kInsideRegion * inside;
 }
 
 // Local search of the thesis: one simplex over all moving numbers, from diffused children. Every vertex
@@ -68,7 +75,7 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
   if (both) {
     contour = true;
     options.max_evaluations = job.evaluations - static_cast<int>(children.size());
-    minimise(cost, restart_simplex(regions.simplex, 0.2 * space.block.steps, space.block.bounds),
+    minimise(cost, restart_simplex(regions.simplex, kRestart * space.block.steps, space.block.bounds),
              space.block.bounds, options);
   }
   return children;
