@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 all_most=104000
-library_most=39000
+library_most=38500
 
 lines() {
   git ls-files -z -- "$@" | xargs -0 -r cat | wc -l
@@ -26,7 +26,8 @@ row "$(lines "${shell[@]}")" "shell and make"
 row "$(lines "${cmake[@]}")" "CMake"
 all="$(lines "${cpp[@]}" "${web[@]}" "${python[@]}" "${shell[@]}" "${cmake[@]}")"
 row "$all" "in all (at most $all_most)"
-library="$(lines src/telemime ':!*_test.cpp' ':!*/testing*.h')"
+# By grep: git 2.39 does not exclude ':!*/testing*' below a folder.
+library="$(git ls-files src/telemime | grep -v -e '_test\.cpp$' -e '/testing' | xargs cat | wc -l)"
 row "$library" "in src/telemime without tests (at most $library_most)"
 ((all <= all_most && library <= library_most)) || {
   echo "count: over the budget" >&2

@@ -11,12 +11,12 @@
 
 namespace telemime {
 
-/// Frames from which the background of a live input is learned: those of one second by their time stamps
-/// (cameras often state another rate than they have), at least 8 and at most 60. When `next` returns nothing,
-/// because the input has ended or the session stops, there may be fewer or none.
+/// Frames from which the background of a live input is learned: one second of them by their time stamps
+/// (cameras often state a wrong rate), at least 8 and at most 60. If `next` returns nothing, because the
+/// input has ended or the session stops, there may be fewer or none.
 inline std::vector<Frame> background_frames(const std::function<std::optional<Frame>()>& next) {
   constexpr std::size_t kFewest = 8;
-  constexpr std::size_t kMost = 60;  // also where the times do not advance
+  constexpr std::size_t kMost = 60;  // even if the times do not advance
   constexpr double kSeconds = 1.0;
   std::vector<Frame> frames;
   while (frames.size() < kFewest ||

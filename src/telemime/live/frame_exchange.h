@@ -17,20 +17,20 @@ struct LiveSlot {
 };
 
 /// Passes frames from the image thread to the search thread, one at a time: features of one frame are
-/// extracted while another is searched, and no frame waits for longer than the work in hand.
+/// extracted while another one is searched, and no frame waits longer than for the work in progress.
 class FrameExchange {
  public:
-  /// Image thread: a slot to fill, as soon as the one before was taken and, until a person is calibrated, the
-  /// search is done (it has a say in which colours are learned). Null when both threads are to stop.
+  /// Image thread: a slot to fill, as soon as the previous one was taken and, until a person is calibrated,
+  /// the search is done (it decides which colours are learned). Null if both threads must stop.
   LiveSlot* free_slot();
   /// Image thread: the slot of the last free_slot() is filled.
   void publish();
-  /// Image thread: waits until the search is idle. False when both threads are to stop.
+  /// Image thread: waits until the search is idle. False if both threads must stop.
   bool wait_for_search();
 
-  /// Search thread: the next filled slot; null when both threads are to stop.
+  /// Search thread: the next filled slot; null if both threads must stop.
   LiveSlot* take();
-  /// Search thread: the slot of the last take() is done with.
+  /// Search thread: the slot of the last take() is free again.
   void done(bool calibrated);
 
   /// Whether a person is calibrated, as of the last done() or set_calibrated().
@@ -46,12 +46,12 @@ class FrameExchange {
 
  private:
   std::array<LiveSlot, 2> slots_;
-  std::size_t free_ = 0;  ///< index; used by the image thread alone
+  std::size_t free_ = 0;  ///< index; used only by the image thread
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::condition_variable changed_;
   LiveSlot* ready_ = nullptr;  ///< filled, and not yet taken
-  bool busy_ = false;          ///< the search is at work
+  bool busy_ = false;          ///< a search is in progress
   bool calibrated_ = false;
   bool finish_ = false;
   bool stop_ = false;

@@ -57,10 +57,10 @@ class SenderStateReporter {
 /// The processor time that this process has used, all threads together, s.
 double processor_seconds();
 
-/// Cores in use, of readings taken now and then; the last second counts most.
+/// Cores in use, from occasional readings; the last second counts most.
 class CoresInUse {
  public:
-  /// `now`: of any clock that never goes back, s; `used`: processor_seconds() at that time.
+  /// `now`: s of any monotonic clock; `used`: processor_seconds() at that time.
   CoresInUse(double now, double used) : time_(now), used_(used) {}
   void read(double now, double used) {
     if (now > time_) {

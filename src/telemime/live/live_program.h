@@ -16,49 +16,49 @@
 
 namespace telemime {
 
-/// What `telemime live` is asked to do.
+/// The request of `telemime live`.
 struct LiveRequest {
   TrackRequest request;
-  bool ends = false;              ///< the input has an end, which is no failure: a file, also one on a server
+  bool ends = false;              ///< the end of the input is not a failure: a file, also on a server
   bool guided = true;             ///< wait for the empty room
-  double page_wait = 60.0;        ///< s without a page to ask for it, until the start goes on without
+  double page_wait = 60.0;        ///< s without an open page, after which tracking starts without the guide
   WebServerOptions web;           ///< where the page is served
   std::filesystem::path avatars;  ///< folder of the page's avatars; empty: none
   SenderKinds sender_kinds = telemime::sender_kinds();
   std::vector<std::string> send;   ///< URLs of senders
-  std::filesystem::path settings;  ///< file of what is kept for later runs; empty: nothing is
-  bool resume_outputs = false;     ///< send to the outputs kept by earlier runs at once
+  std::filesystem::path settings;  ///< file of the settings for later runs; empty: nothing is saved
+  bool resume_outputs = false;     ///< turn on the outputs of earlier runs at once
   std::filesystem::path recordings = "telemime-recordings";
   std::string version;
 };
 
-/// Why a run has ended that nobody asked to end.
+/// Why a run has ended by itself.
 struct LiveFailure {
-  bool input = false;  ///< the input cannot be read any more; else something inside failed
+  bool input = false;  ///< the input cannot be read any more; otherwise an internal failure
   std::string words;
 };
 
-/// How a live run is doing, for the console.
+/// State of a live run, for the console.
 struct LiveReport {
   LiveState state;
   std::optional<LatencyRecord::Summary>
-      latency;       ///< from the camera to the avatar drawn, as pages measured; ms
-  double cpu = 0.0;  ///< cores that this process used since it began
+      latency;       ///< from the camera to the drawn avatar, as measured by pages; ms
+  double cpu = 0.0;  ///< cores used by this process since its start
   std::vector<SenderStatus> outputs;
-  std::optional<LiveFailure> failure;  ///< never at the end of an input that has one
-  std::size_t pages = 0;               ///< that are open
-  std::int64_t poses = 0;              ///< messages made for pages; none are when nobody gets them
+  std::optional<LiveFailure> failure;  ///< never at the normal end of an input
+  std::size_t pages = 0;               ///< open pages
+  std::int64_t poses = 0;              ///< messages made for pages; only while a page gets them
   std::int64_t pictures = 0;           ///< the same
 };
 
-/// A live run with everything around it: the page, senders, recordings. It runs in threads of its own from
-/// the constructor to the destructor.
+/// A live run with the page, senders and recordings. It runs in its own threads from the constructor to the
+/// destructor.
 class LiveProgram {
  public:
   using Message = std::function<void(MessageLevel, const std::string&)>;
 
-  /// `message`: words for the console, from any thread. Throws Error for settings, senders' URLs, a port that
-  /// is taken.
+  /// `message`: text for the console, from any thread. Throws Error for invalid settings or URLs of senders
+  /// and for a port that is taken.
   LiveProgram(const LiveRequest& options, std::unique_ptr<Source> source, Message message);
   LiveProgram(const LiveProgram&) = delete;
   LiveProgram& operator=(const LiveProgram&) = delete;
@@ -72,7 +72,7 @@ class LiveProgram {
   std::unique_ptr<State> state_;
 };
 
-/// Where a browser on this computer finds the page that is served so, at that port.
+/// The URL of the page for a browser on this computer.
 std::string page_url(const WebServerOptions& web, std::uint16_t port);
 
 }  // namespace telemime

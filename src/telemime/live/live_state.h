@@ -12,22 +12,22 @@ namespace telemime {
 /// than they could be, `error` that something requested does not work.
 enum class MessageLevel { info, warning, error };
 
-/// Where a live run stands.
+/// The phase of a live run.
 enum class LivePhase {
-  opening,     ///< the camera or the tracker is being made ready; no picture was looked at yet
-  empty_room,  ///< waits for the user to step out of the picture
+  opening,     ///< the camera or the tracker is starting; no image was processed yet
+  empty_room,  ///< waits for the user to leave the image
   background,  ///< learns the scene
   person,      ///< waits for a person who can be calibrated
   tracking,
   lost,
-  stopped,  ///< the camera delivers no images now
+  stopped,  ///< the camera delivers no images at the moment
   ended,    ///< there will be no more frames
 };
 
-/// As long as there is no session yet: `opening`.
+/// `opening` before there is a session.
 struct LiveState {
   LivePhase phase = LivePhase::opening;
-  std::string words;  ///< for the user: why nobody is tracked, what is waited for; may be empty
+  std::string words;  ///< for the user: why nobody is tracked or what the run is waiting for; may be empty
   LiveRates rates;
   /// In the phase `background`: the user said that the room is empty. Otherwise the background is learned
   /// around the person.

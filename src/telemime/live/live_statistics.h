@@ -9,14 +9,14 @@
 
 namespace telemime {
 
-/// When one live frame passed which station; seconds of one clock.
+/// When a live frame passed each stage; seconds of one clock.
 struct FrameTimes {
   std::int64_t index = 0;  ///< of the input
   double taken = 0.0;      ///< by the camera; a usable_stamp
-  double begun = 0.0;      ///< its features
+  double begun = 0.0;      ///< extraction of its features began
   double seen = 0.0;       ///< features done
   double searched = 0.0;   ///< search begun
-  double decided = 0.0;    ///< pose known and handed out
+  double decided = 0.0;    ///< pose estimated and passed on
 };
 
 /// Medians over the last frames, ms.
@@ -24,26 +24,27 @@ struct StageTimes {
   double wait = 0.0;      ///< from the camera to the features
   double features = 0.0;  ///< the image side
   double queue = 0.0;     ///< from there to the search
-  double search = 0.0;    ///< search, smoothing, handing out
+  double search = 0.0;    ///< search, smoothing and passing on
   double total = 0.0;     ///< from the camera to the pose
   double total_p95 = 0.0;
 };
 
 struct LiveRates {
-  double input = 0.0;    ///< frames a second that the camera gave
-  double tracked = 0.0;  ///< frames a second that were tracked
+  double input = 0.0;    ///< frames per second that the camera delivered
+  double tracked = 0.0;  ///< frames per second that were tracked
   std::int64_t frames = 0;
-  std::int64_t dropped = 0;  ///< frames of the camera that were never looked at
+  std::int64_t dropped = 0;  ///< frames of the camera that were never processed
   StageTimes ms;
 };
 
-/// Frame::taken as statistics and pages can use it. Sources may give odd stamps: none, of another clock, in
-/// the future, backward. `taken` where it lies in the ten seconds before `now`, else `now`; but never before
-/// `last`, that of the frame before. All in seconds of one clock that never goes back; last <= now.
+/// Frame::taken in a form that statistics and pages can use. Sources may give no time stamps, or stamps of
+/// another clock, in the future or going backward. Returns `taken` if it lies in the ten seconds before
+/// `now`, otherwise `now`, but never less than `last`, the stamp of the previous frame. All in seconds of one
+/// monotonic clock; last <= now.
 double usable_stamp(double taken, double last, double now);
 
-/// Rates and times over the last 100 frames, and never over an interruption of the camera (no picture for
-/// 2 s). Not for several threads.
+/// Rates and times over the last 100 frames, but never across an interruption of the camera (no image for 2
+/// s). Not thread-safe.
 class LiveStatistics {
  public:
   void add(const FrameTimes& times);
@@ -66,14 +67,14 @@ class LatencyRecord {
   };
   /// Values that no page can have measured (negative, above 10 s, not a number) are not counted.
   void add(double ms);
-  /// Nothing before the first one.
+  /// Nothing before the first value.
   std::optional<Summary> summary() const;
 
  private:
   std::deque<double> last_;
 };
 
-/// The value below which the share `q` (0 to 1) of the values lies; 0 of none.
+/// The quantile `q` (0 to 1) of the values; 0 if there are none.
 double quantile_of(std::vector<double> values, double q);
 
 }  // namespace telemime

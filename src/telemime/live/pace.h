@@ -4,14 +4,14 @@
 namespace telemime {
 
 /// How much of the configured search a live run can afford, so that it keeps up with the camera and leaves
-/// time for what shows the result. Fed with times; deterministic in them.
+/// time to show the result. A deterministic function of the times that it is given.
 class Pace {
  public:
-  /// Share of the configuration's evaluations for the next frame: 1 where there is time, never under 0.25.
+  /// Share of the configured evaluations for the next frame: 1 if there is time, at least 0.25.
   double effort() const { return effort_; }
 
-  /// A frame was searched with effort(): `search_ms` is what that took, `interval_ms` the time since the
-  /// camera's frame before (both above 0; else nothing is learned).
+  /// Reports a frame that was searched with effort(): `search_ms` is the time that it took, `interval_ms` the
+  /// time since the camera's previous frame (both above 0; otherwise ignored).
   void searched(double search_ms, double interval_ms);
 
  private:

@@ -29,7 +29,7 @@ struct Recording {
   std::vector<RecordedFile> files;  ///< of a finished recording
 };
 
-/// Two hours at 30 frames a second.
+/// Two hours at 30 frames per second.
 inline constexpr std::int64_t kMostRecordedFrames = 216'000;
 
 /// Records live motion in every format at a constant rate (resampler.h), one folder per recording. After a

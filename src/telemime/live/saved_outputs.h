@@ -13,8 +13,8 @@
 namespace telemime {
 
 /// Saves the outputs that the user adds on the page in a file (live_settings.h), for later runs. A saved
-/// output is listed but off until the user switches it on. Entries that another program writes into the file
-/// are preserved, except those that forget() removes.
+/// output is listed but off until the user turns it on. Entries that another program writes into the file are
+/// preserved, except those that forget() removes.
 class SavedOutputs {
  public:
   using Report = std::function<void(MessageLevel, const std::string&)>;

@@ -38,7 +38,7 @@ struct GoldenOutput {
   std::array<double, 5> samples;
 };
 constexpr GoldenOutput kGolden[] = {
-#include "telemime/nets/models/golden.inc"
+#include "telemime/nets/models/testing_golden.inc"
 };
 
 // A bright ellipse on a dark ground with a little texture.
