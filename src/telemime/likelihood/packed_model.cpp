@@ -90,6 +90,7 @@ void pack_segment(const BodyMesh& mesh, std::size_t s, std::uint32_t begin, Pack
 }  // namespace
 
 void pack(const Body& body, const BodyMesh& mesh, PackedModel& out) {
+  out.content = std::make_shared<char>();
   out.skeleton = packed_skeleton(body);
   std::array<std::uint32_t, kSegmentCount> begin{};
   std::uint32_t size = 0;

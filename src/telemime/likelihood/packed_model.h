@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "telemime/body/body.h"
@@ -50,8 +51,9 @@ struct PackedModel {
 
   PackedSkeleton skeleton;
   std::array<PackedSegment, kSegmentCount> segments{};
-  std::vector<float> x, y, z;          ///< vertices, m, segment's frame
-  std::vector<std::uint32_t> surface;  ///< by lane: the strip's class << kClassShift, and marks
+  std::vector<float> x, y, z;           ///< vertices, m, segment's frame
+  std::vector<std::uint32_t> surface;   ///< by lane: the strip's class << kClassShift, and marks
+  std::shared_ptr<const void> content;  ///< another one after each pack()
 };
 
 /// Packs a mesh made by make_mesh() into `out`, whose memory is reused. Throws Error(usage) for a segment of

@@ -21,6 +21,7 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
     out.labels.assign(grid.pixels(), TiledPlanes::kUnknown);
     out.distance.assign(grid.pixels() + 1, 0.0F);
   }
+  out.content = std::make_shared<char>();
   std::array<std::uint8_t, 256> code{};
   code.fill(TiledPlanes::kUnknown);
   for (std::uint8_t c = 0; c <= kSurfaceClassCount; ++c) {

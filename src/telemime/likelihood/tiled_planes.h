@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -39,8 +40,9 @@ struct TiledPlanes {
   static constexpr std::uint8_t kUnknown = 0x80;
 
   TileGrid grid;
-  std::vector<std::uint8_t> labels;  ///< codes; kUnknown outside the image
-  std::vector<float> distance;       ///< px; 0 outside the image; one more number at the end
+  std::vector<std::uint8_t> labels;     ///< codes; kUnknown outside the image
+  std::vector<float> distance;          ///< px; 0 outside the image; one more number at the end
+  std::shared_ptr<const void> content;  ///< another one after each tile(); copies share it
 };
 
 /// Copies labels (h x w, CV_8UC1) and distance map (h x w, CV_32FC1) into tiles. The memory of `out` is

@@ -18,6 +18,7 @@
 #include "telemime/likelihood/simd/contour-inl.h"
 #include "telemime/likelihood/simd/count-inl.h"
 #include "telemime/likelihood/simd/place-inl.h"
+#include "telemime/likelihood/simd/still-inl.h"
 #include "telemime/likelihood/simd/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,19 +28,28 @@ namespace telemime::simd::HWY_NAMESPACE {
 inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
   const bool contour = wants(batch.terms, Reduction::contour);
   const SimdStage last = batch.last_stage;
+  if (last == SimdStage::count) {
+    keep_still(batch, lane, ws);
+  }
+  Memory& memory = ws.memory;
+  const auto moves = [&memory](std::size_t s) { return (memory.still >> s & 1U) == 0; };
   // Project all segments first: a vector load that overlaps a recent store at another address would have to
   // wait.
-  Projection projections[kSegmentCount];
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
-    projections[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
+    if (moves(s)) {
+      memory.projection[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
+    }
   }
   // Set up, draw and sample each segment.
   ws.samples = 0;
   for (std::size_t s = 0; s < kSegmentCount && last >= SimdStage::set_up; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
-    const Facing facing = set_up_quads(batch, segment, projections[s], ws);
-    if (last >= SimdStage::draw) {
-      draw_quads(batch, segment, facing, ws);
+    Facing& facing = memory.facing[s];
+    if (moves(s)) {
+      facing = set_up_quads(batch, segment, memory.projection[s], ws);
+      if (last >= SimdStage::draw) {
+        draw_quads(batch, segment, facing, ws);
+      }
     }
     if (contour && last >= SimdStage::sample) {
       sample_contour(segment, facing, ws);
@@ -53,9 +63,11 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
     return;
   }
   if (wants(batch.terms, Reduction::overlap)) {
-    count_and_clear<true>(batch.frame, projections, ws, r);
+    memory.still != 0 ? count_and_clear<true, true>(batch.frame, ws, r)
+                      : count_and_clear<true, false>(batch.frame, ws, r);
   } else {
-    count_and_clear<false>(batch.frame, projections, ws, r);
+    memory.still != 0 ? count_and_clear<false, true>(batch.frame, ws, r)
+                      : count_and_clear<false, false>(batch.frame, ws, r);
   }
 }
 
@@ -97,9 +109,12 @@ void Workspace::fit(const TileGrid& grid) {
     return;
   }
   pixels = 0;
+  memory = {};
   depth = allocated<std::uint32_t>(grid.pixels() + 1);
+  still_depth = allocated<std::uint32_t>(grid.pixels());
   pixels = grid.pixels();
   std::fill_n(depth.get(), pixels, 0);
+  std::fill_n(still_depth.get(), pixels, 0);
   depth[pixels] = std::bit_cast<std::uint32_t>(1e30F);
 }
 

@@ -4,6 +4,7 @@
 #include <hwy/aligned_allocator.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ namespace telemime::simd {
 /// Camera parameters of the kernel, px.
 struct Pinhole {
   float fx = 0.0F, fy = 0.0F, cx = 0.0F, cy = 0.0F;
+  bool operator==(const Pinhole&) const = default;
 };
 
 /// Inputs that are the same for all poses of a batch.
@@ -28,6 +30,45 @@ struct Batch {
   Pinhole camera;
   Reduction terms = Reduction::all;
   SimdStage last_stage = SimdStage::count;
+};
+
+using LaneSet = PackedSegment::LaneSet;
+
+/// Tiles from (left, top) to (right, bottom), inclusive.
+struct TileRect {
+  std::int32_t left, top, right, bottom;
+};
+
+/// A segment in the image. Coordinates of vertices are in tiles: pixels over 4.
+struct Projection {
+  TileRect tiles;  ///< tiles that it may touch: none, or at least 3 x 3
+  bool behind;     ///< whether some vertices are not in front of the camera
+};
+
+/// Which triangles of a segment are drawn (in front of the camera) and which of them face it: the first and
+/// the second of each lane's quadrilateral.
+struct Facing {
+  LaneSet front[2] = {};
+  LaneSet known[2] = {};
+  LaneSet drawn = {};   ///< quadrilaterals that are visible in the image
+  LaneSet folded = {};  ///< those whose triangles lie in two planes
+  LaneSet small = {};   ///< those of at most 2 x 2 tiles
+  LaneSet narrow = {};  ///< those of `small` with one column
+  LaneSet medium = {};  ///< those of at most 3 x 3 tiles that are not in `small`
+};
+
+/// Segments by bit.
+using SegmentSet = std::uint32_t;
+
+/// What the poses before have left: segments that stay where they were are not drawn again.
+struct Memory {
+  std::shared_ptr<const void> model, frame;  ///< the contents that the rest is of
+  Pinhole camera;
+  float placed[kSegmentCount][12] = {};  ///< transforms of the pose before
+  Projection projection[kSegmentCount] = {};
+  Facing facing[kSegmentCount];
+  SegmentSet still = 0;  ///< segments that are drawn in both planes of depths and counted here
+  Reductions counts;     ///< of these
 };
 
 /// Working memory of one thread, aligned for vectors. It grows with the image and with the size of the person
@@ -50,6 +91,8 @@ struct Workspace {
   /// Tiles: bits of 1/z with the class in the lowest five; 0: nothing. An additional last pixel is nearer
   /// than everything: it represents those outside the image.
   hwy::AlignedFreeUniquePtr<std::uint32_t[]> depth;
+  hwy::AlignedFreeUniquePtr<std::uint32_t[]> still_depth;  ///< the same of the segments that stay
+  Memory memory;
   std::size_t pixels = 0;
 
   /// Contour points (px, 1/m), their pixels, and depth and distance of those pixels.

@@ -197,6 +197,39 @@ TEST_F(Simd, EvaluationsLeaveNoTrace) {
   }
 }
 
+// A search moves one arm at a time; what does not move is counted once.
+TEST_F(Simd, SegmentsThatStayCountAsOthersDo) {
+  const Model other = make_model(testing_poses::other_shape());
+  PreparedFrame frame = frame_;
+  const PreparedFrame frames[] = {frame_, make_frame(other, 160, 120), make_frame(model_, 64, 48)};
+  const std::vector<Pose> targets = random_poses(80, 11);
+  Random random(12);
+  Pose pose = targets.front();
+  for (const std::string& name : simd_instruction_sets()) {
+    const auto backend = make_simd_backend({1, name, SimdStage::count});
+    for (const Pose& target : targets) {
+      const std::size_t part = random.below(6);  // trunk, an arm, or none of them
+      for (std::size_t i = 0; i < kAngleCount; ++i) {
+        const auto a = static_cast<Angle>(i);
+        const bool left = kAngleNames[i].starts_with("l_");
+        const bool right = kAngleNames[i].starts_with("r_");
+        if (part == 0 || (left && part < 3) || (right && (part == 3 || part == 4))) {
+          pose[a] = target[a];
+        }
+      }
+      pose.root = part == 0 ? target.root : pose.root;
+      if (random.below(10) == 0) {
+        frame = frames[random.below(3)];
+      }
+      const Model& model = random.below(20) == 0 ? other : model_;
+      const auto terms = static_cast<Reduction>(1 + random.below(3));
+      const auto fresh = make_simd_backend({1, name, SimdStage::count});
+      expect_same(scores_of(*backend, frame, model, {&pose, 1}, terms),
+                  scores_of(*fresh, frame, model, {&pose, 1}, terms));
+    }
+  }
+}
+
 TEST_F(Simd, FirstPoseMayHaveNothingToShow) {
   Pose behind;
   behind.root.z() = -3.0;

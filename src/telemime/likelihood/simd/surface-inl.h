@@ -17,26 +17,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
-using LaneSet = PackedSegment::LaneSet;
-
-// Which triangles of a segment are drawn (in front of the camera) and which of them face it: the first and
-// the second of each lane's quadrilateral.
-struct Facing {
-  LaneSet front[2] = {};
-  LaneSet known[2] = {};
-  LaneSet drawn = {};   ///< quadrilaterals that are visible in the image
-  LaneSet folded = {};  ///< those whose triangles lie in two planes
-  LaneSet small = {};   ///< those of at most 2 x 2 tiles
-  LaneSet narrow = {};  ///< those of `small` with one column
-  LaneSet medium = {};  ///< those of at most 3 x 3 tiles that are not in `small`
-};
-
-// A segment in the image. Coordinates of vertices are in tiles: pixels over 4.
-struct Projection {
-  TileRect tiles;  ///< tiles that it may touch: none, or at least 3 x 3
-  bool behind;     ///< whether some vertices are not in front of the camera
-};
-
 HWY_INLINE float smallest_of(FloatVector v) {
   return hn::GetLane(hn::MinOfLanes(kFloat, v));
 }

@@ -31,11 +31,6 @@ constexpr std::size_t kTile = TileGrid::kPixels;
 // Number of vectors in a tile.
 constexpr std::size_t kParts = kTile / kN;
 
-// Tiles from (left, top) to (right, bottom), inclusive.
-struct TileRect {
-  std::int32_t left, top, right, bottom;
-};
-
 HWY_INLINE FloatVector number(float x) {
   return hn::Set(kFloat, x);
 }
