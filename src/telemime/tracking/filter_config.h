@@ -12,7 +12,7 @@ namespace telemime {
 /// reference_filter() gives the values of the thesis.
 struct FilterConfig {
   int particles = 2000;
-  std::string heuristics = "modes,wd,lo,landmarks,turn,kf";
+  std::string heuristics = "modes,wd,lo,landmarks,turn,kf,arms";
   std::string estimate = "heaviest";
   std::string model;
   double diffusion = 1.0;
@@ -35,7 +35,7 @@ struct FilterConfig {
   int flip_candidates = 2;
   int landmark_searches = 2;
   int landmark_evaluations = 70;
-  double landmark_share = 0.7;
+  double landmark_share = 0.5;
 };
 
 SettingTable settings_of(FilterConfig& config);

@@ -83,7 +83,7 @@ TEST(FilterConfig, UnknownWordsAreNamed) {
   expect_taken(&FilterConfig::estimate, {std::string("mean")});
   expect_refused(&FilterConfig::heuristics, "'annealing'", {std::string("wd,annealing")});
   // The choices.
-  expect_refused(&FilterConfig::heuristics, "modes, wd, hpm, ee, lo, landmarks, turn, kf",
+  expect_refused(&FilterConfig::heuristics, "modes, wd, hpm, ee, lo, landmarks, turn, kf, arms",
                  {std::string("wd,annealing")});
 }
 

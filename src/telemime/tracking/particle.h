@@ -11,7 +11,7 @@
 namespace telemime {
 
 /// How a particle was made.
-enum class Origin : std::uint8_t { start, kept, diffused, optimised, flipped, elsewhere };
+enum class Origin : std::uint8_t { start, kept, diffused, optimised, flipped, exchanged, elsewhere };
 
 /// One hypothesis of the pose.
 struct Particle {

@@ -6,9 +6,8 @@
 #include <limits>
 
 #include "telemime/body/arm_flips.h"
-#include "telemime/body/arm_ik.h"
 #include "telemime/core/errors.h"
-#include "telemime/search/blocks.h"
+#include "telemime/search/arm_exchange.h"
 #include "telemime/search/two_step.h"
 
 namespace telemime {
@@ -20,44 +19,6 @@ ObjectiveWeights still_weights(const TrajectoryContext& context) {
   weights.temporal = 0.0;
   weights.trunk = 0.0;
   return weights;
-}
-
-// Pose `pose` with one arm of `from`: its wrist and elbow keep their positions.
-Pose with_arm_of(const TrajectoryContext& context, const Pose& pose, const Pose& from, Side side) {
-  const Body& body = context.model.body;
-  Pose to = with_wrist(body, pose, side, arm_target(body, from, side), context.limits);
-  for (const Angle angle : hand_angles(side)) {
-    to[angle] = from[angle];
-  }
-  return to;
-}
-
-// Positions of elbow and wrist of one arm, m.
-Eigen::Matrix<double, 3, 2> arm_places(const Body& body, const Pose& pose, Side side) {
-  const JointPositions j = forward_kinematics(body, pose).joints;
-  const bool left = side == Side::left;
-  Eigen::Matrix<double, 3, 2> places;
-  places << j[left ? Joint::l_elbow : Joint::r_elbow], j[left ? Joint::l_wrist : Joint::r_wrist];
-  return places;
-}
-
-// The first `most` poses whose arm on that side differs from those before them.
-std::vector<Pose> distinct_arms(const Body& body, const std::vector<Pose>& poses, Side side,
-                                std::size_t most) {
-  constexpr double kSame = 0.03;  // m
-  std::vector<Pose> kept;
-  std::vector<Eigen::Matrix<double, 3, 2>> places;
-  for (const Pose& pose : poses) {
-    const auto here = arm_places(body, pose, side);
-    const bool known = std::any_of(places.begin(), places.end(), [&](const auto& there) {
-      return (here - there).colwise().norm().maxCoeff() < kSame;
-    });
-    if (!known && kept.size() < most) {
-      kept.push_back(pose);
-      places.push_back(here);
-    }
-  }
-  return kept;
 }
 
 std::vector<ScoredPose> scored(const TrajectoryContext& context, const TrajectoryFrame& frame,
@@ -88,7 +49,7 @@ std::vector<Pose> poses_of(const std::vector<ScoredPose>& scored) {
 SettingTable settings_of(TrajectoryConfig& c) {
   return {
       {number("trajectory.stretch", &c.stretch, {1, 10000}, "frames",
-              "Frames that are decided together with --offline."),
+              "Frames that are decided together (offline)."),
        number("trajectory.overlap", &c.overlap, {0, 1000}, "frames",
               "Frames after these that are taken into account."),
        number("trajectory.arms", &c.arms, {1, 100}, "",
@@ -129,7 +90,7 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const Trajecto
   for (const Pose& trunk : trunks) {
     for (const Pose& l : left) {
       for (const Pose& r : right) {
-        all.push_back(with_arm_of(context, with_arm_of(context, trunk, l, Side::left), r, Side::right));
+        all.push_back(with_arms_of(body, trunk, l, r, context.limits));
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "telemime/core/errors.h"
+#include "telemime/tracking/heuristics/arm_exchange.h"
 #include "telemime/tracking/heuristics/end_effector.h"
 #include "telemime/tracking/heuristics/heading_search.h"
 #include "telemime/tracking/heuristics/kinematic_flipping.h"
@@ -33,6 +34,8 @@ const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
      Kind::candidates, search_heading},
     {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::flip_candidates,
      Kind::candidates, flip_best},
+    {"arms", "the best left and right arms of all particles on one trunk", "Deutscher & Reid 2005",
+     Stage::flip_candidates, Kind::candidates, exchange_best_arms},
 }};
 
 std::string heuristic_names() {

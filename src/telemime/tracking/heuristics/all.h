@@ -10,7 +10,7 @@
 namespace telemime {
 
 /// All heuristics, one line each.
-inline constexpr std::size_t kHeuristicCount = 8;
+inline constexpr std::size_t kHeuristicCount = 9;
 extern const std::array<Heuristic, kHeuristicCount> kHeuristics;
 
 /// "wd, hpm, ...".
