@@ -29,7 +29,7 @@ FrameEstimate follow_back(const Tracker& tracker, const TrackerState& state, con
   motion.region_score = found.score.region();
   motion.contour_score = found.score.contour();
   motion.evaluations += found.evaluations;
-  motion.spread = spread_of_filter(tracker, state, filter, found);
+  motion.spread = spread_of_filter(tracker, state, *record.estimate.prepared, filter, found);
   place_joints(state.model.body, tracker.camera, motion);
   if (tracker.config.look_back) {
     result.heading = found.heading;

@@ -80,7 +80,7 @@ Score follow_with_filter(const Tracker& tracker, double effort, TrackerState& st
                                                    .time_step = state.steps},
                                                   state.filter);
   result.motion.evaluations += found.evaluations;
-  result.motion.spread = spread_of_filter(tracker, state, state.filter, found);
+  result.motion.spread = spread_of_filter(tracker, state, *result.prepared, state.filter, found);
   state.heading = found.heading;
   state.previous = std::exchange(state.pose, found.pose);
   return found.score;
@@ -208,14 +208,15 @@ void place_joints(const Body& body, const Camera& camera, MotionFrame& motion) {
   }
 }
 
-PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, const FilterState& filter,
-                            const FilterResult& found) {
+PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, const PreparedFrame& frame,
+                            const FilterState& filter, const FilterResult& found) {
   const SpreadModel& model = tracker.filter->numbers().spread;
   const bool height_given = state.person && state.person->height_given;
   return spread_of({.body = state.model.body,
                     .camera = tracker.working_camera,
                     .region = found.score.region(),
-                    .size = height_given ? model.size_given : model.size},
+                    .size = height_given ? model.size_given : model.size,
+                    .landmarks = frame.landmarks.has_value()},
                    filter.particles, found.pose, model);
 }
 

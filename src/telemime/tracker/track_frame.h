@@ -61,8 +61,8 @@ double steps_between(double before, double now);
 /// Sets joints and pixels of a frame from its pose.
 void place_joints(const Body& body, const Camera& camera, MotionFrame& motion);
 
-/// Covariances of the joints about the estimate of a filter that follows `state.person`.
-PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, const FilterState& filter,
-                            const FilterResult& found);
+/// Covariances of the joints about the estimate of a filter that follows `state.person`, in this frame.
+PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, const PreparedFrame& frame,
+                            const FilterState& filter, const FilterResult& found);
 
 }  // namespace telemime

@@ -28,9 +28,10 @@ std::vector<Mode> find_modes(const Body& body, std::span<const Particle> particl
 /// What the spread of a pose depends on besides the particles.
 struct SpreadContext {
   const Body& body;
-  const Camera& camera;  ///< of the working image
-  double region = 0.0;   ///< F of the estimate
-  double size = 0.0;     ///< standard deviation of the person's size, as a share of it
+  const Camera& camera;    ///< of the working image
+  double region = 0.0;     ///< F of the estimate
+  double size = 0.0;       ///< standard deviation of the person's size, as a share of it
+  bool landmarks = false;  ///< whether the frame has landmarks, which hold the pose where regions do not fit
 };
 
 /// Covariance of each joint about the estimate, relative to the middle of the shoulders: that of the

@@ -261,8 +261,12 @@ TEST(ModelCovariance, OfAPoorFitIsWiderBySquares) {
   const auto poor = model_covariance({.body = body(), .camera = camera(), .region = 2.0 * numbers().residual},
                                      both_arms_seen(), numbers());
   const auto better = model_covariance({.body = body(), .camera = camera()}, both_arms_seen(), numbers());
+  const auto held = model_covariance(
+      {.body = body(), .camera = camera(), .region = 2.0 * numbers().residual, .landmarks = true},
+      both_arms_seen(), numbers());
   for (std::size_t j = 0; j < kJointCount; ++j) {
     EXPECT_LT((poor[j] - 16.0 * good[j]).norm(), 1e-12) << kJointNames[j];
+    EXPECT_LT((held[j] - 2.0 * good[j]).norm(), 1e-12) << kJointNames[j];
     EXPECT_LT((better[j] - good[j]).norm(), 1e-12) << kJointNames[j];
   }
 }
