@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/smoother.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -13,6 +14,45 @@ namespace telemime {
 namespace {
 
 constexpr double kLongestGap = 1.0;  // s
+
+/// How much larger the variance of each measured rotation is than that of a joint that is clearly seen.
+struct NoiseRatios {
+  std::array<double, 6> rotation{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  ///< in the order of JointRotations
+  std::array<double, 2> elbow{1.0, 1.0};
+};
+
+/// A rotation is as uncertain as the joint at the end of its bone. The deviations are upper ends of those of
+/// arms that are seen, on synthetic people.
+NoiseRatios noise_of(const MotionFrame& frame) {
+  constexpr double kElbow = 0.07;  // m
+  constexpr double kWrist = 0.12;
+  constexpr double kHand = 0.14;
+  NoiseRatios noise;
+  if (!frame.spread) {
+    return noise;
+  }
+  const auto ratio = [&](Joint joint, double seen) {
+    const double variance = frame.spread->covariance[static_cast<std::size_t>(joint)].trace();
+    return std::max(1.0, variance / (seen * seen));
+  };
+  noise.rotation[2] = ratio(Joint::l_elbow, kElbow);
+  noise.rotation[3] = ratio(Joint::r_elbow, kElbow);
+  noise.rotation[4] = ratio(Joint::l_hand, kHand);
+  noise.rotation[5] = ratio(Joint::r_hand, kHand);
+  noise.elbow = {ratio(Joint::l_wrist, kWrist), ratio(Joint::r_wrist, kWrist)};
+  return noise;
+}
+
+/// The share of the present for a measurement with `ratio` times the variance: what the gain of a Kalman
+/// filter of a random walk becomes in its steady state, where gain^2 / (1 - gain) is the variance of the
+/// motion over that of the measurement.
+double with_noise(double share, double ratio) {
+  if (ratio == 1.0 || share >= 1.0) {
+    return share;
+  }
+  const double q = share * share / (1.0 - share) / ratio;
+  return 0.5 * (std::sqrt(q * q + 4.0 * q) - q);
+}
 
 class NoSmoother final : public Smoother {
  public:
@@ -32,7 +72,7 @@ class RotationSmoother : public Smoother {
     const JointRotations measured = rotations_of(frame.pose);
     const double step = last_time_ ? frame.time - *last_time_ : 0.0;
     if (step > 0.0 && step <= kLongestGap) {
-      update(measured, step);
+      update(measured, noise_of(frame), step);
     } else {
       start(measured);
     }
@@ -44,7 +84,7 @@ class RotationSmoother : public Smoother {
   /// First frame after a start or a loss: smooth_ becomes `measured`.
   virtual void start(const JointRotations& measured) = 0;
   /// Moves smooth_ toward `measured`, `step` seconds after the last.
-  virtual void update(const JointRotations& measured, double step) = 0;
+  virtual void update(const JointRotations& measured, const NoiseRatios& noise, double step) = 0;
 
   JointRotations smooth_;
 
@@ -63,7 +103,7 @@ class RecursiveSmoother final : public RotationSmoother {
  private:
   void start(const JointRotations& measured) override { smooth_ = measured; }
 
-  void update(const JointRotations& measured, double /*step*/) override {
+  void update(const JointRotations& measured, const NoiseRatios& /*noise*/, double /*step*/) override {
     smooth_.root += present_ * (measured.root - smooth_.root);
     for (std::size_t j = 0; j < smooth_.rotation.size(); ++j) {
       smooth_.rotation[j] = smooth_.rotation[j].slerp(present_, measured.rotation[j]).normalized();
@@ -120,18 +160,21 @@ class OneEuroSmoother final : public RotationSmoother {
     }
   }
 
-  void update(const JointRotations& measured, double step) override {
+  void update(const JointRotations& measured, const NoiseRatios& noise, double step) override {
     const double root_share = root_speed_(measured.root - last_.root, step, root_);
     smooth_.root += root_share * (measured.root - smooth_.root);
     for (std::size_t j = 0; j < smooth_.rotation.size(); ++j) {
       const double present =
           rotation_speed_[j](turn_between(last_.rotation[j], measured.rotation[j]), step, angles_);
-      smooth_.rotation[j] = smooth_.rotation[j].slerp(present, measured.rotation[j]).normalized();
+      smooth_.rotation[j] = smooth_.rotation[j]
+                                .slerp(with_noise(present, noise.rotation[j]), measured.rotation[j])
+                                .normalized();
     }
     for (std::size_t side = 0; side < 2; ++side) {
       const double change = wrap_angle(measured.elbow[side] - last_.elbow[side]);
       const double present = elbow_speed_[side]({change, 0.0, 0.0}, step, angles_);
-      smooth_.elbow[side] += present * wrap_angle(measured.elbow[side] - smooth_.elbow[side]);
+      smooth_.elbow[side] +=
+          with_noise(present, noise.elbow[side]) * wrap_angle(measured.elbow[side] - smooth_.elbow[side]);
     }
     last_ = measured;
   }

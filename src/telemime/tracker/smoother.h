@@ -29,7 +29,8 @@ struct SmoothingOptions {
 
 SettingTable settings_of(SmoothingOptions& options);
 
-/// Steadies a stream of frames. Rotations are smoothed, not angles, so that nothing happens where angles
+/// Steadies a stream of frames; the One-Euro filter steadies joints more whose spread says that they are
+/// hardly seen. Rotations are smoothed, not angles, so that nothing happens where angles
 /// jump; the joints follow by forward kinematics and the pixels by what the joints move in the image. A lost
 /// frame, or one that is not finite, passes unchanged and ends the memory; so does a time that does not
 /// advance or that advances more than a second. Smoothed angles may leave the joint limits by little.

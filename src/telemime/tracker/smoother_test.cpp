@@ -172,6 +172,33 @@ TEST(Smoother, OneEuroIsStillerAtRestAndSoonerInMotionThanRecursive) {
   RecordProperty("swing_error_one_euro_mrad", static_cast<int>(1e3 * error("one-euro")));
 }
 
+TEST(Smoother, AnUncertainArmIsSteadierTheOtherIsNot) {
+  const Rig rig;
+  Random random(8);
+  const auto seen = rig.frames(200, [&](int) { return noisy(standing(), random); });
+  auto hidden = seen;
+  for (MotionFrame& frame : hidden) {
+    frame.spread = PoseSpread{};
+    frame.spread->covariance.fill(1e-4 * Eigen::Matrix3d::Identity());
+    for (const Joint joint : {Joint::r_elbow, Joint::r_wrist, Joint::r_hand}) {
+      frame.spread->covariance[static_cast<std::size_t>(joint)] = 0.05 * Eigen::Matrix3d::Identity();
+    }
+  }
+  const auto a = rig.smoothed("one-euro", seen);
+  const auto b = rig.smoothed("one-euro", hidden);
+  // The right arm in the frame of the trunk, which is as certain as before.
+  const auto roughness = [](const std::vector<MotionFrame>& frames, Angle angle) {
+    double sum = 0.0;
+    for (std::size_t t = 51; t + 1 < frames.size(); ++t) {
+      sum += std::abs(frames[t + 1].pose[angle] - 2.0 * frames[t].pose[angle] + frames[t - 1].pose[angle]);
+    }
+    return sum;
+  };
+  EXPECT_LT(roughness(b, Angle::r_elbow_flexion), 0.5 * roughness(a, Angle::r_elbow_flexion));
+  EXPECT_LT(roughness(b, Angle::r_shoulder_flexion), 0.3 * roughness(a, Angle::r_shoulder_flexion));
+  EXPECT_EQ(roughness(b, Angle::l_elbow_flexion), roughness(a, Angle::l_elbow_flexion));
+}
+
 TEST(Smoother, AStepIsReachedWithoutOvershoot) {
   const Rig rig;
   const auto frames = rig.frames(100, [](int t) {
