@@ -27,7 +27,8 @@ void add_setting_options(CLI::App& command, TrackOptions& o) {
     const std::string option = "--" + s.name;
     if (std::holds_alternative<bool*>(s.variable)) {
       command.add_flag_function(
-          option, [&o, name = s.name](std::int64_t) { o.settings[name] = true; }, s.meaning);
+          option + ",!--no-" + s.name,
+          [&o, name = s.name](std::int64_t count) { o.settings[name] = count > 0; }, s.meaning);
       continue;
     }
     const Json value = value_of(s);

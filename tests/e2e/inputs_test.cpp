@@ -84,8 +84,7 @@ TEST(Program, RefusesSettingsByName) {
   EXPECT_TRUE(fails_with(with_config("{\"seed\": \"one\"}"), kExitConfig, {"seed"}));
   EXPECT_TRUE(fails_with(with_config("[]"), kExitConfig, {"object"}));
   const std::string a_folder = folder.path().string();
-  expect_refused(folder, {{{"--offline", "--method", "two-step"}, kExitUsage, {"offline", "heuristics"}},
-                          {{"--config", folder / "none.json"}, kExitConfig, {"none.json"}},
+  expect_refused(folder, {{{"--config", folder / "none.json"}, kExitConfig, {"none.json"}},
                           {{"--config", a_folder}, kExitConfig, {}},
                           {{"--limits", "elastic"}, kExitConfig, {"elastic"}},
                           {{"--limits", a_folder}, kExitConfig, {}},

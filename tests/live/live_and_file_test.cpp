@@ -59,6 +59,7 @@ TEST(LiveAndFile, PacedFileGivesPosesOfFileMode) {
   const ScratchFolder folder;
   TrackRequest request = demo();
   request.config.smoothing.name = "none";
+  request.config.look_back = false;
   request.out = folder.file("out");
   std::vector<MotionFrame> file;
   RunHooks hooks;
@@ -99,6 +100,7 @@ TEST(LiveAndFile, PacedFileGivesPosesOfFileMode) {
 TEST(LiveAndFile, FilesAreEqualWithSameSmoothing) {
   const ScratchFolder folder;
   TrackRequest request = demo();
+  request.config.look_back = false;
   request.out = folder.file("out");
   track_file(request, {});
   const PoseFile file = read_pose_jsonl(request.out / "pose.jsonl");

@@ -81,6 +81,7 @@ Config experiment_config(std::uint64_t seed) {
   config.image.width = 160;
   config.image.height = 120;
   config.cue_names = "regions,contours";  // what the thesis compares
+  config.look_back = false;
   return config;
 }
 

@@ -84,6 +84,7 @@ Measured run_once(const Lab& lab, const fs::path& clip, const Lever& lever, std:
   request.formats = {"jsonl"};
   request.overlay = false;
   request.config.seed = seed;
+  request.config.look_back = false;
   if (lab.options().quick) {
     constexpr int kFew = 12;
     request.most_frames = kFew;

@@ -26,7 +26,7 @@ struct Preset {
   std::array<double, 3> values;
 };
 constexpr std::array<Preset, 5> kPresets = {{
-    {"offline", {0, 0, 1}},
+    {"offline", {0, 1, 1}},
     {"image.width", {240, 320, 320}},
     {"image.height", {180, 240, 240}},
     {"particles", {800, 2000, 4000}},
@@ -122,7 +122,10 @@ SettingTable settings_of(Config& c) {
              "Horizontal field of view of the camera, when there is no camera file."),
       number("budget", &c.budget_ms, {1e-6, 1e5}, "ms",
              "Time for the search of a frame, in place of particles or iterations; null: no limit."),
-      flag("offline", c.look_back, "Track a file backward, too: slower, with a more accurate depth."),
+      flag("offline", c.look_back,
+           "Track a file backward, too, and decide about its frames together: steadier and more accurate. "
+           "Only "
+           "with the methods heuristics and condensation."),
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the particle filter; 0: one for each processor."),
       text("cues", c.cue_names, {},
@@ -140,8 +143,6 @@ SettingTable settings_of(Config& c) {
   std::stable_partition(table.rows.begin(), table.rows.end(),
                         [](const Setting& s) { return s.name.find('.') == std::string::npos; });
   table.rules.push_back(known_cues(c.cue_names));
-  table.rules.push_back(
-      {!c.look_back || uses_filter(c), "offline needs the method heuristics or condensation"});
   return table;
 }
 
@@ -168,6 +169,7 @@ Config resolved(Config config) {
   } else if (!uses_filter(config)) {
     config.registration.method = parse_method(config.tracking.method);
   }
+  config.look_back = config.look_back && uses_filter(config);
   const auto named = named_cues(config.cue_names);
   for (std::size_t i = 0; i < kCues.size(); ++i) {
     config.cues.enable(i, named[i] && config.cues[i].enabled);

@@ -47,7 +47,7 @@ struct Config {
   FilterConfig filter;
   TrackingConfig tracking;
   SmoothingOptions smoothing;
-  bool look_back = false;
+  bool look_back = true;
   TrajectoryConfig offline;
   std::string cue_names = "regions,contours,landmarks,bones";
   CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file

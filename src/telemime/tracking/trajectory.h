@@ -9,7 +9,7 @@
 
 namespace telemime {
 
-/// Settings of the joint search over many frames (`track --offline`); the table (settings_of) gives the
+/// Settings of the joint search over many frames (Config::look_back); the table (settings_of) gives the
 /// meaning, unit and range of each.
 struct TrajectoryConfig {
   int stretch = 100;
