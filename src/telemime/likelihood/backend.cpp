@@ -6,8 +6,8 @@
 namespace telemime {
 
 void Backend::evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-                       Reduction terms, std::span<Score> scores) {
-  if (poses.size() != scores.size()) {
+                       Reduction terms, std::span<Score> scores, std::span<const Kinematics> kinematics) {
+  if (poses.size() != scores.size() || (!kinematics.empty() && kinematics.size() != poses.size())) {
     throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
   }
   counts_.assign(poses.size(), {});
@@ -18,7 +18,10 @@ void Backend::evaluate(const PreparedFrame& frame, const Model& model, std::span
     if (wants(terms, Reduction::overlap)) {
       counts_[i].observed = frame.observed;
     }
-    const CueInput input{.frame = frame, .model = model, .reductions = counts_[i]};
+    const CueInput input{.frame = frame,
+                         .model = model,
+                         .reductions = counts_[i],
+                         .kinematics = kinematics.empty() ? nullptr : &kinematics[i]};
     scores[i] = {cue_costs(cues_, input, poses[i], terms), counts_[i]};
   }
 }

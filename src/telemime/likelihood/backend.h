@@ -36,10 +36,10 @@ class Backend {
   virtual std::string_view name() const = 0;
   const CueTable& cues() const { return cues_; }
 
-  /// scores[i] of poses[i], by all cues whose reductions `terms` contains. Throws Error(usage) when the sizes
-  /// differ.
+  /// scores[i] of poses[i], by all cues whose reductions `terms` contains. `kinematics` are those of the
+  /// poses, where the caller has them. Throws Error(usage) when the sizes differ.
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-                std::span<Score> scores);
+                std::span<Score> scores, std::span<const Kinematics> kinematics = {});
 
   /// Adds to counts[i], which come in as Reductions{}, what `terms` asks for of poses[i]. The sizes are
   /// equal. `observed` is left to evaluate().

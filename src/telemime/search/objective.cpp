@@ -198,13 +198,17 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
   for (std::size_t i = 0; i < cues().size(); ++i) {
     needs = weights.cues[i] > 0.0 && cues()[i].enabled ? needs | cues()[i].needs : needs;
   }
-  return add_cue_costs(cost, backend_, frame_, weights.cues, score(pose, needs));
+  return add_cue_costs(cost, backend_, frame_, weights.cues, scored(pose, needs, {&k, 1}));
 }
 
 Score Objective::score(const Pose& pose, Reduction terms) {
+  return scored(pose, terms, {});
+}
+
+Score Objective::scored(const Pose& pose, Reduction terms, std::span<const Kinematics> kinematics) {
   ++evaluations_;
   Score score;
-  backend_.evaluate(frame_, model_, {&pose, 1}, terms, {&score, 1});
+  backend_.evaluate(frame_, model_, {&pose, 1}, terms, {&score, 1}, kinematics);
   return score;
 }
 

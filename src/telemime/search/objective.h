@@ -107,6 +107,8 @@ class Objective {
   int evaluations() const { return evaluations_; }
 
  private:
+  Score scored(const Pose& pose, Reduction terms, std::span<const Kinematics> kinematics);
+
   Backend& backend_;
   const PreparedFrame& frame_;
   const Model& model_;

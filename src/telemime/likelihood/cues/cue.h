@@ -14,6 +14,8 @@ struct CueInput {
   const Model& model;
   const Reductions& reductions;            ///< those of Cue::needs are counted, the others are 0
   const Kinematics* kinematics = nullptr;  ///< of the pose; set if Cue::needs_kinematics is; else unspecified
+  /// The same of its landmarks, where the frame has some; m, camera frame.
+  const LandmarkPositions* landmarks = nullptr;
 };
 
 /// Unit of a cue's cost.

@@ -10,10 +10,10 @@ double landmark_cost(const CueInput& input) {
   if (!landmarks) {
     return 0.0;
   }
-  const LandmarkPositions points = landmark_positions(input.model.body, *input.kinematics);
   double sum = 0.0;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const double squared = landmark_error(landmarks->points[i], input.frame.camera, points[i]).squaredNorm();
+    const double squared =
+        landmark_error(landmarks->points[i], input.frame.camera, (*input.landmarks)[i]).squaredNorm();
     sum += robust_square(squared, kMostLandmark);
   }
   return std::sqrt(sum / (2.0 * kLandmarkCount));
@@ -24,7 +24,7 @@ double bone_cost(const CueInput& input) {
   if (!landmarks) {
     return 0.0;
   }
-  const auto bones = landmark_bones(landmark_positions(input.model.body, *input.kinematics));
+  const auto bones = landmark_bones(*input.landmarks);
   double sum = 0.0;
   for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
     const double error = bone_error(landmarks->bones[i], landmarks->ray, bones[i]);

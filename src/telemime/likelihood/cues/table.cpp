@@ -46,6 +46,7 @@ Reduction CueTable::needs() const {
 CueValues cue_costs(const CueTable& cues, CueInput input, const Pose& pose, Reduction counted) {
   CueValues costs = Score{}.costs;
   Kinematics kinematics;
+  LandmarkPositions landmarks;
   for (std::size_t i = 0; i < cues.size(); ++i) {
     if (!covers(counted, cues[i].needs)) {
       continue;
@@ -53,6 +54,10 @@ CueValues cue_costs(const CueTable& cues, CueInput input, const Pose& pose, Redu
     if (cues[i].needs_kinematics && input.kinematics == nullptr) {
       kinematics = forward_kinematics(input.model.body, pose);
       input.kinematics = &kinematics;
+    }
+    if (cues[i].needs_kinematics && input.landmarks == nullptr && input.frame.landmarks) {
+      landmarks = landmark_positions(input.model.body, *input.kinematics);
+      input.landmarks = &landmarks;
     }
     costs[i] = cues[i].cost(input);
   }
