@@ -125,18 +125,22 @@ test("a clip without a person is not in the mean", () => {
 
 test("times are compared within a round", () => {
   const text = timeTable([
-    { peer: 50, one: 25, all: 20 },
-    { peer: 100, one: 60, all: 40 },
-    { peer: 50, one: 30, all: 25 },
+    { peer: 50, one: 25, all: 20, networks: 10 },
+    { peer: 100, one: 60, all: 40, networks: 10 },
+    { peer: 50, one: 30, all: 25, networks: 15 },
   ]);
   assert.match(text, /\| peer \| 50 \| 1\.00 \|/);
   assert.match(text, /\| Telemime, one thread \| 30 \| 0\.60 \| 0\.50, 0\.60, 0\.60 \|/);
   assert.match(text, /\| Telemime, default threads \| 25 \| 0\.40 \| 0\.40, 0\.40, 0\.50 \|/);
+  assert.match(text, /\| its networks \| 10 \| 0\.20 \| 0\.20, 0\.10, 0\.30 \|/);
 });
 
 test("times are read from both files", () => {
-  const lines = [{ format: "telemime-pose" }, { ms: { features: 10, search: 20, regions: 5 } }];
-  assert.equal(telemimeTime(lines.map((line) => JSON.stringify(line)).join("\n")), 30);
+  const lines = [{ format: "telemime-pose" }, { ms: { features: 10, search: 20, regions: 5, networks: 7 } }];
+  const text = lines.map((line) => JSON.stringify(line)).join("\n");
+  assert.equal(telemimeTime(text), 30);
+  assert.equal(telemimeTime(text, ["networks"]), 7);
+  assert.equal(telemimeTime(text, ["skies"]), 0);
   assert.equal(peerTime({ frames: [{ ms: 40 }, { ms: 60 }] }), 50);
 });
 

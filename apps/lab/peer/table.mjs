@@ -55,18 +55,24 @@ export function errorTable(clips) {
   );
 }
 
-/** Median time of a frame in a pose.jsonl, ms: image features and search, which follow each other. */
-export function telemimeTime(text) {
+/** Median time of these stages of a frame in a pose.jsonl, ms: image features and search, which follow each other. */
+export function telemimeTime(text, stages = ["features", "search"]) {
   const frames = text.trim().split("\n").slice(1).map(JSON.parse);
-  return median(frames.map(({ ms }) => ms.features + ms.search));
+  return median(frames.map(({ ms }) => stages.reduce((sum, stage) => sum + (ms[stage] ?? 0), 0)));
 }
 
 /** The same of the peer. */
 export const peerTime = ({ frames }) => median(frames.map(({ ms }) => ms));
 
-/** `rounds`: { peer, one, all }: ms a frame of the peer, and of Telemime on one thread and on all. */
+/** `rounds`: { peer, one, all, networks }: ms a frame of the peer, of Telemime on one thread and on all, and of the
+ * networks, which are a part of both. */
 export function timeTable(rounds) {
-  const names = { peer: "peer", one: "Telemime, one thread", all: "Telemime, default threads" };
+  const names = {
+    peer: "peer",
+    one: "Telemime, one thread",
+    all: "Telemime, default threads",
+    networks: "its networks",
+  };
   return table(
     ["tracker", "ms a frame", "times the peer", "each round"],
     Object.entries(names).map(([key, name]) => {
@@ -89,6 +95,7 @@ if (realpathSync(process.argv[1]) === fileURLToPath(import.meta.url)) {
           peer: peerTime(JSON.parse(read(folder, "peer.json"))),
           one: telemimeTime(read(folder, "threads_1", "pose.jsonl")),
           all: telemimeTime(read(folder, "threads_0", "pose.jsonl")),
+          networks: telemimeTime(read(folder, "threads_1", "pose.jsonl"), ["networks"]),
         })),
       ),
   };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/stopwatch.h"
 #include "telemime/image/edges.h"
 #include "telemime/image/light_change.h"
 #include "telemime/image/person_shape.h"
@@ -88,6 +89,7 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
   if (!finder_.has_networks() || found_in_ == frame.index) {
     return found_;
   }
+  Stopwatch watch;
   // Networks see a square of 256 pixels: a larger picture would only cost time.
   constexpr int kWidest = 640;
   cv::Mat picture = frame.image;
@@ -100,6 +102,7 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
     found_ = scaled_to(std::move(*found_), picture.size(), {config_.width, config_.height});
   }
   found_in_ = frame.index;
+  networks_ms_ = watch.lap();
   return found_;
 }
 
@@ -238,6 +241,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   status_.brightness = cv::mean(p.grey)[0];
   status_.detail = detail_of(p.grey);
   out.landmarks = landmarks_of(frame);
+  out.networks_ms = networks_ms_;
   std::optional<TrackedFace> face;
   if (shows_something(status_)) {
     face = face_of(out.landmarks, p);

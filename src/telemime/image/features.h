@@ -82,6 +82,7 @@ class FeatureExtractor {
   void update_status(const WorkingImages& p, const FrameFeatures& features);
 
   std::optional<PoseLandmarks> landmarks_of(const Frame& frame);
+  double networks_ms_ = 0.0;  ///< time of the networks in the last frame that they looked at
 
   ImageConfig config_;
   PersonFinder finder_;

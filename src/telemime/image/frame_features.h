@@ -49,6 +49,7 @@ struct FrameFeatures {
   std::string note;                   ///< why the person's colours are not known
   std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
   double ms = 0.0;                    ///< time that the image side took
+  double networks_ms = 0.0;           ///< part of it that the networks took
 };
 
 }  // namespace telemime

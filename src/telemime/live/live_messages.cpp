@@ -100,6 +100,7 @@ std::string status_message(const LiveStatus& status) {
                   {"dropped", rates.dropped},
                   {"ms",
                    {{"wait", tenths(rates.ms.wait)},
+                    {"networks", tenths(rates.ms.networks)},
                     {"features", tenths(rates.ms.features)},
                     {"queue", tenths(rates.ms.queue)},
                     {"search", tenths(rates.ms.search)},

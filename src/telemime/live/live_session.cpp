@@ -224,6 +224,7 @@ struct LiveSession::State {
     slot->record.frame = *frame;
     slot->record.features = extract(*frame, colours, run->scene);
     slot->times.seen = clock.now();
+    slot->times.networks_ms = slot->record.features.networks_ms;
     exchange.publish();
     return true;
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace telemime {
 namespace {
@@ -62,13 +63,15 @@ LiveRates LiveStatistics::rates(double now) const {
     rates.input = static_cast<double>(last_.back().index - last_.front().index) / span;
     rates.tracked = static_cast<double>(last_.size() - 1) / span;
   }
-  const auto ms = [this](double FrameTimes::*from, double FrameTimes::*to, double q) {
+  const auto quantile = [this](double q, const auto& ms_of) {
     std::vector<double> values;
-    for (const FrameTimes& t : last_) {
-      values.push_back(1000.0 * (t.*to - t.*from));
-    }
+    std::transform(last_.begin(), last_.end(), std::back_inserter(values), ms_of);
     return quantile_of(std::move(values), q);
   };
+  const auto ms = [&quantile](double FrameTimes::*from, double FrameTimes::*to, double q) {
+    return quantile(q, [from, to](const FrameTimes& t) { return 1000.0 * (t.*to - t.*from); });
+  };
+  rates.ms.networks = quantile(0.5, [](const FrameTimes& t) { return t.networks_ms; });
   rates.ms.wait = ms(&FrameTimes::taken, &FrameTimes::begun, 0.5);
   rates.ms.features = ms(&FrameTimes::begun, &FrameTimes::seen, 0.5);
   rates.ms.queue = ms(&FrameTimes::seen, &FrameTimes::searched, 0.5);

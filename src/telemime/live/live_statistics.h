@@ -11,18 +11,20 @@ namespace telemime {
 
 /// When a live frame passed each stage; seconds of one clock.
 struct FrameTimes {
-  std::int64_t index = 0;  ///< of the input
-  double taken = 0.0;      ///< by the camera; a usable_stamp
-  double begun = 0.0;      ///< extraction of its features began
-  double seen = 0.0;       ///< features done
-  double searched = 0.0;   ///< search begun
-  double decided = 0.0;    ///< pose estimated and passed on
+  std::int64_t index = 0;    ///< of the input
+  double taken = 0.0;        ///< by the camera; a usable_stamp
+  double begun = 0.0;        ///< extraction of its features began
+  double seen = 0.0;         ///< features done
+  double searched = 0.0;     ///< search begun
+  double decided = 0.0;      ///< pose estimated and passed on
+  double networks_ms = 0.0;  ///< part of the features
 };
 
 /// Medians over the last frames, ms.
 struct StageTimes {
   double wait = 0.0;      ///< from the camera to the features
   double features = 0.0;  ///< the image side
+  double networks = 0.0;  ///< part of it
   double queue = 0.0;     ///< from there to the search
   double search = 0.0;    ///< search, smoothing and passing on
   double total = 0.0;     ///< from the camera to the pose

@@ -9,7 +9,7 @@ namespace telemime {
 namespace {
 
 FrameTimes at(std::int64_t index, double taken) {
-  return {index, taken, taken + 0.001, taken + 0.010, taken + 0.012, taken + 0.034};
+  return {index, taken, taken + 0.001, taken + 0.010, taken + 0.012, taken + 0.034, 6.0};
 }
 
 TEST(UsableStamp, IsTheSourcesWhereItCanBe) {
@@ -45,6 +45,7 @@ TEST(LiveStatistics, CountsRatesAndDroppedFrames) {
   EXPECT_EQ(rates.frames, 51);
   EXPECT_NEAR(rates.ms.wait, 1.0, 1e-6);
   EXPECT_NEAR(rates.ms.features, 9.0, 1e-6);
+  EXPECT_NEAR(rates.ms.networks, 6.0, 1e-6);
   EXPECT_NEAR(rates.ms.queue, 2.0, 1e-6);
   EXPECT_NEAR(rates.ms.search, 22.0, 1e-6);
   EXPECT_NEAR(rates.ms.total, 34.0, 1e-6);

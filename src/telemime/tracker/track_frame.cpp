@@ -52,6 +52,9 @@ FrameEstimate begin_estimate(const FrameFeatures& features, const TrackerState& 
   result.motion.time = features.time;
   result.motion.pose = state.pose;
   result.motion.stage_ms.emplace_back("features", features.ms);
+  if (features.networks_ms > 0.0) {
+    result.motion.stage_ms.emplace_back("networks", features.networks_ms);
+  }
   result.note = features.note;
   return result;
 }

@@ -49,6 +49,31 @@ describe("gauges", () => {
     }
   });
 
+  it("show the networks apart from the other features", () => {
+    const legend = (ms: [string, number][]): string => {
+      gauges.setStatus({
+        phase: "tracking",
+        fps: { input: 25, tracked: 25 },
+        ms: new Map(ms),
+      } as unknown as Status);
+      return element("stage-legend").textContent;
+    };
+    expect(
+      legend([
+        ["networks", 12],
+        ["features", 20],
+        ["total", 33],
+      ]),
+    ).toBe("networks 12features 8.0");
+    expect(
+      legend([
+        ["networks", 0],
+        ["features", 20],
+        ["total", 33],
+      ]),
+    ).toBe("features 20");
+  });
+
   it("are cleared when disconnected", () => {
     status("tracking");
     gauges.setPose({

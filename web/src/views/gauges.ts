@@ -6,7 +6,7 @@ import { byId, h, setText } from "../shared/dom";
 import { Sparkline } from "./sparkline";
 
 const HISTORY = 120; // poses
-const STAGE_COLOURS = ["#0f9b88", "#5d8fe8", "#d39b2a", "#b36fc4"];
+const STAGE_COLOURS = ["#0f9b88", "#d8637a", "#5d8fe8", "#d39b2a", "#b36fc4"];
 const DRAW_INTERVAL = 250; // ms between drawings of the history
 
 /** Phases with measurements of the tracker. */
@@ -74,7 +74,11 @@ export class Gauges {
   }
 
   private stages(ms: Map<string, number>): void {
-    const parts = [...ms].filter(([name]) => name !== "total");
+    // Networks are a part of the features.
+    const networks = ms.get("networks") ?? 0;
+    const parts = [...ms]
+      .filter(([name, v]) => name !== "total" && (name !== "networks" || v > 0))
+      .map(([name, v]): [string, number] => [name, name === "features" ? Math.max(0, v - networks) : v]);
     const total = ms.get("total") ?? parts.reduce((sum, [, v]) => sum + v, 0);
     this.put("gauge-total", parts.length || ms.has("total") ? show(total) : "–");
     const whole = Math.max(
@@ -86,14 +90,14 @@ export class Gauges {
       ...parts.map(([name, v], i) => {
         const part = h("span", { title: `${name} ${show(v, 1)} ms` });
         part.style.width = `${(100 * v) / whole}%`;
-        part.style.background = STAGE_COLOURS[i % 4]!;
+        part.style.background = STAGE_COLOURS[i % STAGE_COLOURS.length]!;
         return part;
       }),
     );
     byId("stage-legend", HTMLElement).replaceChildren(
       ...parts.map(([name, v], i) => {
         const mark = h("i");
-        mark.style.background = STAGE_COLOURS[i % 4]!;
+        mark.style.background = STAGE_COLOURS[i % STAGE_COLOURS.length]!;
         return h("span", { class: "stage-key" }, mark, `${name} `, h("b", {}, show(v, v < 10 ? 1 : 0)));
       }),
     );
