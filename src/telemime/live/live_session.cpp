@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/live/live_session.h"
 
-#include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
@@ -243,15 +242,6 @@ struct LiveSession::State {
     }
   }
 
-  // The rate of the frames until now, dropped ones included, where it is not about what the input states: a
-  // camera may be slow in dim light, but a stream that states its clock rate is wrong.
-  std::optional<double> rate_of_input(const Frame& last) const {
-    const double stated = source->info().fps;
-    const double rate = static_cast<double>(last.index) / std::max(1e-9, last.time);
-    const bool known = last.index > 2 && last.time > 0.5;
-    return known && (rate < 0.5 * stated || rate > 1.1 * stated) ? std::optional(rate) : std::nullopt;
-  }
-
   void estimate_pose(LiveSlot& slot) {
     slot.times.searched = clock.now();
     const bool was_calibrated = exchange.calibrated() && smoother != nullptr;
@@ -261,7 +251,7 @@ struct LiveSession::State {
     const bool calibrated = run->state.calibrated();
     if (calibrated && !was_calibrated) {
       StreamHeader header = header_of(source->info(), *run);
-      header.fps = rate_of_input(slot.record.frame).value_or(header.fps);
+      header.fps = believable_rate(header.fps, slot.record.frame.index, slot.record.frame.time);
       smoother = make_smoother(request.config.smoothing, header.body, header.camera);
       if (hooks.person) {
         hooks.person(header);

@@ -25,6 +25,16 @@ double quantile_of(std::vector<double> values, double q) {
   return *at;
 }
 
+double believable_rate(double stated, std::int64_t index, double time) {
+  constexpr std::int64_t kFewest = 3;  // frames, and seconds, before their rate is known
+  constexpr double kShortest = 0.5;
+  if (index < kFewest || time <= kShortest) {
+    return stated;
+  }
+  const double rate = static_cast<double>(index) / time;
+  return rate < 0.5 * stated || rate > 1.1 * stated ? rate : stated;
+}
+
 double usable_stamp(double taken, double last, double now) {
   constexpr double kOldest = 10.0;                             // s: no frame waits so long
   const bool usable = taken <= now && now - taken <= kOldest;  // neither of a NaN

@@ -45,6 +45,11 @@ struct LiveRates {
 /// monotonic clock; last <= now.
 double usable_stamp(double taken, double last, double now);
 
+/// Frames per second of an input whose frame `index` (from 0, dropped ones included) came `time` seconds
+/// after its first: the stated rate, or that of the time stamps where they contradict it. A camera may be
+/// slow in dim light, but a stream that states its clock rate is wrong.
+double believable_rate(double stated, std::int64_t index, double time);
+
 /// Rates and times over the last 100 frames, but never across an interruption of the camera (no image for 2
 /// s). Not thread-safe.
 class LiveStatistics {

@@ -105,5 +105,14 @@ TEST(LatencyRecord, ForgetsTheOldest) {
   EXPECT_EQ(record.summary()->p95, 50.0);
 }
 
+TEST(BelievableRate, IsTheTimeStampsWhereTheyContradict) {
+  EXPECT_EQ(believable_rate(1000.0, 50, 2.0), 25.0) << "a clock rate";
+  EXPECT_EQ(believable_rate(25.0, 60, 2.0), 30.0);
+  EXPECT_EQ(believable_rate(30.0, 40, 2.0), 30.0) << "slow in dim light";
+  EXPECT_EQ(believable_rate(30.0, 20, 2.0), 10.0);
+  EXPECT_EQ(believable_rate(30.0, 2, 2.0), 30.0) << "too few frames";
+  EXPECT_EQ(believable_rate(30.0, 100, 0.1), 30.0) << "too short a time";
+}
+
 }  // namespace
 }  // namespace telemime
