@@ -23,7 +23,8 @@ std::string refusal(SenderList& list, const std::string& url) {
 TEST(SenderList, EquivalentUrlsAreOneOutput) {
   SenderList list;
   list.add("vmc://localhost");
-  EXPECT_NE(refusal(list, "vmc://localhost:39539").find("already, as vmc://localhost"), std::string::npos);
+  EXPECT_NE(refusal(list, "vmc://localhost:39539").find("already in the list, as vmc://localhost"),
+            std::string::npos);
   EXPECT_NE(refusal(list, "vmc://127.0.0.1?bundle=1"), "");
   EXPECT_EQ(list.status().size(), 1U);
   EXPECT_FALSE(list.remove("vmc://localhost:39540"));
