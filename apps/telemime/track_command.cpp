@@ -71,8 +71,8 @@ void print_summary(const TrackSummary& summary, const TrackRequest& request) {
             << " s (" << static_cast<double>(summary.frames) / std::max(1e-9, summary.seconds)
             << " frames per second)\n";
   if (summary.tracked > 0) {
-    std::cout << "mean F " << summary.report["mean_F"] << ", mean D_C " << summary.report["mean_D_C"]
-              << " px\n";
+    std::cout << "mean F " << summary.report["mean_F"].get<double>() << ", mean D_C "
+              << summary.report["mean_D_C"].get<double>() << " px\n";
   }
   std::cout << "results in " << request.out.string() << '\n';
 }
