@@ -105,10 +105,11 @@ hwy::AlignedFreeUniquePtr<T[]> allocated(std::size_t size) {
 }  // namespace
 
 void Workspace::fit(const TileGrid& grid) {
-  if (pixels == grid.pixels()) {
+  if (pixels == grid.pixels() && grid_columns == grid.columns) {
     return;
   }
   pixels = 0;
+  grid_columns = grid.columns;
   memory = {};
   depth = allocated<std::uint32_t>(grid.pixels() + 1);
   still_depth = allocated<std::uint32_t>(grid.pixels());

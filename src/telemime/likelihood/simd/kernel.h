@@ -94,6 +94,7 @@ struct Workspace {
   hwy::AlignedFreeUniquePtr<std::uint32_t[]> still_depth;  ///< the same of the segments that stay
   Memory memory;
   std::size_t pixels = 0;
+  int grid_columns = 0;  ///< of the tiles; grids of as many pixels may differ in shape
 
   /// Contour points (px, 1/m), their pixels, and depth and distance of those pixels.
   hwy::AlignedFreeUniquePtr<float[]> sample_x, sample_y, sample_w, sample_nearest, sample_distance;

@@ -201,7 +201,8 @@ TEST_F(Simd, EvaluationsLeaveNoTrace) {
 TEST_F(Simd, SegmentsThatStayCountAsOthersDo) {
   const Model other = make_model(testing_poses::other_shape());
   PreparedFrame frame = frame_;
-  const PreparedFrame frames[] = {frame_, make_frame(other, 160, 120), make_frame(model_, 64, 48)};
+  const PreparedFrame frames[] = {frame_, make_frame(other, 160, 120), make_frame(model_, 64, 48),
+                                  make_frame(model_, 48, 64)};
   const std::vector<Pose> targets = random_poses(80, 11);
   Random random(12);
   Pose pose = targets.front();
@@ -219,7 +220,7 @@ TEST_F(Simd, SegmentsThatStayCountAsOthersDo) {
       }
       pose.root = part == 0 ? target.root : pose.root;
       if (random.below(10) == 0) {
-        frame = frames[random.below(3)];
+        frame = frames[random.below(4)];
       }
       const Model& model = random.below(20) == 0 ? other : model_;
       const auto terms = static_cast<Reduction>(1 + random.below(3));
