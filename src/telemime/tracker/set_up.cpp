@@ -41,11 +41,12 @@ Camera camera_for(const SourceInfo& info, const std::string& file, double field_
 
 Lens lens_for(const SourceInfo& info, const TrackRequest& request) {
   Lens lens;
-  if (!request.camera.empty()) {
+  if (!request.calibration.empty()) {
+    // The person and the background were measured with this camera, whatever --camera says.
+    lens = parse_person(read_text_file(request.calibration, ErrorKind::config), request.calibration).lens;
+  } else if (!request.camera.empty()) {
     lens = load_lens(request.camera);
     lens = request.input_options.mirrored ? lens.mirrored() : lens;
-  } else if (!request.calibration.empty()) {
-    lens = parse_person(read_text_file(request.calibration, ErrorKind::config), request.calibration).lens;
   } else {
     lens.camera = camera_for(info, "", request.config.field_of_view);
   }

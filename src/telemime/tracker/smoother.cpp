@@ -220,7 +220,7 @@ MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& bo
     const Eigen::Vector3d& before = frame.joints.at[j];
     const Eigen::Vector3d& after = result.joints.at[j];
     if (before.z() > 0.0 && after.z() > 0.0) {
-      // A difference, so that the distortion of the input image, if any, stays in the pixel.
+      // A difference: pixels that were set otherwise keep their offset.
       result.pixels[j] += camera.project(after) - camera.project(before);
     }
   }
