@@ -118,19 +118,22 @@ cv::Mat with_square_pixels(const cv::Mat& image, double aspect) {
 
 double usable_fps(double stated, std::optional<double> measured, Notes& notes) {
   const bool usable = std::isfinite(stated) && stated >= slowest && stated <= fastest;
-  if (usable && (!measured || same_rate(stated, *measured))) {
+  // 0: not known. Faster time stamps count ticks of a clock.
+  const double seen = measured && *measured <= fastest ? *measured : 0.0;
+  if (usable && (seen == 0.0 || same_rate(stated, seen))) {
     return stated;
   }
+  const double used = seen > 0.0 ? seen : fallback_fps;
   std::ostringstream note;
   if (usable) {
-    note << "it states " << stated << " frames per second, but its time stamps show " << *measured
+    note << "it states " << stated << " frames per second, but its time stamps show " << used
          << ", which is used";
   } else {
-    note << "it states no usable frame rate (" << stated << "); " << measured.value_or(fallback_fps)
-         << " frames per second are " << (measured ? "used, by its time stamps" : "assumed");
+    note << "it states no usable frame rate (" << stated << "); " << used << " frames per second are "
+         << (seen > 0.0 ? "used, by its time stamps" : "assumed");
   }
   notes.add(note.str());
-  return measured.value_or(fallback_fps);
+  return used;
 }
 
 }  // namespace telemime

@@ -58,8 +58,9 @@ TEST(UsableFps, ReplacesUnusableFrameRatesWithANote) {
       EXPECT_TRUE(notes.text().empty());
     }
     Notes notes;
-    EXPECT_EQ(usable_fps(fps, 1.1 * fps, notes), 1.1 * fps) << "the time stamps are believed";
+    EXPECT_EQ(usable_fps(fps, 0.9 * fps, notes), 0.9 * fps) << "the time stamps are believed";
     EXPECT_FALSE(notes.text().empty());
+    EXPECT_EQ(usable_fps(fps, 90000.0, notes), fps) << "but not as ticks of a clock";
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
@@ -68,6 +69,7 @@ TEST(UsableFps, ReplacesUnusableFrameRatesWithANote) {
     EXPECT_EQ(usable_fps(fps, std::nullopt, notes), 25.0) << fps;
     EXPECT_NE(notes.text().find("25"), std::string::npos) << fps;
     EXPECT_EQ(usable_fps(fps, 30.0, notes), 30.0) << fps;
+    EXPECT_EQ(usable_fps(fps, 90000.0, notes), 25.0) << fps;
   }
 }
 

@@ -59,7 +59,9 @@ std::optional<double> rate_of(const std::vector<double>& stamps) {
     return std::pair(std::accumulate(first, last, 0.0) / static_cast<double>(last - first), last - first);
   };
   const double mean = mean_within(0.0, std::max(kPause, 10.0 * median)).first;
-  const auto [usual, count] = mean_within(0.94 * median, 1.06 * median);
+  // About the median, and as far from it as rounding to milliseconds goes.
+  const auto [usual, count] =
+      mean_within(0.94 * median - kInstant, std::min(1.06 * median + kInstant, 1.9 * median));
   const bool regular = 2 * count > std::ssize(sorted) && mean < 2.0 * usual;
   return rounded_rate(1.0 / (regular ? usual : mean));
 }

@@ -29,7 +29,7 @@ TEST(RateOf, RegularStampsGiveTheirRate) {
 }
 
 TEST(RateOf, RoundingToMillisecondsDoesNotMatter) {
-  for (const double fps : {25.0, 30.0, 60.0}) {
+  for (const double fps : {25.0, 30.0, 60.0, 75.0, 120.0, 240.0}) {
     std::vector<double> all = stamps(60, fps);
     for (double& stamp : all) {
       stamp = std::round(1000.0 * stamp) / 1000.0;

@@ -17,7 +17,7 @@ namespace telemime {
 
 double overlay_rate(double fps) {
   constexpr double kMost = 60.0;  // MPEG-4 has 16 bits for a thousand times the rate
-  return fps / std::ceil(fps / kMost - 1e-3);
+  return fps / std::max(1.0, std::ceil(fps / kMost - 1e-3));
 }
 
 OverlayVideo::OverlayVideo(const std::filesystem::path& folder, double fps, Note note)

@@ -53,6 +53,14 @@ TEST(OverlayVideo, LastsAsLongAsItsFramesAtAnyRate) {
   }
 }
 
+TEST(OverlayVideo, ItsRateIsFiniteAtAnyRate) {
+  for (const double fps : {0.001, 0.05, 0.06, 1.0, 25.0, 60.0, 119.881, 1000.0}) {
+    const double rate = overlay_rate(fps);
+    EXPECT_GT(rate, 0.0) << fps;
+    EXPECT_LE(rate, std::min(fps, 60.1)) << fps;
+  }
+}
+
 TEST(OverlayVideo, WhatFailsIsANote) {
   const ScratchFolder scratch;
   const Written nowhere = write(scratch.file("absent"), 25.0, {0.0, 0.04});
