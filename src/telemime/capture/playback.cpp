@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/capture/playback.h"
 
+#include <algorithm>
+#include <atomic>
 #include <optional>
 #include <string>
 #include <utility>
@@ -66,7 +68,10 @@ class PacedSource : public Source {
   const SourceInfo& info() const override { return info_; }
   std::string complaint() const override { return file_->complaint(); }
 
-  void stop() override { file_->stop(); }
+  void stop() override {
+    stopped_ = true;
+    file_->stop();
+  }
   void attend(std::function<void(const SourceNews&)> tell) override { file_->attend(std::move(tell)); }
 
   std::optional<Frame> next() override {
@@ -77,7 +82,15 @@ class PacedSource : public Source {
     if (!upcoming_) {
       return std::nullopt;
     }
-    clock_.wait_until(*start_ + upcoming_->time);
+    // A file may pause for long: in small steps, so that it can be stopped.
+    constexpr double kStep = 0.1;  // s
+    const double due = *start_ + upcoming_->time;
+    for (double now = clock_.now(); now < due && !stopped_; now = clock_.now()) {
+      clock_.wait_until(std::min(due, now + kStep));
+    }
+    if (stopped_) {
+      return std::nullopt;
+    }
     const double began = clock_.now();
     const double elapsed = began - *start_;
     std::optional<Frame> newest;
@@ -98,6 +111,7 @@ class PacedSource : public Source {
   SourceInfo info_;
   std::optional<double> start_;    // seconds of the clock at the first frame
   std::optional<Frame> upcoming_;  // already read, not returned yet
+  std::atomic<bool> stopped_ = false;
 };
 
 }  // namespace

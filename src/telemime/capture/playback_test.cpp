@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <thread>
 
 #include "telemime/core/errors.h"
 
@@ -136,6 +138,30 @@ TEST(Paced, TimeBeforeTheFirstFrameDoesNotCount) {
 TEST(Paced, EmptyFileEndsAtOnce) {
   FakeTime time;
   EXPECT_FALSE(pace(std::make_unique<TenASecond>(0), time.clock())->next());
+}
+
+/// Two frames, an hour apart.
+class LongPause : public TenASecond {
+ public:
+  LongPause() : TenASecond(2) {}
+  std::optional<Frame> next() override {
+    auto frame = TenASecond::next();
+    if (frame) {
+      frame->time *= 36000.0;
+    }
+    return frame;
+  }
+};
+
+TEST(Pace, CanBeStoppedInAPause) {
+  const auto source = pace(std::make_unique<LongPause>());
+  ASSERT_TRUE(source->next());
+  std::thread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    source->stop();
+  });
+  EXPECT_FALSE(source->next());
+  user.join();
 }
 
 TEST(MonotonicClock, NeverDecreasesAndReachesItsTarget) {
