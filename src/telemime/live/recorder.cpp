@@ -119,14 +119,14 @@ struct Recorder::State {
     if (!open) {
       begin();
     }
-    for (const MotionFrame& made : open->resampler.push(frame)) {
+    open->resampler.push(frame, [this](const MotionFrame& made) {
       for (const auto& file : open->files) {
         file->write(made);
       }
       const std::lock_guard lock(mutex);
       open->recording.frames = made.frame + 1;
       open->recording.seconds = static_cast<double>(made.frame + 1) / header->fps;
-    }
+    });
     {
       const std::lock_guard lock(mutex);
       current = open->recording;

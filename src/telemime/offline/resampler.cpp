@@ -41,21 +41,19 @@ MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, doubl
   return held;
 }
 
-std::vector<MotionFrame> Resampler::push(const MotionFrame& frame) {
+void Resampler::push(const MotionFrame& frame, const std::function<void(const MotionFrame&)>& take) {
   if (!last_) {
     start_ = frame.time;
     last_ = frame;
   }
-  std::vector<MotionFrame> frames;
   while (start_ + static_cast<double>(count_) / fps_ <= frame.time + slack_) {
     const double time = static_cast<double>(count_) / fps_;
     MotionFrame made = between(*last_, frame, start_ + time);
     made.frame = count_++;
     made.time = time;
-    frames.push_back(std::move(made));
+    take(made);
   }
   last_ = frame;
-  return frames;
 }
 
 }  // namespace telemime

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
-#include <vector>
 
 #include "telemime/body/body.h"
 #include "telemime/body/motion_frame.h"
@@ -27,9 +27,9 @@ class Resampler {
   /// Time since the previous frame, s; 0 for the first frame.
   double gap_before(const MotionFrame& frame) const { return last_ ? frame.time - last_->time : 0.0; }
 
-  /// Adds a frame; times must increase. Returns the resampled frames up to its time, whose number and time
-  /// start at 0.
-  std::vector<MotionFrame> push(const MotionFrame& frame);
+  /// Adds a frame; times must increase. Passes on the resampled frames up to its time one by one (a pause may
+  /// have very many); their number and time start at 0.
+  void push(const MotionFrame& frame, const std::function<void(const MotionFrame&)>& take);
 
  private:
   MotionFrame between(const MotionFrame& a, const MotionFrame& b, double time) const;

@@ -60,16 +60,15 @@ void RunOutputs::begin(const StreamHeader& header) {
 }
 
 void RunOutputs::write(const MotionFrame& frame) {
-  const std::vector<MotionFrame> regular = resampler_->push(frame);
-  for (const Output& output : outputs_) {
-    if (output.own_times) {
-      output.file->write(frame);
-      continue;
+  const auto write_to = [this](bool own_times, const MotionFrame& motion) {
+    for (const Output& output : outputs_) {
+      if (output.own_times == own_times) {
+        output.file->write(motion);
+      }
     }
-    for (const MotionFrame& made : regular) {
-      output.file->write(made);
-    }
-  }
+  };
+  write_to(true, frame);
+  resampler_->push(frame, [&](const MotionFrame& made) { write_to(false, made); });
 }
 
 void RunOutputs::write_overlay(const cv::Mat& picture, double time) {
