@@ -104,6 +104,15 @@ TEST(FillBack, StopsWhereNoPersonIsVisible) {
   EXPECT_EQ(records[0].estimate.motion.state, TrackState::tracking);
 }
 
+TEST(FillBack, StopsAtAPause) {
+  Tracked t(filling(10));
+  FrameRecord before = t.lost(0);
+  before.estimate.motion.time -= 15.0;
+  t.push(before);
+  t.push(t.lost(1));
+  EXPECT_EQ(t.push(t.tracked(2)), 1U);
+}
+
 TEST(FillBack, StopsWhereTheBodyNoLongerFits) {
   Tracked t(filling(10));
   // Only clothes, on the other side of the image.

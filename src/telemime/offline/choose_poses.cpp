@@ -78,6 +78,7 @@ void choose_window(const Tracker& tracker, const Model& model, std::size_t count
     motion.evaluations += tracker.config.offline.sweeps * tracker.config.offline.evaluations;
   }
   window.before = poses[keep - 1];
+  window.before_time = queue.records[queue.chosen + keep - 1].estimate.motion.time;
   // The next window begins with the others.
   for (std::size_t t = 0; t < count; ++t) {
     FrameEstimate& estimate = queue.records[queue.chosen + t].estimate;
@@ -100,9 +101,15 @@ void choose_poses(const Tracker& tracker, const Model& model, bool last, WindowS
   const auto stretch = static_cast<std::size_t>(tracker.config.offline.stretch);
   const auto whole = stretch + static_cast<std::size_t>(tracker.config.offline.overlap);
   while (queue.chosen < queue.filled) {
+    // The next tracked frames, up to a pause.
+    const auto time = [&](std::size_t t) { return queue.records[queue.chosen + t].estimate.motion.time; };
+    if (window.before && !are_neighbours(window.before_time, time(0))) {
+      window.before.reset();
+    }
     std::size_t tracked = 0;
     while (tracked < whole && queue.chosen + tracked < queue.filled &&
-           may_be_chosen(queue.records[queue.chosen + tracked])) {
+           may_be_chosen(queue.records[queue.chosen + tracked]) &&
+           (tracked == 0 || are_neighbours(time(tracked - 1), time(tracked)))) {
       ++tracked;
     }
     const bool at_end = queue.chosen + tracked == queue.filled;

@@ -13,6 +13,7 @@ struct WindowState {
 
   Random seeds;
   std::optional<Pose> before;  ///< pose of the frame before the first undecided one, where it was tracked
+  double before_time = 0.0;    ///< of that frame, s
 };
 
 /// Decides about poses with what comes after them, too (the setting `offline`): a second particle filter runs

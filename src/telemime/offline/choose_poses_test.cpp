@@ -140,6 +140,35 @@ TEST_F(ChoosePoses, PoseJointsAndScoresBelongTogether) {
   EXPECT_GT(motion.spread->covariance[wrist].trace(), 0.01) << "the filter and the trajectory disagree";
 }
 
+TEST_F(ChoosePoses, APauseParts) {
+  const auto timed = [&](std::int64_t index, double time) {
+    FrameRecord made = record(index, true, index < 2 ? both_arms_seen() : with_a_wrong_arm());
+    made.estimate.motion.time = time;
+    return made;
+  };
+  // Together, with a pause between them, and one after the other.
+  const auto poses = [](const std::vector<FrameRecord>& records) {
+    std::vector<PoseVector> all;
+    for (const FrameRecord& r : records) {
+      all.push_back(r.estimate.motion.pose.vector());
+    }
+    return all;
+  };
+  const std::vector<double> times = {0.0, 0.04, 15.0, 15.04};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    push(timed(static_cast<std::int64_t>(i), times[i]));
+  }
+  const std::vector<PoseVector> together = poses(take(true));
+  window = WindowState(run.tracker.config);
+  std::vector<PoseVector> apart;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    push(timed(static_cast<std::int64_t>(i), times[i]));
+    const std::vector<PoseVector> some = poses(take(i % 2 == 1));
+    apart.insert(apart.end(), some.begin(), some.end());
+  }
+  EXPECT_EQ(together, apart);
+}
+
 TEST_F(ChoosePoses, SameSeedGivesSamePoses) {
   std::vector<PoseVector> first;
   for (int repeat = 0; repeat < 2; ++repeat) {

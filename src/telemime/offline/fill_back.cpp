@@ -54,8 +54,11 @@ std::size_t fill_from_end(const Tracker& tracker, const TrackerState& state, Ran
   double bad_for = 0.0;                 // 1/25 s
   int bad_frames = 0;                   // in a row
   // As long as check_fit() would go on.
-  const auto goes_on = [&] { return bad_for < config.patience || bad_frames < std::min(2, config.patience); };
-  for (std::size_t t = found; t-- > queue.filled && may_be_filled(records[t]) && goes_on();) {
+  const auto goes_on = [&](std::size_t t) {
+    return (bad_for < config.patience || bad_frames < std::min(2, config.patience)) &&
+           are_neighbours(records[t].estimate.motion.time, records[t + 1].estimate.motion.time);
+  };
+  for (std::size_t t = found; t-- > queue.filled && may_be_filled(records[t]) && goes_on(t);) {
     const double steps = steps_between(records[t].estimate.motion.time, records[t + 1].estimate.motion.time);
     followed.push_back(follow_back(tracker, state, records[t], steps, filter));
     const bool fits = followed.back().motion.region_score <= config.lost_region;

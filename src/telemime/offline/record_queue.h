@@ -21,6 +21,12 @@ inline bool is_tracked(const FrameRecord& record) {
   return record.estimate.motion.state == TrackState::tracking;
 }
 
+/// Whether motion between two frames, seconds apart, says something: across a longer pause nothing does.
+inline bool are_neighbours(double before, double after) {
+  constexpr double kPause = 1.0;  // s
+  return after - before <= kPause;
+}
+
 /// Shrinks a picture that waits to be drawn, or releases it (`longest_side` 0): some hundred may wait at a
 /// time.
 void keep_picture(int longest_side, Frame& frame);
