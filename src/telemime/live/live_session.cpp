@@ -248,10 +248,11 @@ struct LiveSession::State {
     const double effort = request.keep_pace ? pace.effort() : 1.0;
     const FrameEstimate result = estimate(slot.record.features, run->tracker, run->state, effort);
     update_pace(slot.times);
+    input_rate.add(slot.record.frame.index, slot.record.frame.time);
     const bool calibrated = run->state.calibrated();
     if (calibrated && !was_calibrated) {
       StreamHeader header = header_of(source->info(), *run);
-      header.fps = believable_rate(header.fps, slot.record.frame.index, slot.record.frame.time);
+      header.fps = input_rate.believable(header.fps);
       smoother = make_smoother(request.config.smoothing, header.body, header.camera);
       if (hooks.person) {
         hooks.person(header);
@@ -328,6 +329,7 @@ struct LiveSession::State {
   std::string camera_words;             // why there is none
   std::map<SourceNews::Matter, std::string> camera_warnings;
   std::vector<std::string> person_warnings;
+  InputRate input_rate;  // of the search thread
   LiveStatistics statistics;
 
   std::thread image_side;

@@ -25,13 +25,22 @@ double quantile_of(std::vector<double> values, double q) {
   return *at;
 }
 
-double believable_rate(double stated, std::int64_t index, double time) {
+void InputRate::add(std::int64_t index, double time) {
+  if (last_ < 0 || time < last_time_ || time - last_time_ > kStopped) {
+    first_ = index;
+    first_time_ = time;
+  }
+  last_ = index;
+  last_time_ = time;
+}
+
+double InputRate::believable(double stated) const {
   constexpr std::int64_t kFewest = 3;  // frames, and seconds, before their rate is known
   constexpr double kShortest = 0.5;
-  if (index < kFewest || time <= kShortest) {
+  if (last_ - first_ < kFewest || last_time_ - first_time_ <= kShortest) {
     return stated;
   }
-  const double rate = static_cast<double>(index) / time;
+  const double rate = static_cast<double>(last_ - first_) / (last_time_ - first_time_);
   return rate < 0.5 * stated || rate > 1.1 * stated ? rate : stated;
 }
 

@@ -45,10 +45,21 @@ struct LiveRates {
 /// monotonic clock; last <= now.
 double usable_stamp(double taken, double last, double now);
 
-/// Frames per second of an input whose frame `index` (from 0, dropped ones included) came `time` seconds
-/// after its first: the stated rate, or that of the time stamps where they contradict it. A camera may be
-/// slow in dim light, but a stream that states its clock rate is wrong.
-double believable_rate(double stated, std::int64_t index, double time);
+/// The frame rate of an input by its time stamps, since its last interruption (no frame for 2 s).
+class InputRate {
+ public:
+  /// A frame: its number, dropped ones included, and its time in s.
+  void add(std::int64_t index, double time);
+  /// The stated rate, or that of the time stamps where they contradict it. A camera may be slow in dim light,
+  /// but a stream that states its clock rate is wrong.
+  double believable(double stated) const;
+
+ private:
+  std::int64_t first_ = 0;
+  std::int64_t last_ = -1;
+  double first_time_ = 0.0;
+  double last_time_ = 0.0;
+};
 
 /// Rates and times over the last 100 frames, but never across an interruption of the camera (no image for 2
 /// s). Not thread-safe.

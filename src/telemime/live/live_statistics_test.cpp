@@ -105,13 +105,30 @@ TEST(LatencyRecord, ForgetsTheOldest) {
   EXPECT_EQ(record.summary()->p95, 50.0);
 }
 
-TEST(BelievableRate, IsTheTimeStampsWhereTheyContradict) {
-  EXPECT_EQ(believable_rate(1000.0, 50, 2.0), 25.0) << "a clock rate";
-  EXPECT_EQ(believable_rate(25.0, 60, 2.0), 30.0);
-  EXPECT_EQ(believable_rate(30.0, 40, 2.0), 30.0) << "slow in dim light";
-  EXPECT_EQ(believable_rate(30.0, 20, 2.0), 10.0);
-  EXPECT_EQ(believable_rate(30.0, 2, 2.0), 30.0) << "too few frames";
-  EXPECT_EQ(believable_rate(30.0, 100, 0.1), 30.0) << "too short a time";
+TEST(InputRate, IsTheTimeStampsWhereTheyContradict) {
+  const auto believed = [](double stated, double actual, int frames) {
+    InputRate rate;
+    for (int i = 0; i < frames; ++i) {
+      rate.add(i, i / actual);
+    }
+    return rate.believable(stated);
+  };
+  EXPECT_NEAR(believed(1000.0, 25.0, 50), 25.0, 1e-9) << "a clock rate";
+  EXPECT_NEAR(believed(25.0, 30.0, 60), 30.0, 1e-9);
+  EXPECT_EQ(believed(30.0, 20.0, 60), 30.0) << "slow in dim light";
+  EXPECT_NEAR(believed(30.0, 10.0, 60), 10.0, 1e-9);
+  EXPECT_EQ(believed(30.0, 2.0, 3), 30.0) << "too few frames";
+  EXPECT_EQ(believed(30.0, 1000.0, 100), 30.0) << "too short a time";
+}
+
+TEST(InputRate, AnInterruptionDoesNotCount) {
+  InputRate rate;
+  double time = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    rate.add(i, time);
+    time += i == 400 ? 60.0 : 1.0 / 30.0;
+  }
+  EXPECT_EQ(rate.believable(30.0), 30.0);
 }
 
 }  // namespace
