@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { dropOddSprings, fitToHuman, type Heights } from "./fit";
+import { dropOddSprings, fitToHuman, scaleSprings, type Heights } from "./fit";
 
 const PERSON: Heights = { hips: 0.95, head: 1.5, foot: 0.09, low: 0 };
 const changed = (f: (y: number) => number): Heights => ({
@@ -83,4 +83,18 @@ describe("springs of an avatar", () => {
     expect(dropOddSprings(file)).toBe(3);
     expect(file.extensions.VRM.secondaryAnimation.boneGroups).toEqual([{ bones: [0, 1] }]);
   });
+});
+
+it("scales the radii of springs once each", () => {
+  const sphere = { radius: 10, offset: 1 };
+  const settings = { hitRadius: 2, stiffness: 1 };
+  scaleSprings(
+    {
+      joints: [{ settings }, { settings }],
+      colliders: [{ shape: sphere }, { shape: sphere }, { shape: { normal: 1 } }],
+    },
+    0.01,
+  );
+  expect(sphere).toEqual({ radius: 0.1, offset: 1 });
+  expect(settings).toEqual({ hitRadius: 0.02, stiffness: 1 });
 });

@@ -42,6 +42,18 @@ export function fitToHuman({ hips, head, foot, low }: Heights): Fit | null {
   return { scale, lift, notes };
 }
 
+/** What scaling the scene leaves as it is: the radii of springs and of what they bounce off are in world units. */
+export function scaleSprings(
+  springs: { joints: Iterable<{ settings: { hitRadius: number } }>; colliders: Iterable<{ shape: object }> },
+  scale: number,
+): void {
+  for (const settings of new Set([...springs.joints].map((joint) => joint.settings)))
+    settings.hitRadius *= scale;
+  for (const shape of new Set([...springs.colliders].map((collider) => collider.shape))) {
+    if ("radius" in shape && typeof shape.radius === "number") shape.radius *= scale;
+  }
+}
+
 const size = (metres: number): string =>
   metres >= 1 ? `${Math.round(metres)} m` : `${Number((100 * metres).toPrecision(2))} cm`;
 

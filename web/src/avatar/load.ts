@@ -16,7 +16,7 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { drawsInSoftware } from "../shared/graphics";
 import type { Quat, Vec3 } from "../shared/quaternion";
 import { foldMissing } from "./fold";
-import { dropOddSprings, fitToHuman } from "./fit";
+import { dropOddSprings, fitToHuman, scaleSprings } from "./fit";
 import { AvatarError, inspect, type Facts, type Json } from "./inspect";
 
 const ASIDE = 0.3; // m from the middle: more is no way to stand
@@ -72,9 +72,11 @@ export class Avatar {
     const aside = fit.scale * Math.hypot(x, z) > ASIDE;
     if (aside) this.notes.push("it was moved to the middle");
     vrm.scene.scale.multiplyScalar(fit.scale);
+    if (vrm.springBoneManager) scaleSprings(vrm.springBoneManager, fit.scale);
     vrm.scene.position.y += fit.lift;
     if (aside) vrm.scene.position.add(new Vector3(-fit.scale * x, 0, -fit.scale * z));
     vrm.scene.updateMatrixWorld(true);
+    vrm.springBoneManager?.reset();
     for (const bone of this.boneNames) {
       const raw = this.raw(bone);
       if (raw) this.restWorld.set(bone, raw.getWorldQuaternion(new Quaternion()));
