@@ -60,7 +60,8 @@ TEST(RateOf, LeftOutFramesAndPausesDoNotMatter) {
 TEST(RateOf, BurstsHaveTheMeanRate) {
   std::vector<double> all;
   for (int i = 0; i < 100; ++i) {
-    all.push_back(i / 2 * 0.08 + (i % 2) * 0.001);
+    const int pair = i / 2;
+    all.push_back(0.08 * pair + 0.001 * (i % 2));
   }
   EXPECT_EQ(*rate_of(all), 25.0);
 }
