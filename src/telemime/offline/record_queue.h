@@ -3,6 +3,7 @@
 
 #include <deque>
 
+#include "telemime/tracker/smoother.h"
 #include "telemime/tracker/track_frame.h"
 
 namespace telemime {
@@ -21,10 +22,9 @@ inline bool is_tracked(const FrameRecord& record) {
   return record.estimate.motion.state == TrackState::tracking;
 }
 
-/// Whether motion between two frames, seconds apart, says something: across a longer pause nothing does.
+/// Whether the poses at two times (s) may be decided together: no pause lies between them.
 inline bool are_neighbours(double before, double after) {
-  constexpr double kPause = 1.0;  // s
-  return after - before <= kPause;
+  return after - before <= kLongestGap;
 }
 
 /// Shrinks a picture that waits to be drawn, or releases it (`longest_side` 0): some hundred may wait at a

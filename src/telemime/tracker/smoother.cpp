@@ -13,33 +13,40 @@
 namespace telemime {
 namespace {
 
-constexpr double kLongestGap = 1.0;  // s
-
 /// How much larger the variance of each measured rotation is than that of a joint that is clearly seen.
 struct NoiseRatios {
   std::array<double, 6> rotation{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  ///< in the order of JointRotations
   std::array<double, 2> elbow{1.0, 1.0};
 };
 
-/// A rotation is as uncertain as the joint at the end of its bone. The deviations are upper ends of those of
-/// arms that are seen, on synthetic people.
-NoiseRatios noise_of(const MotionFrame& frame) {
-  constexpr double kElbow = 0.07;  // m
-  constexpr double kWrist = 0.12;
-  constexpr double kHand = 0.14;
+bool is_in_image(const Eigen::Vector2d& pixel, const Camera& camera) {
+  return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= camera.width - 1 &&
+         pixel.y() <= camera.height - 1;
+}
+
+/// An arm that is outside the image from the elbow on is as uncertain as its spread says. One of which the
+/// elbow, the wrist or the hand is visible follows the image, whatever the spread of the rest. The deviations
+/// are upper ends of those of visible arms, on synthetic people.
+NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera) {
+  constexpr std::array<double, 3> kVisible = {0.07, 0.12, 0.14};  // m: elbow, wrist, hand
+  constexpr std::array<std::array<Joint, 3>, 2> kArms = {
+      {{Joint::l_elbow, Joint::l_wrist, Joint::l_hand}, {Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
   NoiseRatios noise;
-  if (!frame.spread) {
-    return noise;
+  for (std::size_t side = 0; side < kArms.size(); ++side) {
+    const bool visible = std::any_of(kArms[side].begin(), kArms[side].end(), [&](Joint joint) {
+      return is_in_image(frame.pixels[static_cast<std::size_t>(joint)], camera);
+    });
+    if (!frame.spread || visible) {
+      continue;
+    }
+    const auto ratio = [&](std::size_t i) {
+      const double variance = frame.spread->covariance[static_cast<std::size_t>(kArms[side][i])].trace();
+      return std::max(1.0, variance / (kVisible[i] * kVisible[i]));
+    };
+    noise.rotation[2 + side] = ratio(0);
+    noise.elbow[side] = ratio(1);
+    noise.rotation[4 + side] = ratio(2);
   }
-  const auto ratio = [&](Joint joint, double seen) {
-    const double variance = frame.spread->covariance[static_cast<std::size_t>(joint)].trace();
-    return std::max(1.0, variance / (seen * seen));
-  };
-  noise.rotation[2] = ratio(Joint::l_elbow, kElbow);
-  noise.rotation[3] = ratio(Joint::r_elbow, kElbow);
-  noise.rotation[4] = ratio(Joint::l_hand, kHand);
-  noise.rotation[5] = ratio(Joint::r_hand, kHand);
-  noise.elbow = {ratio(Joint::l_wrist, kWrist), ratio(Joint::r_wrist, kWrist)};
   return noise;
 }
 
@@ -72,7 +79,7 @@ class RotationSmoother : public Smoother {
     const JointRotations measured = rotations_of(frame.pose);
     const double step = last_time_ ? frame.time - *last_time_ : 0.0;
     if (step > 0.0 && step <= kLongestGap) {
-      update(measured, noise_of(frame), step);
+      update(measured, noise_of(frame, camera_), step);
     } else {
       start(measured);
     }

@@ -29,11 +29,14 @@ struct SmoothingOptions {
 
 SettingTable settings_of(SmoothingOptions& options);
 
-/// Steadies a stream of frames; the One-Euro filter steadies joints more whose spread says that they are
-/// hardly seen. Rotations are smoothed, not angles, so that nothing happens where angles
-/// jump; the joints follow by forward kinematics and the pixels by what the joints move in the image. A lost
-/// frame, or one that is not finite, passes unchanged and ends the memory; so does a time that does not
-/// advance or that advances more than a second. Smoothed angles may leave the joint limits by little.
+/// The longest time between two frames (s) that counts as motion: nothing is known across a longer pause.
+inline constexpr double kLongestGap = 1.0;
+
+/// Steadies a stream of frames; the One-Euro filter smooths an arm outside the image more. Rotations are
+/// smoothed, not angles, so that nothing happens where angles jump; the joints follow by forward kinematics
+/// and the pixels by what the joints move in the image. A lost frame, or one that is not finite, passes
+/// unchanged and ends the memory; so does a time that does not advance or that advances more than
+/// kLongestGap. Smoothed angles may leave the joint limits by little.
 class Smoother {
  public:
   Smoother() = default;
