@@ -32,8 +32,8 @@ Evaluators::Evaluators(const std::string& backend, int threads, const CueTable& 
 }
 
 void Evaluators::evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-                          std::span<Score> scores) {
-  batch_->evaluate(frame, model, poses, cues().needs(), scores);
+                          std::span<Score> scores, std::span<const Kinematics> kinematics) {
+  batch_->evaluate(frame, model, poses, cues().needs(), scores, kinematics);
 }
 
 void Evaluators::each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work) {
@@ -56,6 +56,10 @@ double square_of_unknown_noise(double square, double usual) {
 }
 
 double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
+  return log_likelihood(c, pose, score, forward_kinematics(c.model.body, pose));
+}
+
+double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score, const Kinematics& k) {
   // Equation 4.12: the costs of the cues are independent and normally distributed.
   const CueTable& cues = c.evaluators.cues();
   double squares = 0.0;
@@ -70,12 +74,8 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   }
   double sum = -0.5 * c.config.trust * squares;
   // What is known without the image.
-  if (c.config.invalid <= 0.0 && c.config.natural <= 0.0 && c.config.temporal <= 0.0) {
-    return sum;
-  }
   const Body& body = c.model.body;
-  const Kinematics k = forward_kinematics(body, pose);
-  sum -= c.config.invalid * interpenetration(body, k);
+  sum -= c.config.invalid > 0.0 ? c.config.invalid * interpenetration(body, k) : 0.0;
   sum -= c.config.natural > 0.0
              ? c.config.natural * natural_cost(body, pose, k, c.heading, arm_prior_of(c.frame))
              : 0.0;
@@ -94,12 +94,17 @@ void measure(const FilterContext& context, std::span<Particle> particles) {
       poses.push_back(particles[i].pose);
     }
   }
+  // Once for the cues and for what is known without the image.
+  std::vector<Kinematics> kinematics(poses.size());
+  context.evaluators.each(poses.size(), [&](std::size_t i, Backend&) {
+    kinematics[i] = forward_kinematics(context.model.body, poses[i]);
+  });
   std::vector<Score> scores(poses.size());
-  context.evaluators.evaluate(context.frame, context.model, poses, scores);
+  context.evaluators.evaluate(context.frame, context.model, poses, scores, kinematics);
   context.evaluators.each(which.size(), [&](std::size_t i, Backend&) {
     Particle& p = particles[which[i]];
     p.score = scores[i];
-    p.log_likelihood = log_likelihood(context, p.pose, p.score);
+    p.log_likelihood = log_likelihood(context, p.pose, p.score, kinematics[i]);
     p.measured = true;
   });
 }

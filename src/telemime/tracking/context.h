@@ -34,9 +34,10 @@ class Evaluators {
   Evaluators(const std::string& backend, int threads, const CueTable& cues = {});
 
   const CueTable& cues() const { return batch_->cues(); }
-  /// Scores of all poses by all cues, in one batch; they do not depend on the number of threads.
+  /// Scores of all poses by all cues, in one batch; they do not depend on the number of threads. `kinematics`
+  /// are those of the poses, where the caller has them.
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-                std::span<Score> scores);
+                std::span<Score> scores, std::span<const Kinematics> kinematics = {});
   /// Calls work(i, back end) for all i below `count`, on all threads. Exceptions are passed on.
   void each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work);
 
@@ -77,6 +78,9 @@ double square_of_unknown_noise(double square, double usual);
 /// a cue with FilterModel::usual is taken as unknown: where a room has the colours of the person, F is large
 /// in every pose, and its differences say little.
 double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score);
+/// The same; `kinematics` are those of the pose.
+double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score,
+                      const Kinematics& kinematics);
 
 /// Computes scores and log likelihoods of the particles that are not measured yet.
 void measure(const FilterContext& context, std::span<Particle> particles);
