@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/capture/changed_images.h"
 #include "telemime/capture/image_sequence.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
@@ -97,28 +98,11 @@ std::unique_ptr<Source> open_stream(const std::string& url, const LiveOptions& o
   return source;
 }
 
-/// A source whose pictures are mirror images, mirrored back.
-class MirroredSource : public Source {
- public:
-  explicit MirroredSource(std::unique_ptr<Source> source) : source_(std::move(source)) {}
-  const SourceInfo& info() const override { return source_->info(); }
-  std::string complaint() const override { return source_->complaint(); }
-  void stop() override { source_->stop(); }
-  void attend(std::function<void(const SourceNews&)> report) override { source_->attend(std::move(report)); }
-
-  std::optional<Frame> next() override {
-    std::optional<Frame> frame = source_->next();
-    if (frame) {
-      cv::Mat image;
-      cv::flip(frame->image, image, 1);
-      frame->image = image;
-    }
-    return frame;
-  }
-
- private:
-  std::unique_ptr<Source> source_;
-};
+cv::Mat mirror_image(const cv::Mat& image) {
+  cv::Mat mirrored;
+  cv::flip(image, mirrored, 1);
+  return mirrored;
+}
 
 std::unique_ptr<Source> open_kind(const std::string& input, const LiveOptions& options) {
   const InputKind kind = input_kind(input);
@@ -152,7 +136,7 @@ std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions&
                 "Give a video file, a folder of images, a stream URL or a camera (0).");
   }
   auto source = open_kind(input, options);
-  return options.input.mirrored ? std::make_unique<MirroredSource>(std::move(source)) : std::move(source);
+  return options.input.mirrored ? with_changed_images(std::move(source), mirror_image) : std::move(source);
 }
 
 }  // namespace telemime

@@ -5,14 +5,15 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "telemime/capture/changed_images.h"
 #include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
 
-class UndistortedSource : public Source {
- public:
-  UndistortedSource(std::unique_ptr<Source> source, const Lens& lens) : source_(std::move(source)) {
+// Where each pixel of the image without distortion is in the source's image.
+struct LensMap {
+  explicit LensMap(const Lens& lens) {
     const Camera& camera = lens.camera;
     cv::Mat_<cv::Vec2f> from(camera.height, camera.width);
     std::int64_t inside = 0;
@@ -29,33 +30,22 @@ class UndistortedSource : public Source {
       throw Error(ErrorKind::config, "the lens of the camera file leaves less than a quarter of the picture",
                   "Calibrate again, or use --fov DEGREES.");
     }
-    cv::convertMaps(from, {}, where_, fraction_, CV_16SC2);
+    cv::convertMaps(from, {}, where, fraction, CV_16SC2);
   }
 
-  const SourceInfo& info() const override { return source_->info(); }
-  std::string complaint() const override { return source_->complaint(); }
-  void stop() override { source_->stop(); }
-  void attend(std::function<void(const SourceNews&)> report) override { source_->attend(std::move(report)); }
-
-  std::optional<Frame> next() override {
-    std::optional<Frame> frame = source_->next();
-    if (frame) {
-      cv::Mat straight;
-      cv::remap(frame->image, straight, where_, fraction_, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-      frame->image = straight;
-    }
-    return frame;
+  cv::Mat operator()(const cv::Mat& image) const {
+    cv::Mat straight;
+    cv::remap(image, straight, where, fraction, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    return straight;
   }
 
- private:
-  std::unique_ptr<Source> source_;
-  cv::Mat where_, fraction_;  // of each pixel in the source's picture
+  cv::Mat where, fraction;
 };
 
 }  // namespace
 
 std::unique_ptr<Source> undistorted(std::unique_ptr<Source> source, const Lens& lens) {
-  return lens.distorts() ? std::make_unique<UndistortedSource>(std::move(source), lens) : std::move(source);
+  return lens.distorts() ? with_changed_images(std::move(source), LensMap(lens)) : std::move(source);
 }
 
 }  // namespace telemime
