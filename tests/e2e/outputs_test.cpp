@@ -213,7 +213,7 @@ TEST(Results, ASideResultThatFailsEndsNothing) {
   const Ended ended = run(words);
   EXPECT_EQ(ended.code, 0) << ended.words;
   EXPECT_NE(ended.words.find("no window can be opened"), std::string::npos) << ended.words;
-  EXPECT_NE(ended.words.find("no overlay video"), std::string::npos) << ended.words;
+  EXPECT_NE(ended.words.find("the overlay video"), std::string::npos) << ended.words;
   const std::string poses = bytes_of(out + "/pose.jsonl");
   EXPECT_EQ(std::count(poses.begin(), poses.end(), '\n'), kPersonFrames + 1);
 }

@@ -17,7 +17,7 @@ bool same_rate(double a, double b);
 /// Seconds from the first frame, by the time stamps of an input. Time always increases: a frame without a
 /// usable time stamp follows the frame before at the rate, one that repeats or runs back a little comes
 /// directly after it. After a jump back, or one ahead of more than an hour, time goes on at the rate: such
-/// stamps begin anew (joined recordings).
+/// stamps start again (joined recordings).
 class TimeBase {
  public:
   explicit TimeBase(double fps) : step_(1.0 / fps) {}

@@ -23,7 +23,7 @@ constexpr int kHalf = 127;                 // of the probability in a mask, 0 to
 constexpr double kAside = 1.6;
 constexpr double kAbove = 1.5;
 constexpr double kBelow = 0.8;
-constexpr int kFewArms = 50;  // one pixel in so many there
+constexpr int kFewArms = 50;  // in one of this many pixels
 // Share of the background that must be known to look for a head by its outline.
 constexpr double kEnoughBackground = 0.3;
 // A head region with less skin and hair than this, for more frames than these, is not the head.

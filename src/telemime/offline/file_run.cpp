@@ -174,7 +174,7 @@ void FileRun::draw(const FrameRecord& record, const MotionFrame& motion) {
   if (picture_side() == 0) {
     return;
   }
-  // A side result: a picture that cannot be drawn is none.
+  // The overlay is a side result: an image that cannot be drawn is left out.
   try {
     overlay_ = draw_overlay(record.frame.image, {.motion = &motion,
                                                  .model = &run_.state.model,

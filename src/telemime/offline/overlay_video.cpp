@@ -54,7 +54,7 @@ void OverlayVideo::fail(const std::string& why) {
   usable_ = false;
   video_.release();
   if (note_) {
-    note_("there is no overlay video " + file_.string() + ": " + why);
+    note_("the overlay video " + file_.string() + " is not written: " + why);
   }
 }
 
@@ -103,7 +103,7 @@ void OverlayVideo::close() {
     write_whole_file(file_.parent_path() / "overlay.png", std::string(png.begin(), png.end()));
   } catch (const std::exception& e) {
     if (note_) {
-      note_(std::string("there is no overlay picture: ") + e.what());
+      note_(std::string("the overlay picture is not written: ") + e.what());
     }
   }
 }

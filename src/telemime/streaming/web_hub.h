@@ -65,7 +65,7 @@ class WebHub {
 
   /// A token that a connection holds while it is open; nothing if too many are open.
   std::shared_ptr<void> ticket();
-  /// True if so many connections are open that they must be closed after each request.
+  /// True if too many connections are open to keep them after a request.
   bool crowded() const;
 
   /// Keeps a connection alive that waits for other threads, until it is released or the server ends.

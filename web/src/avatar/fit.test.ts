@@ -39,7 +39,7 @@ describe("size and place of an avatar", () => {
     expect(stub.scale).toBe(1);
     expect(stub.lift).toBeGreaterThan(0.7);
   });
-  it("refuses what is no upright figure", () => {
+  it("refuses a figure that does not stand upright", () => {
     expect(fitToHuman({ hips: 0, head: 0, foot: 0, low: 0 })).toBeNull();
     expect(fitToHuman({ hips: 1, head: 0.5, foot: 0, low: 0 })).toBeNull();
     expect(fitToHuman({ hips: NaN, head: 1, foot: 0, low: 0 })).toBeNull();

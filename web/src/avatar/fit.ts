@@ -25,7 +25,7 @@ const LARGEST = 2.4;
 const USUAL = 1.4;
 const FLOATING = 0.12; // m: shoes with soles stay as they are
 
-/** Null when the bones are those of no figure that stands upright. */
+/** Null if the bones are not those of a figure that stands upright. */
 export function fitToHuman({ hips, head, foot, low }: Heights): Fit | null {
   const upper = head - hips;
   if (![hips, head, foot].every(Number.isFinite) || !(upper > 1e-5)) return null;

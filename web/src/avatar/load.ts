@@ -19,7 +19,7 @@ import { foldMissing } from "./fold";
 import { dropOddSprings, fitToHuman, scaleSprings } from "./fit";
 import { AvatarError, inspect, type Facts, type Json } from "./inspect";
 
-const ASIDE = 0.3; // m from the middle: more is no way to stand
+const ASIDE = 0.3; // m from the middle: an avatar that stands farther away is moved
 
 export interface BoneReading {
   /** Rotation parent from bone of the normalised skeleton (T-pose, facing +z), as in a pose message. */
@@ -45,7 +45,7 @@ export class Avatar {
   /** Height of the hips in the file's own unit. */
   private readonly ownHipHeight: number;
 
-  /** Throws AvatarError for what cannot be seen or is no figure. */
+  /** Throws AvatarError if the avatar cannot be seen or does not stand upright. */
   constructor(
     private readonly vrm: VRM,
     readonly facts: Facts,
