@@ -26,8 +26,8 @@ double square(double x) {
 constexpr double kUnseen = 0.5;
 // The same of a wrist whose hand is outside the image: the forearm may continue there.
 constexpr double kCut = 0.25;
-// Power of F (over that of a pose that fits well) with which deviations grow. With landmarks: where a filmed
-// person's clothes or room make F 2.5 and 6 times larger, deviations are 1.7 and 2.7 times larger.
+// Power of F (over that of a pose that fits well) with which deviations grow. With landmarks: chosen on
+// two filmed people, whose F is 2.5 and 6 times larger and whose deviations are 1.7 and 2.7 times larger.
 constexpr double kPoor = 2.0;
 constexpr double kPoorSeen = 0.5;
 // Without the boundary between sleeve and skin an arm of one colour shows its elbow by its outline alone.
