@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/body/face_motion.h"
 #include "telemime/body/pose.h"
 #include "telemime/body/skeleton.h"
 #include "telemime/core/camera.h"
@@ -34,6 +35,7 @@ struct MotionFrame {
   Pose pose;                                          ///< when lost: the last known pose, or the rest pose
   JointPositions joints;                              ///< m, camera frame
   std::array<Eigen::Vector2d, kJointCount> pixels{};  ///< of the INPUT image, integer = pixel centre
+  std::optional<FaceMotion> face;                     ///< empty: no face was looked for or none is seen
   std::optional<PoseSpread> spread;                   ///< empty for methods that keep a single pose
   double region_score = 0.0;                          ///< F, in [0, 1]
   double contour_score = 0.0;                         ///< D_C, pixels of the working image
