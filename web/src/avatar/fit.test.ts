@@ -64,7 +64,6 @@ describe("springs of an avatar", () => {
       { name: "hair" },
       { joints: [{ node: 3 }] },
       { joints: [{}] },
-      { ...good, colliderGroups: [0] },
       { ...good, center: -1 },
       7,
       null,
@@ -78,10 +77,38 @@ describe("springs of an avatar", () => {
     expect(dropOddSprings(broken)).toBe(1);
   });
   it("are left out of VRM 0.x as well", () => {
-    const bones = [{ bones: [0, 1] }, { bones: [9] }, {}, { bones: [1], colliderGroups: [4] }];
-    const file = { nodes: [{}, {}], extensions: { VRM: { secondaryAnimation: { boneGroups: bones } } } };
-    expect(dropOddSprings(file)).toBe(3);
-    expect(file.extensions.VRM.secondaryAnimation.boneGroups).toEqual([{ bones: [0, 1] }]);
+    const bones = [{ bones: [0, 1] }, { bones: [9] }, {}, { bones: [1], colliderGroups: [4, 1] }];
+    const sound = { node: 1, colliders: [{ radius: 0.1 }] };
+    const colliderGroups = [{ node: 7, colliders: [] }, sound];
+    const file = {
+      nodes: [{}, {}],
+      extensions: { VRM: { secondaryAnimation: { boneGroups: bones, colliderGroups } } },
+    };
+    expect(dropOddSprings(file)).toBe(4);
+    expect(file.extensions.VRM.secondaryAnimation).toEqual({
+      boneGroups: [{ bones: [0, 1] }, { bones: [1], colliderGroups: [0] }],
+      colliderGroups: [sound],
+    });
+  });
+  it("keep all colliders but the odd ones", () => {
+    const sphere = (node: unknown) => ({ node, shape: { sphere: { radius: 0.1 } } });
+    for (const odd of [sphere(3), { node: 0 }, sphere("0"), null, 5]) {
+      const file = vrm1({ ...good, colliderGroups: [0, 1] }, { ...good, colliderGroups: [1] });
+      const springs = file.extensions.VRMC_springBone;
+      springs.colliders = [sphere(0), odd, sphere(2)];
+      springs.colliderGroups = [{ colliders: [0, 1] }, { colliders: [2, 1] }];
+      expect(dropOddSprings(file)).toBe(1);
+      expect(springs.colliders).toEqual([sphere(0), sphere(2)]);
+      expect(springs.colliderGroups).toEqual([{ colliders: [0] }, { colliders: [1] }]);
+      expect(springs.springs).toHaveLength(2);
+    }
+  });
+  it("lose references to what does not exist", () => {
+    const file = vrm1({ ...good, colliderGroups: [0, 1] });
+    file.extensions.VRMC_springBone.colliderGroups = [{ colliders: [0] }];
+    expect(dropOddSprings(file)).toBe(2);
+    expect(file.extensions.VRMC_springBone.springs).toEqual([{ ...good, colliderGroups: [0] }]);
+    expect(file.extensions.VRMC_springBone.colliderGroups).toEqual([{ colliders: [] }]);
   });
 });
 

@@ -60,61 +60,61 @@ const size = (metres: number): string =>
 const list = (v: unknown): unknown[] => (Array.isArray(v) ? v : []);
 
 /**
- * Takes springs (of hair and clothes) that the 3-D library would fail at out of the file's JSON; returns how many. A spring
- * needs joints that are nodes of the file, and colliders that exist.
+ * Takes springs (of hair and clothes), and what they bounce off, that the 3-D library would fail at out of the file's JSON;
+ * returns how many. A spring needs joints that are nodes of the file, a collider a node and a shape; references to what does
+ * not exist are left out.
  */
 export function dropOddSprings(json: Json): number {
   const extensions = isObject(json.extensions) ? json.extensions : {};
   const nodes = list(json.nodes).length;
-  const within = (i: unknown, count: number): boolean =>
+  const within = (i: unknown, count: number): i is number =>
     Number.isInteger(i) && (i as number) >= 0 && (i as number) < count;
   let odd = 0;
-  const keep = (owner: Json, key: string, good: (item: Json) => boolean): void => {
-    if (owner[key] === undefined) return;
+  /** Keeps the good items of a list. Returns the new number of each old one; undefined: it is left out. */
+  const sieve = (owner: Json, key: string, good: (item: Json) => boolean): (number | undefined)[] => {
+    if (owner[key] === undefined) return [];
+    const kept: Json[] = [];
     const all = list(owner[key]);
-    const kept = all.filter((item) => isObject(item) && good(item));
+    const numbers = all.map((item) => (isObject(item) && good(item) ? kept.push(item) - 1 : undefined));
     odd += all.length - kept.length + (Array.isArray(owner[key]) ? 0 : 1);
     owner[key] = kept;
+    return numbers;
+  };
+  /** Gives the references of all items the new numbers. */
+  const renumber = (items: unknown, key: string, numbers: (number | undefined)[]): void => {
+    for (const item of list(items) as Json[]) {
+      if (item[key] === undefined) continue;
+      const all = list(item[key]);
+      odd += all.filter((i) => !within(i, numbers.length)).length + (Array.isArray(item[key]) ? 0 : 1);
+      item[key] = all
+        .map((i) => (within(i, numbers.length) ? numbers[i] : undefined))
+        .filter((i) => i !== undefined);
+    }
   };
   const springs = extensions.VRMC_springBone;
   if (isObject(springs)) {
-    const colliders = list(springs.colliders).length;
-    const groups = list(springs.colliderGroups).length;
-    const sound = (c: unknown): boolean => isObject(c) && within(c.node, nodes) && isObject(c.shape);
-    if (!list(springs.colliders).every(sound)) {
-      delete springs.colliders; // groups refer to them by number
-      odd++;
-    }
-    const count = springs.colliders === undefined ? 0 : colliders;
-    keep(springs, "colliderGroups", (g) => list(g.colliders).every((c) => within(c, count)));
-    const allGroups = list(springs.colliderGroups).length === groups;
-    keep(
+    const colliders = sieve(springs, "colliders", (c) => within(c.node, nodes) && isObject(c.shape));
+    const groups = sieve(springs, "colliderGroups", () => true);
+    renumber(springs.colliderGroups, "colliders", colliders);
+    sieve(
       springs,
       "springs",
       (s) =>
         Array.isArray(s.joints) &&
         s.joints.every((j) => isObject(j) && within(j.node, nodes)) &&
-        (s.center === undefined || within(s.center, nodes)) &&
-        list(s.colliderGroups).every((g) => allGroups && within(g, groups)),
+        (s.center === undefined || within(s.center, nodes)),
     );
+    renumber(springs.springs, "colliderGroups", groups);
   }
   const vrm0 = isObject(extensions.VRM) ? extensions.VRM.secondaryAnimation : undefined;
   if (isObject(vrm0)) {
-    const groups = list(vrm0.colliderGroups);
-    const sound = (g: unknown): boolean => isObject(g) && within(g.node, nodes) && Array.isArray(g.colliders);
-    if (!groups.every(sound)) {
-      vrm0.colliderGroups = [];
-      odd++;
-    }
-    const count = list(vrm0.colliderGroups).length;
-    keep(
+    const groups = sieve(
       vrm0,
-      "boneGroups",
-      (b) =>
-        Array.isArray(b.bones) &&
-        b.bones.every((n) => within(n, nodes)) &&
-        list(b.colliderGroups).every((g) => within(g, count)),
+      "colliderGroups",
+      (g) => within(g.node, nodes) && Array.isArray(g.colliders) && g.colliders.every(isObject),
     );
+    sieve(vrm0, "boneGroups", (b) => Array.isArray(b.bones) && b.bones.every((n) => within(n, nodes)));
+    renumber(vrm0.boneGroups, "colliderGroups", groups);
   }
   return odd;
 }

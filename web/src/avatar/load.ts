@@ -175,7 +175,7 @@ export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
   const notes: string[] = [];
   loader.register((parser) => {
     if (dropOddSprings(parser.json as Json) > 0) {
-      notes.push("broken springs of hair or clothes were left out");
+      notes.push("broken springs of hair or clothes, or what they bounce off, were left out");
     }
     return new VRMLoaderPlugin(parser);
   });
