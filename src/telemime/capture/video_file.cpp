@@ -29,15 +29,14 @@ class VideoFile : public Source {
     info_.fps = by_number_ ? options.rate : usable_fps(stated_fps_, rate_of(opened.stamps), notes_);
     info_.pixel_aspect = pixel_aspect(video_);
     times_ = TimeBase(info_.fps);
-    first_ = decode();
-    if (first_.empty()) {
+    ahead_ = read();
+    if (ahead_.image.empty()) {
       throw cannot_read(opened.name, opened.kind, "it can be opened, but has no frame that can be decoded",
                         "Play it to check that it is complete, or convert it: ffmpeg -i INPUT output.mp4");
     }
-    require_usable_size(first_.size(), opened.name);
-    info_.width = first_.cols;
-    info_.height = first_.rows;
-    time_ = times_.next(stamp());
+    require_usable_size(ahead_.image.size(), opened.name);
+    info_.width = ahead_.image.cols;
+    info_.height = ahead_.image.rows;
   }
 
   const SourceInfo& info() const override { return info_; }
@@ -47,34 +46,43 @@ class VideoFile : public Source {
     if (ended_) {
       return std::nullopt;
     }
-    if (!first_.empty()) {
-      return Frame{std::exchange(first_, {}), index_++, time_};
-    }
-    const cv::Mat image = decode();
-    if (image.empty()) {
+    if (ahead_.image.empty()) {
       finish();
       return std::nullopt;
     }
-    time_ = times_.next(stamp());
-    return Frame{fit_to(image, {info_.width, info_.height}, notes_), index_++, time_};
+    const Picture now = std::exchange(ahead_, {});
+    ahead_ = read();
+    time_ = times_.next(now.stamp, ahead_.stamp);
+    return Frame{fit_to(now.image, {info_.width, info_.height}, notes_), index_++, time_};
   }
 
  private:
+  struct Picture {
+    cv::Mat image;                ///< empty: the video has ended
+    std::optional<double> stamp;  ///< s
+  };
+
+  Picture read() {
+    cv::Mat image = decode();
+    if (image.empty()) {
+      return {};
+    }
+    // The decoder's last frames come without a time stamp (0).
+    const double ms = video_.get(cv::CAP_PROP_POS_MSEC);
+    const bool has_none = by_number_ || (ms == 0.0 && decoded_ > 0);
+    ++decoded_;
+    return {image, has_none ? std::nullopt : std::optional(ms / 1000.0)};
+  }
+
   cv::Mat decode() {
     cv::Mat image;  // a new one each time: OpenCV would overwrite a returned frame
     try {
       video_.read(image);
     } catch (const cv::Exception&) {
-      notes_.add("frame " + std::to_string(index_) + " cannot be decoded; reading ended there");
+      notes_.add("frame " + std::to_string(decoded_) + " cannot be decoded; reading ended there");
       return {};
     }
     return with_square_pixels(to_bgr8(image), info_.pixel_aspect);
-  }
-
-  /// The decoder's last frames come without a time stamp (0).
-  std::optional<double> stamp() {
-    const double ms = video_.get(cv::CAP_PROP_POS_MSEC);
-    return by_number_ || (ms == 0.0 && index_ > 0) ? std::nullopt : std::optional(ms / 1000.0);
   }
 
   void finish() {
@@ -92,7 +100,8 @@ class VideoFile : public Source {
   cv::VideoCapture video_;
   SourceInfo info_;
   Notes notes_;
-  cv::Mat first_;
+  Picture ahead_;             // the next frame: its time stamp tells whether that of this one is right
+  std::int64_t decoded_ = 0;  // frames
   std::int64_t index_ = 0;
   double stated_fps_;
   bool by_number_;  // of the frame, instead of by time stamps

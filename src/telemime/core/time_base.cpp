@@ -28,6 +28,7 @@ constexpr std::array kUsualRates = {5.0,
                                     240.0};
 constexpr double kPause = 0.5;            // s; no step of a usual rate
 constexpr double kLongestPause = 3600.0;  // s
+constexpr double kLastPause = 60.0;       // s; a longer one that no further frame confirms is none
 constexpr double kDisorder = 0.5;         // s; a larger jump back is a new beginning
 constexpr double kInstant = 1e-3;         // s
 
@@ -43,7 +44,7 @@ double rounded_rate(double rate) {
 std::optional<double> rate_of(const std::vector<double>& stamps) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) {
+    if (stamps[i] > stamps[i - 1] && stamps[i] - stamps[i - 1] < kLongestPause) {
       steps.push_back(stamps[i] - stamps[i - 1]);
     }
   }
@@ -70,13 +71,26 @@ bool same_rate(double a, double b) {
   return std::abs(a / b - 1.0) < 0.02;
 }
 
-double TimeBase::next(std::optional<double> stamp) {
-  const bool first = time_ < 0.0;
-  if (!stamp || !std::isfinite(*stamp)) {
-    return time_ = first ? 0.0 : time_ + step_;
+bool TimeBase::is_wrong(double time, std::optional<double> following) const {
+  if (!following || !std::isfinite(*following)) {
+    return time > time_ + kLastPause;
   }
+  const double next = *following - *start_;
+  const bool ahead = time > time_ + kPause && next < time - kDisorder;
+  const bool behind = time < time_ - kDisorder;
+  return (ahead || behind) && next > time_ - kDisorder && next < time_ + kLongestPause;
+}
+
+double TimeBase::next(std::optional<double> stamp, std::optional<double> following) {
+  const bool first = time_ < 0.0;
   const double expected = first ? 0.0 : time_ + step_;
+  if (!stamp || !std::isfinite(*stamp)) {
+    return time_ = expected;
+  }
   const double time = start_ ? *stamp - *start_ : expected;
+  if (start_ && is_wrong(time, following)) {
+    return time_ = expected;
+  }
   if (!start_ || time < time_ - kDisorder || time > time_ + kLongestPause) {
     start_ = *stamp - expected;
     return time_ = expected;

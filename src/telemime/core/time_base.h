@@ -16,16 +16,20 @@ bool same_rate(double a, double b);
 
 /// Seconds from the first frame, by the time stamps of an input. Time always increases: a frame without a
 /// usable time stamp follows the frame before at the rate, one that repeats or runs back a little comes
-/// directly after it. After a jump back, or one ahead of more than an hour, time goes on at the rate: such
-/// stamps start again (joined recordings).
+/// directly after it. A stamp far from the one before is wrong where the next one goes on from there: its
+/// frame has none. After another jump back, or one ahead of more than an hour, time goes on at the rate:
+/// such stamps start again (joined recordings).
 class TimeBase {
  public:
   explicit TimeBase(double fps) : step_(1.0 / fps) {}
 
-  /// The time of the next frame. `stamp` in s; empty or not finite: the frame has none.
-  double next(std::optional<double> stamp);
+  /// The time of the next frame. `stamp` in s; empty or not finite: the frame has none. `following`: that of
+  /// the frame after it; empty: it has none, or no frame follows.
+  double next(std::optional<double> stamp, std::optional<double> following = std::nullopt);
 
  private:
+  bool is_wrong(double time, std::optional<double> following) const;
+
   double step_;
   double time_ = -1.0;           // of the last frame; negative before the first
   std::optional<double> start_;  // time stamp of time 0

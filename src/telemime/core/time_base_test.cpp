@@ -73,7 +73,7 @@ TEST(TimeBase, TimeIsThatOfTheStamps) {
   EXPECT_EQ(base.next(stamp), 0.0);
   for (int i = 0; i < 200; ++i) {
     stamp += 0.002 + random.uniform() * (i % 50 == 0 ? 60.0 : 0.1);
-    EXPECT_NEAR(base.next(stamp), stamp - 100.0, 1e-9) << i;
+    EXPECT_NEAR(base.next(stamp, stamp + 0.04), stamp - 100.0, 1e-9) << i;
   }
 }
 
@@ -98,6 +98,45 @@ TEST(TimeBase, TimeIncreasesWhateverTheStamps) {
       EXPECT_LT(time, 3601.0 * (i + 1));
       last = time;
     }
+  }
+}
+
+// The time of each frame, with the stamp of the next one known.
+std::vector<double> times_of(const std::vector<double>& all, double fps) {
+  TimeBase base(fps);
+  std::vector<double> times;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    times.push_back(base.next(all[i], i + 1 < all.size() ? std::optional(all[i + 1]) : std::nullopt));
+  }
+  return times;
+}
+
+TEST(TimeBase, OneWrongStampIsNotBelieved) {
+  Random random(4);
+  for (int round = 0; round < 300; ++round) {
+    const double fps = round % 2 == 0 ? 25.0 : 119.881;
+    std::vector<double> all = stamps(60, fps);
+    const std::vector<double> right = times_of(all, fps);
+    const auto which = static_cast<std::size_t>(2 + random.uniform() * 57.0);
+    const double off = std::pow(10.0, 5.0 * random.uniform() + 1.8);
+    all[which] += round % 3 == 0 ? -off : off;
+    const std::vector<double> times = times_of(all, fps);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      EXPECT_NEAR(times[i], right[i], 1e-6) << round << " " << i << ": " << off << " s at " << which;
+    }
+  }
+}
+
+TEST(TimeBase, APauseThatTheNextFrameConfirmsCounts) {
+  for (const double pause : {0.6, 15.0, 70.0, 3000.0}) {
+    std::vector<double> all = stamps(20, 25.0);
+    for (std::size_t i = 10; i < all.size(); ++i) {
+      all[i] += pause;
+    }
+    EXPECT_NEAR(times_of(all, 25.0).back(), 19 / 25.0 + pause, 1e-9);
+    // Before the last frame, nothing confirms it.
+    all.resize(11);
+    EXPECT_NEAR(times_of(all, 25.0).back(), 10 / 25.0 + (pause > 60.0 ? 0.0 : pause), 1e-9);
   }
 }
 
