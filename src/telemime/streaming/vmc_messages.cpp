@@ -83,6 +83,12 @@ std::string unity_name(std::size_t bone) {
   return name;
 }
 
+// Receivers that apply positions need the length of each bone.
+const HumanoidSkeleton& average_skeleton() {
+  static const HumanoidSkeleton skeleton = humanoid_skeleton(make_body(Shape()));
+  return skeleton;
+}
+
 void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, const VmcOptions& options,
                 std::vector<Message>& messages) {
   const Eigen::Vector3d rest = skeleton.offset(HumanBone::hips);
@@ -92,7 +98,7 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
                                    {options.root_moves ? moved : still, Eigen::Quaterniond::Identity()}));
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
     const auto bone = static_cast<HumanBone>(b);
-    Eigen::Vector3d position = options.all_positions ? skeleton.offset(bone) : still;
+    Eigen::Vector3d position = (options.all_positions ? skeleton : average_skeleton()).offset(bone);
     if (bone == HumanBone::hips) {
       position = options.root_moves ? rest : motion.hips;
     }

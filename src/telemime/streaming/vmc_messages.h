@@ -18,7 +18,7 @@ inline constexpr std::size_t kVmcLargestLocalDatagram = 16'000;
 /// Options in which the receivers of the VMC protocol differ.
 struct VmcOptions {
   bool bundles = true;        ///< several messages per datagram; some receivers accept only one
-  bool all_positions = true;  ///< false: all bones but the hips are at 0
+  bool all_positions = true;  ///< false: all bones but the hips are those of an average adult
   bool root_moves = false;    ///< the root moves with the person instead of the hips
   std::size_t largest = kVmcLargestDatagram;  ///< bundle, bytes
 };
