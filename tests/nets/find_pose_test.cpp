@@ -34,7 +34,7 @@ class FindPose : public ::testing::Test {
   void SetUp() override {
     const std::vector<std::string> names = {
         "pose_detection", "pose_landmark_full", "pose_landmark_lite",         "selfie_segmentation",
-        "hand_recrop",    "hand_landmark_full", "face_detection_short_range", "face_landmark"};
+        "hand_recrop",    "hand_landmark_full", "face_detection_short_range", "face_landmark_with_attention"};
     if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
       std::cout << missing << '\n';
       GTEST_SKIP() << missing;

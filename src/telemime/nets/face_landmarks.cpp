@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "telemime/nets/models/table.h"
@@ -37,23 +38,37 @@ PictureRegion level_square(const std::vector<Eigen::Vector2d>& points) {
 }
 
 std::optional<FaceLandmarks> landmarks_in(const cv::Mat& picture, const PictureRegion& region,
-                                          Network& landmarker) {
+                                          FaceNetworks& networks) {
   const InputFormat format{.size = {kInput, kInput}};
-  const auto outputs = landmarker.run(network_input(picture, region, format));
+  const auto outputs = networks.mesh.run(network_input(picture, region, format));
   FaceLandmarks face;
   face.presence = 1.0 / (1.0 + std::exp(-outputs[1][0]));
   if (!(face.presence >= kLeastPresence)) {
     return std::nullopt;
   }
   face.region = region;
-  std::vector<Eigen::Vector2d> pixels;
-  for (std::size_t i = 0; i < FaceLandmarks::kCount; ++i) {
+  std::vector<Eigen::Vector2d> points(FaceLandmarks::kCount, Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; i < FaceLandmarks::kMeshCount; ++i) {
     const float* const values = outputs[0].data() + 3 * i;
-    face.points[i].pixel = region.pixel(Eigen::Vector2d(values[0], values[1]) / kInput);
+    points[i] = {values[0], values[1]};
     face.points[i].depth = values[2] / kInput * region.width;
-    pixels.push_back(face.points[i].pixel);
   }
-  face.next_region = level_square(pixels);
+  for (FaceDetail& detail : networks.details) {
+    refine(detail, outputs[2], kInput, points);
+  }
+  for (std::size_t i = 0; i < FaceLandmarks::kCount; ++i) {
+    points[i] = region.pixel(points[i] / kInput);
+    face.points[i].pixel = points[i];
+  }
+  // An iris has the depth of its eye.
+  for (const auto& [iris, corners] :
+       {std::pair(468, std::pair(33, 133)), std::pair(473, std::pair(362, 263))}) {
+    for (int i = iris; i < iris + 5; ++i) {
+      face.points[i].depth = 0.5 * (face.points[corners.first].depth + face.points[corners.second].depth);
+    }
+  }
+  points.resize(FaceLandmarks::kMeshCount);
+  face.next_region = level_square(points);
   return face;
 }
 
@@ -61,9 +76,9 @@ std::optional<FaceLandmarks> landmarks_in(const cv::Mat& picture, const PictureR
 
 FaceNetworks load_face_networks(const std::filesystem::path& models) {
   const std::vector<std::string> detector_outputs = {"regressors", "classificators"};
-  const std::vector<std::string> landmarker_outputs = {"conv2d_21", "conv2d_31"};  // points, presence
   return {.detector = load_network(models, "face_detection_short_range", detector_outputs),
-          .landmarker = load_network(models, "face_landmark", landmarker_outputs)};
+          .mesh = load_network(models, "face_landmark_with_attention", kFaceMeshOutputs),
+          .details = load_face_details(models)};
 }
 
 PictureRegion head_region(const PoseLandmarks& pose) {
@@ -81,7 +96,7 @@ PictureRegion head_region(const PoseLandmarks& pose) {
 std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegion& search,
                                        FaceNetworks& networks, const std::optional<PictureRegion>& previous) {
   if (previous) {
-    if (std::optional<FaceLandmarks> found = landmarks_in(picture, *previous, networks.landmarker)) {
+    if (std::optional<FaceLandmarks> found = landmarks_in(picture, *previous, networks)) {
       return found;
     }
   }
@@ -94,7 +109,7 @@ std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegi
                                .width = side,
                                .height = side,
                                .angle = std::atan2(eyes.y(), eyes.x())};
-    if (std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks.landmarker)) {
+    if (std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks)) {
       return found;
     }
   }

@@ -6,7 +6,10 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "telemime/nets/face_details.h"
 #include "telemime/nets/network.h"
 #include "telemime/nets/picture_region.h"
 #include "telemime/nets/pose_landmarks.h"
@@ -19,9 +22,11 @@ struct FaceLandmark {
   double depth = 0.0;  ///< behind the middle of the head, in pixels as the picture's axes
 };
 
-/// What the networks see of a face: the points of MediaPipe's canonical face mesh.
+/// What the networks see of a face: the points of MediaPipe's canonical face mesh, then five points of each
+/// iris (the middle first), the right one before the left one.
 struct FaceLandmarks {
-  static constexpr std::size_t kCount = 468;
+  static constexpr std::size_t kMeshCount = 468;
+  static constexpr std::size_t kCount = 478;
   std::array<FaceLandmark, kCount> points;
   double presence = 0.0;      ///< probability that there is a face in the region
   PictureRegion region;       ///< in which the face was seen
@@ -31,10 +36,14 @@ struct FaceLandmarks {
 /// The networks that find a face and its points.
 struct FaceNetworks {
   Network detector;
-  Network landmarker;
+  Network mesh;                     ///< to kFaceMeshOutputs
+  std::vector<FaceDetail> details;  ///< the lips and the eyes
 };
 
-/// Reads face_detection_short_range and face_landmark. Throws Error(config) if one is missing.
+/// Points of the mesh, presence, and the features for the details: of face_landmark_with_attention.
+inline const std::vector<std::string> kFaceMeshOutputs = {"output_mesh", "conv_faceflag", "p_re_lu_3"};
+
+/// Reads face_detection_short_range and face_landmark_with_attention. Throws Error(config) if one is missing.
 FaceNetworks load_face_networks(const std::filesystem::path& models);
 
 /// The square around the head of a person, in which the face is to be searched.

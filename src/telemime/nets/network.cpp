@@ -12,15 +12,6 @@ namespace {
 
 constexpr std::size_t kSpare = XNN_EXTRA_BYTES / sizeof(float);  // XNNPACK reads that far beyond an array
 
-NetworkGraph read_graph(std::span<const std::byte> file, std::span<const std::string> names) {
-  NetworkGraph graph = read_network_graph(file);
-  std::vector<std::string> kept(names.begin(), names.end());
-  for (std::size_t i = 0; names.empty() && i < graph.outputs.size(); ++i) {
-    kept.push_back(graph.tensors[graph.outputs[i]].name);
-  }
-  return keep_outputs(std::move(graph), kept);
-}
-
 // The nodes that join parts into an output: this version of XNNPACK cannot, so they write to one buffer.
 const NetworkNode* joined(const NetworkGraph& graph, int output) {
   const auto node = std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const NetworkNode& candidate) {
@@ -88,9 +79,9 @@ struct Network::Runtime {
   }
 };
 
-Network::Network(std::span<const std::byte> file, std::span<const std::string> outputs)
+Network::Network(std::span<const std::byte> file, const NetworkPart& part)
     : runtime_(std::make_unique<Runtime>()) {
-  runtime_->graph = read_graph(file, outputs);
+  runtime_->graph = read_network_graph(file, part);
   runtime_->prepare();
 }
 

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "telemime/nets/network_graph.h"
 
@@ -15,10 +13,9 @@ namespace telemime {
 /// bytes on the same processor. Not to be used by two threads at once; two networks are independent.
 class Network {
  public:
-  /// From the bytes of a TensorFlow Lite file. `outputs`: names of the outputs to compute, in this order; all
-  /// if empty. What other outputs alone need is not computed. Throws Error(config) if the file is damaged,
-  /// needs an operator that is not supported or has no output of that name.
-  explicit Network(std::span<const std::byte> file, std::span<const std::string> outputs = {});
+  /// From the bytes of a TensorFlow Lite file. What the outputs of the part do not need is not computed.
+  /// Throws Error(config) as read_network_graph does.
+  explicit Network(std::span<const std::byte> file, const NetworkPart& part = {});
   Network(Network&&) noexcept;
   Network& operator=(Network&&) noexcept;
   ~Network();

@@ -72,13 +72,16 @@ struct NetworkGraph {
   std::vector<int> outputs;  ///< indices of tensors
 };
 
-/// Reads a TensorFlow Lite file of a network with one input, floating-point numbers and static shapes.
-/// Weights in half precision or sparse form become plain constants, padding before a convolution becomes part
-/// of it, and the slice of the first channels becomes a convolution. Throws Error(config) if the file is
-/// damaged or needs an operator that is not supported.
-NetworkGraph read_network_graph(std::span<const std::byte> file);
+/// The part of a network that is computed.
+struct NetworkPart {
+  std::string input;                 ///< name of the tensor that is given; empty: the network's input
+  std::vector<std::string> outputs;  ///< names of the tensors to compute, in this order; empty: its outputs
+};
 
-/// The part of a graph that computes the named outputs, in this order.
-NetworkGraph keep_outputs(NetworkGraph graph, std::span<const std::string> names);
+/// Reads the part of a TensorFlow Lite file with one input, floating-point numbers and static shapes. Weights
+/// in half precision or sparse form become plain constants, padding before a convolution becomes part of it,
+/// and the slice of the first channels becomes a convolution. Throws Error(config) if the file is damaged,
+/// has no tensor of a name, or the part needs another input or an operator that is not supported.
+NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPart& part = {});
 
 }  // namespace telemime

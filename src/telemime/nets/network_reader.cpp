@@ -119,47 +119,43 @@ std::vector<int> tensor_list(const FlatTable& from, int field, std::size_t count
   return list;
 }
 
-}  // namespace
-
-NetworkGraph read_network_graph(std::span<const std::byte> file) {
-  const FlatTable model = FlatTable::root(file, "TFL3");
-  const std::vector<FlatTable> subgraphs = model.tables(2);
-  require(subgraphs.size() == 1, "it has not exactly one graph");
-  const std::vector<FlatTable> buffers = model.tables(4);
-
-  NetworkGraph graph;
-  std::size_t total = 0;
-  for (const FlatTable& tensor : subgraphs[0].tables(0)) {
-    graph.tensors.push_back(read_tensor(tensor, buffers));
-    total += element_count(graph.tensors.back().shape);
-    require(total <= kMostElements, "its arrays are too large");
+// The tensor of this name: an input, or what an operator computes.
+int computed_tensor(const NetworkGraph& graph, const std::string& name, const char* role) {
+  const auto is_named = [&](const NetworkTensor& tensor) { return tensor.name == name; };
+  const auto found = std::find_if(graph.tensors.begin(), graph.tensors.end(), is_named);
+  if (found == graph.tensors.end() || found->is_constant() || found->shape.empty()) {
+    throw Error(ErrorKind::config, "the network has no " + std::string(role) + " " + name,
+                "Install the models again.");
   }
-  const std::vector<int> inputs = tensor_list(subgraphs[0], 1, graph.tensors.size());
-  require(inputs.size() == 1 && !graph.tensors[inputs[0]].shape.empty(), "it has not exactly one input");
-  graph.input = inputs[0];
-  graph.outputs = tensor_list(subgraphs[0], 2, graph.tensors.size());
-
-  GraphBuilder builder(graph, read_codes(model));
-  for (const FlatTable& from : subgraphs[0].tables(3)) {
-    builder.add(from);
-  }
-  builder.check_outputs();
-  return graph;
+  return static_cast<int>(found - graph.tensors.begin());
 }
 
-NetworkGraph keep_outputs(NetworkGraph graph, std::span<const std::string> names) {
-  std::vector<int> outputs;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(graph.outputs.begin(), graph.outputs.end(),
-                                    [&](int output) { return graph.tensors[output].name == name; });
-    if (found == graph.outputs.end()) {
-      throw Error(ErrorKind::config, "the network has no output " + name, "Install the models again.");
-    }
-    outputs.push_back(*found);
+// Backwards: an operator is needed if a later one reads what it computes. Returns the needed ones in order.
+std::vector<FlatTable> needed_operators(std::vector<FlatTable> operators, const NetworkGraph& graph) {
+  std::vector<bool> needed(graph.tensors.size(), false);
+  for (const int output : graph.outputs) {
+    needed[output] = true;
   }
-  graph.outputs = std::move(outputs);
+  const auto first_kept =
+      std::stable_partition(operators.rbegin(), operators.rend(), [&](const FlatTable& from) {
+        const std::vector<std::int32_t> outputs = from.numbers<std::int32_t>(2);
+        const bool keep = std::any_of(outputs.begin(), outputs.end(), [&](std::int32_t output) {
+          return output < 0 || static_cast<std::size_t>(output) >= needed.size() ||
+                 (needed[output] && output != graph.input);
+        });
+        for (const std::int32_t input : keep ? from.numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
+          if (input >= 0 && static_cast<std::size_t>(input) < needed.size()) {
+            needed[input] = true;
+          }
+        }
+        return keep;
+      });
+  operators.erase(operators.begin(), first_kept.base());
+  return operators;
+}
 
-  // Backwards: a node is needed if a later one reads what it computes.
+// Removes the nodes that became part of others, and the numbers of constants that no node reads.
+void remove_unused(NetworkGraph& graph) {
   std::vector<bool> needed(graph.tensors.size(), false);
   needed[graph.input] = true;
   for (const int output : graph.outputs) {
@@ -183,6 +179,40 @@ NetworkGraph keep_outputs(NetworkGraph graph, std::span<const std::string> names
       graph.tensors[i].integers = {};
     }
   }
+}
+
+}  // namespace
+
+NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPart& part) {
+  const FlatTable model = FlatTable::root(file, "TFL3");
+  const std::vector<FlatTable> subgraphs = model.tables(2);
+  require(subgraphs.size() == 1, "it has not exactly one graph");
+  const std::vector<FlatTable> buffers = model.tables(4);
+
+  NetworkGraph graph;
+  std::size_t total = 0;
+  for (const FlatTable& tensor : subgraphs[0].tables(0)) {
+    graph.tensors.push_back(read_tensor(tensor, buffers));
+    total += element_count(graph.tensors.back().shape);
+    require(total <= kMostElements, "its arrays are too large");
+  }
+  const std::vector<int> inputs = tensor_list(subgraphs[0], 1, graph.tensors.size());
+  require(inputs.size() == 1 && !graph.tensors[inputs[0]].shape.empty(), "it has not exactly one input");
+  graph.input = part.input.empty() ? inputs[0] : computed_tensor(graph, part.input, "input");
+  graph.outputs = tensor_list(subgraphs[0], 2, graph.tensors.size());
+  if (!part.outputs.empty()) {
+    graph.outputs.clear();
+    for (const std::string& name : part.outputs) {
+      graph.outputs.push_back(computed_tensor(graph, name, "output"));
+    }
+  }
+
+  GraphBuilder builder(graph, read_codes(model));
+  for (const FlatTable& from : needed_operators(subgraphs[0].tables(3), graph)) {
+    builder.add(from);
+  }
+  builder.check_outputs();
+  remove_unused(graph);
   return graph;
 }
 

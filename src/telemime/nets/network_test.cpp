@@ -118,13 +118,25 @@ TEST(Network, SliceKeepsTheFirstChannels) {
 
 TEST(Network, ComputesNamedOutputsOnly) {
   const std::vector<std::string> names = {"t8"};
-  Network network(rich_file(), names);
+  Network network(rich_file(), {.input = {}, .outputs = names});
   EXPECT_EQ(network.output_shape(0), (TensorShape{1, 4, 2}));
   const auto outputs = network.run(std::vector<float>(16, 1.0F));
   ASSERT_EQ(outputs.size(), 1U);
   EXPECT_EQ(outputs[0].size(), 8U);
   const std::vector<std::string> unknown = {"t1"};
-  EXPECT_THROW(Network(rich_file(), unknown), Error);
+  EXPECT_THROW(Network(rich_file(), {.input = {}, .outputs = unknown}), Error);
+}
+
+TEST(Network, ComputesFromAnInnerTensor) {
+  // What comes before the given tensor is not read: an operator that is not supported does not matter there.
+  const auto file = network_file({{{1, 2}}, {{1, 1, 2, 1}}, {{1, 1, 2, 1}}, {{1, 1, 2, 1}}},
+                                 {{99, {0}, 1}, {kAdd, {1, 1}, 2}, {kAdd, {2, 1}, 3}}, {3});
+  Network network(file, {.input = "t1", .outputs = {"t2", "t3"}});
+  const auto outputs = network.run(std::vector<float>{1, 10});
+  EXPECT_EQ(std::vector<float>(outputs[0].begin(), outputs[0].end()), (std::vector<float>{2, 20}));
+  EXPECT_EQ(std::vector<float>(outputs[1].begin(), outputs[1].end()), (std::vector<float>{3, 30}));
+  EXPECT_THROW(Network(file, {.input = "t0", .outputs = {}}), Error);
+  EXPECT_THROW(Network(file, {.input = "t9", .outputs = {}}), Error);
 }
 
 TEST(Network, RefusesInputOfAnotherSize) {

@@ -85,14 +85,15 @@ TEST(Models, UnknownNameListsTheNames) {
 
 TEST(Models, MissingOnesAreNamedWithARemedy) {
   const ScratchFolder folder;
-  const std::vector<std::string> names = {"hand_recrop", "face_landmark"};
+  const std::vector<std::string> names = {"hand_recrop", "face_landmark_with_attention"};
   std::ofstream(folder.file("hand_recrop.tflite")) << "x";
   const std::string missing = missing_models(folder.path(), names);
   EXPECT_EQ(missing.find("hand_recrop"), std::string::npos);
-  EXPECT_NE(missing.find("there is no face_landmark.tflite in " + folder.path().string()), std::string::npos);
+  EXPECT_NE(missing.find("there is no face_landmark_with_attention.tflite in " + folder.path().string()),
+            std::string::npos);
   EXPECT_NE(missing.find("TELEMIME_MODELS"), std::string::npos);
   EXPECT_NE(missing_models({}, names), "");
-  EXPECT_THROW(load_network(folder.path(), "face_landmark"), Error);
+  EXPECT_THROW(load_network(folder.path(), "face_landmark_with_attention"), Error);
 }
 
 TEST(Models, GivenFolderIsTaken) {
