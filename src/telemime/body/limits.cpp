@@ -11,24 +11,24 @@
 namespace telemime {
 namespace {
 
-using Range = std::array<double, 2>;
+using AngleRange = std::array<double, 2>;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // In the order of Angle. The right side mirrors the left: ranges about y and z change sign and ends.
-constexpr std::array<Range, kAngleCount> kReference = {{
+constexpr std::array<AngleRange, kAngleCount> kReference = {{
     {-180, 180}, {-45, 45},   {-45, 45},  {-10, 10}, {-10, 10},   {-10, 10}, {-110, 25},
     {-60, 30},   {-20, 100},  {-110, 25}, {-30, 60}, {-100, 20},  {-150, 0}, {-150, 0},
     {-20, 20},   {-100, 100}, {-37, 27},  {-20, 20}, {-100, 100}, {-37, 27},
 }};
 
-constexpr std::array<Range, kAngleCount> kAnatomical = {{
+constexpr std::array<AngleRange, kAngleCount> kAnatomical = {{
     {-180, 180}, {-45, 45},  {-30, 60},  {-45, 45}, {-80, 80},  {-45, 45}, {-180, 60},
     {-90, 90},   {-45, 180}, {-180, 60}, {-90, 90}, {-180, 45}, {-150, 5}, {-150, 5},
     {-70, 70},   {-90, 90},  {-30, 20},  {-70, 70}, {-90, 90},  {-30, 20},
 }};
 
-JointLimits from_degrees(const std::string& name, const std::array<Range, kAngleCount>& table) {
+JointLimits from_degrees(const std::string& name, const std::array<AngleRange, kAngleCount>& table) {
   JointLimits limits;
   limits.name = name;
   for (std::size_t i = 0; i < kAngleCount; ++i) {

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/body/face_expression.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "telemime/body/testing_face.h"
+#include "telemime/core/random.h"
+
+namespace telemime {
+namespace {
+
+using testing::TestFace;
+using enum Expression;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const Camera kCamera{.width = 640, .height = 480, .fx = 600, .fy = 600, .cx = 320, .cy = 240};
+constexpr Side kL = Side::left;
+constexpr Side kR = Side::right;
+
+FaceMotion motion_of(const TestFace& face, const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
+  NeutralFace neutral;
+  // The person is seen at rest for some seconds.
+  for (int i = 0; i < 30; ++i) {
+    face_motion(TestFace().seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 0.1 * i,
+                neutral);
+  }
+  return face_motion(face.seen(turn, 2.0, {320, 240}), 1.0, kCamera, 3.0, neutral);
+}
+
+Eigen::Quaterniond turned(double yaw, double pitch = 0.0, double roll = 0.0) {
+  return Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitZ());
+}
+
+/// What a face does, which coefficients show it, and which others may.
+struct Deed {
+  std::function<void(TestFace&)> move;
+  std::vector<Expression> shown;
+  std::vector<Expression> also;
+};
+
+const std::vector<Deed>& deeds() {
+  static const std::vector<Deed> all = {
+      {[](TestFace& f) { f.close_eye(kL, 0.9); }, {eye_blink_left}, {}},
+      {[](TestFace& f) { f.close_eye(kR, 0.9); }, {eye_blink_right}, {}},
+      {[](TestFace& f) { f.close_eye(kL, -0.5); }, {eye_wide_left}, {}},
+      {[](TestFace& f) { f.close_eye(kR, -0.5); }, {eye_wide_right}, {}},
+      {[](TestFace& f) { f.raise_lower_lid(kL, 2.2); }, {eye_squint_left}, {eye_blink_left}},
+      {[](TestFace& f) { f.raise_lower_lid(kR, 2.2); }, {eye_squint_right}, {eye_blink_right}},
+      {[](TestFace& f) { f.look(33 * kDegree, 0); }, {eye_look_out_left, eye_look_in_right}, {}},
+      {[](TestFace& f) { f.look(-33 * kDegree, 0); }, {eye_look_in_left, eye_look_out_right}, {}},
+      {[](TestFace& f) { f.look(0, 28 * kDegree); }, {eye_look_up_left, eye_look_up_right}, {}},
+      {[](TestFace& f) { f.look(0, -28 * kDegree); },
+       {eye_look_down_left, eye_look_down_right},
+       {eye_wide_left, eye_wide_right}},
+      {[](TestFace& f) {
+         f.brow_inner(kL, 7);
+         f.brow_inner(kR, 7);
+       },
+       {brow_inner_up},
+       {}},
+      {[](TestFace& f) { f.brow_outer(kL, 7); }, {brow_outer_up_left}, {}},
+      {[](TestFace& f) { f.brow_outer(kR, 7); }, {brow_outer_up_right}, {}},
+      {[](TestFace& f) { f.brow_inner(kL, -5); }, {brow_down_left}, {}},
+      {[](TestFace& f) { f.brow_inner(kR, -5); }, {brow_down_right}, {}},
+      {[](TestFace& f) {
+         f.move(f.on(kL, {50, 205, 123}), {0, -7, 0});
+       },
+       {cheek_squint_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.on(kR, {50, 205, 123}), {0, -7, 0});
+       },
+       {cheek_squint_right},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.on(kL, {129, 98, 64}), {0, -6, 0});
+       },
+       {nose_sneer_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.on(kR, {129, 98, 64}), {0, -6, 0});
+       },
+       {nose_sneer_right},
+       {}},
+      {[](TestFace& f) {
+         f.jaw({0, 25, 0});
+       },
+       {jaw_open},
+       {}},
+      {[](TestFace& f) {
+         f.jaw({0, 25, 0}, true);
+       },
+       {jaw_open, mouth_close},
+       {}},
+      {[](TestFace& f) {
+         f.jaw({9, 0, 0});
+       },
+       {jaw_left},
+       {}},
+      {[](TestFace& f) {
+         f.jaw({-9, 0, 0});
+       },
+       {jaw_right},
+       {}},
+      {[](TestFace& f) {
+         f.lips({9, 0, 0});
+       },
+       {Expression::mouth_left},
+       {}},
+      {[](TestFace& f) {
+         f.lips({-9, 0, 0});
+       },
+       {mouth_right},
+       {}},
+      {[](TestFace& f) { f.narrow(0.66); }, {mouth_pucker}, {}},
+      {[](TestFace& f) {
+         f.narrow(0.66);
+         f.move(f.lower_lip(), {0, 5, 0});
+         f.move(f.upper_lip(), {0, -3, 0});
+       },
+       {mouth_funnel},
+       {mouth_lower_down_left, mouth_lower_down_right, mouth_upper_up_left, mouth_upper_up_right}},
+      {[](TestFace& f) {
+         f.thin({0, 37, 39, 267, 269}, {13, 82, 81, 312, 311}, 0.8);
+       },
+       {mouth_roll_upper},
+       {mouth_press_left, mouth_press_right}},
+      {[](TestFace& f) {
+         f.thin({17, 84, 181, 314, 405}, {14, 87, 178, 317, 402}, 0.8);
+       },
+       {mouth_roll_lower},
+       {mouth_shrug_lower, mouth_press_left, mouth_press_right}},
+      {[](TestFace& f) {
+         f.thin({37, 39, 84, 181}, {82, 81, 87, 178}, 0.85);
+       },
+       {mouth_press_right},
+       {}},
+      {[](TestFace& f) {
+         f.thin({267, 269, 314, 405}, {312, 311, 317, 402}, 0.85);
+       },
+       {mouth_press_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.upper_lip(), {0, -6, 0});
+         f.move({87, 14, 317, 178, 402}, {0, -6, 0});
+       },
+       {mouth_shrug_upper},
+       {}},
+      {[](TestFace& f) {
+         f.lips({0, -7, 0});
+       },
+       {mouth_shrug_lower, mouth_shrug_upper},
+       {mouth_smile_left, mouth_smile_right}},
+      {[](TestFace& f) {
+         f.move(f.corner(kL), {5, -7, 0});
+       },
+       {mouth_smile_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.corner(kR), {-5, -7, 0});
+       },
+       {mouth_smile_right},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.corner(kL), {0, 7, 0});
+       },
+       {mouth_frown_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.corner(kR), {0, 7, 0});
+       },
+       {mouth_frown_right},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.corner(kL), {9, 0, 0});
+       },
+       {mouth_stretch_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.corner(kR), {-9, 0, 0});
+       },
+       {mouth_stretch_right},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.upper_lip(kL), {0, -6, 0});
+       },
+       {mouth_upper_up_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.upper_lip(kR), {0, -6, 0});
+       },
+       {mouth_upper_up_right},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.lower_lip(kL), {0, 6, 0});
+       },
+       {mouth_lower_down_left},
+       {}},
+      {[](TestFace& f) {
+         f.move(f.lower_lip(kR), {0, 6, 0});
+       },
+       {mouth_lower_down_right},
+       {}},
+  };
+  return all;
+}
+
+TestFace face_of(const Deed& deed) {
+  TestFace face;
+  deed.move(face);
+  return face;
+}
+
+std::string_view name_of(Expression e) {
+  return kExpressionNames[static_cast<std::size_t>(e)];
+}
+
+TEST(FaceExpression, NamesAreThoseOfArkit) {
+  EXPECT_EQ(std::set<std::string_view>(kExpressionNames.begin(), kExpressionNames.end()).size(), 52U);
+  EXPECT_TRUE(std::is_sorted(kExpressionNames.begin(), kExpressionNames.end()));
+  EXPECT_EQ(name_of(tongue_out), "tongueOut");
+  EXPECT_EQ(name_of(mouth_close), "mouthClose");
+}
+
+TEST(FaceExpression, RestIsZero) {
+  const FaceMotion face = motion_of(TestFace());
+  EXPECT_EQ(face.confidence, 1.0);
+  EXPECT_LT(face.gaze.norm(), 1e-6);
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    EXPECT_NEAR(face.expressions[i], 0.0, 1e-6) << kExpressionNames[i];
+  }
+}
+
+TEST(FaceExpression, EachDeedShowsInItsCoefficientsAlone) {
+  std::set<Expression> covered;
+  for (std::size_t d = 0; d < deeds().size(); ++d) {
+    const Deed& deed = deeds()[d];
+    const FaceMotion face = motion_of(face_of(deed));
+    for (std::size_t i = 0; i < kExpressionCount; ++i) {
+      const auto e = static_cast<Expression>(i);
+      const auto has = [e](const std::vector<Expression>& list) {
+        return std::find(list.begin(), list.end(), e) != list.end();
+      };
+      if (has(deed.shown)) {
+        EXPECT_GT(face[e], 0.8) << name_of(e) << " of deed " << d;
+        covered.insert(e);
+      } else if (!has(deed.also)) {
+        EXPECT_LT(face[e], 0.2) << name_of(e) << " of deed " << d << ", " << name_of(deed.shown[0]);
+      }
+    }
+  }
+  // What the points of a face do not show stays at rest.
+  for (const Expression e : {cheek_puff, jaw_forward, mouth_dimple_left, mouth_dimple_right, tongue_out}) {
+    EXPECT_TRUE(covered.insert(e).second) << name_of(e);
+  }
+  EXPECT_EQ(covered.size(), kExpressionCount);
+}
+
+TEST(FaceExpression, DoesNotChangeWithTheHead) {
+  for (const Deed& deed : deeds()) {
+    const TestFace face = face_of(deed);
+    const FaceMotion straight = motion_of(face);
+    for (const double yaw : {-60.0, -30.0, 30.0, 60.0}) {
+      for (const double pitch : {-25.0, 0.0, 25.0}) {
+        if (std::abs(yaw) > 50.0 && name_of(deed.shown[0]).starts_with("eyeLook")) {
+          continue;  // the iris of an eye that looks far aside is out of sight
+        }
+        const FaceMotion aside = motion_of(face, turned(yaw, pitch, 10.0));
+        for (std::size_t i = 0; i < kExpressionCount; ++i) {
+          EXPECT_NEAR(aside.expressions[i], straight.expressions[i], 0.05)
+              << kExpressionNames[i] << ", " << name_of(deed.shown[0]) << ", yaw " << yaw << ", pitch "
+              << pitch;
+        }
+      }
+    }
+  }
+}
+
+TEST(FaceExpression, MirroredFaceGivesMirroredCoefficients) {
+  for (const Deed& deed : deeds()) {
+    const TestFace face = face_of(deed);
+    TestFace mirror;
+    for (std::size_t i = 0; i < kFacePoints; ++i) {
+      mirror.points[TestFace::mirrored(i)] = face.points[i].cwiseProduct(Eigen::Vector3d(-1, 1, 1));
+    }
+    const FaceMotion a = mirrored(motion_of(face));
+    const FaceMotion b = motion_of(mirror);
+    EXPECT_NEAR(a.gaze.x(), b.gaze.x(), 0.01);
+    for (std::size_t i = 0; i < kExpressionCount; ++i) {
+      EXPECT_NEAR(a.expressions[i], b.expressions[i], 0.02)
+          << kExpressionNames[i] << ", " << name_of(deed.shown[0]);
+    }
+  }
+}
+
+TEST(FaceExpression, MirrorTurnsTheHeadTheOtherWay) {
+  FaceMotion face;
+  face.head = turned(30, 20, 10);
+  face[eye_blink_left] = 0.7;
+  const FaceMotion m = mirrored(face);
+  EXPECT_LT(m.head.angularDistance(turned(-30, 20, -10)), 1e-9);
+  EXPECT_EQ(m[eye_blink_right], 0.7);
+  EXPECT_EQ(m[eye_blink_left], 0.0);
+}
+
+TEST(FaceExpression, HeadAndGazeAreMeasured) {
+  for (const double yaw : {-80.0, -40.0, 0.0, 15.0, 60.0}) {
+    for (const double pitch : {-40.0, 0.0, 30.0}) {
+      TestFace face;
+      face.look(0.2, -0.1);
+      const Eigen::Quaterniond turn = turned(yaw, pitch, -20.0);
+      const FaceMotion seen = motion_of(face, turn);
+      EXPECT_LT(seen.head.angularDistance(turn), 2.0 * kDegree) << yaw << ", " << pitch;
+      if (std::abs(yaw) < 50.0) {
+        EXPECT_NEAR(seen.gaze.x(), 0.2, 0.02);
+        EXPECT_NEAR(seen.gaze.y(), -0.1, 0.02);
+      }
+    }
+  }
+}
+
+TEST(FaceExpression, HeadBesideTheAxisIsTurnedWithItsRay) {
+  NeutralFace neutral;
+  const FaceMotion seen = face_motion(TestFace().seen(Eigen::Quaterniond::Identity(), 1.0, {620, 240}), 1.0,
+                                      kCamera, 0.0, neutral);
+  // A face at 26.6 degrees to the right that looks like one from the front looks into the lens.
+  const Eigen::Vector3d nose = seen.head * -Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(std::atan2(nose.x(), -nose.z()), -std::atan(0.5), 0.01);
+}
+
+TEST(FaceExpression, PersonsOwnFaceIsLearned) {
+  // Somebody whose eyes are narrower, brows higher and mouth wider than those of the canonical face.
+  TestFace own;
+  own.close_eye(kL, 0.25);
+  own.close_eye(kR, 0.25);
+  own.brow_inner(kL, 4);
+  own.brow_inner(kR, 4);
+  own.move(own.corner(kL), {5, 0, 0});
+  own.move(own.corner(kR), {-5, 0, 0});
+  NeutralFace neutral;
+  FaceMotion face;
+  for (int i = 0; i < 100; ++i) {
+    TestFace now = own;
+    if (i % 10 == 0) {  // blinks do not matter
+      now.close_eye(kL, 0.9);
+      now.close_eye(kR, 0.9);
+    }
+    face = face_motion(now.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 0.04 * i,
+                       neutral);
+  }
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    EXPECT_LT(face.expressions[i], 0.05) << kExpressionNames[i];
+  }
+  own.close_eye(kL, 0.9);
+  face = face_motion(own.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 4.0, neutral);
+  EXPECT_GT(face[eye_blink_left], 0.8);
+  EXPECT_LT(face[eye_blink_right], 0.2);
+}
+
+TEST(FaceExpression, LastingGrimaceDoesNotBecomeTheFaceAtRest) {
+  NeutralFace neutral;
+  TestFace grimace;
+  grimace.jaw({0, 30, 0});
+  grimace.close_eye(kL, 0.95);
+  FaceMotion face;
+  for (int i = 0; i < 500; ++i) {
+    face = face_motion(grimace.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 0.2 * i,
+                       neutral);
+  }
+  EXPECT_GT(face[jaw_open], 0.4);
+  EXPECT_GT(face[eye_blink_left], 0.5);
+}
+
+TEST(FaceExpression, GarbageGivesFiniteValues) {
+  Random random(5);
+  NeutralFace neutral;
+  for (int round = 0; round < 300; ++round) {
+    FacePoints points;
+    const double size = std::pow(10.0, random.uniform(-3.0, 6.0));
+    for (Eigen::Vector3d& p : points) {
+      p = size * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    }
+    if (round % 7 == 0) {
+      points.fill(Eigen::Vector3d::Zero());
+    } else if (round % 5 == 0) {
+      points[random.below(kFacePoints)].x() = std::numeric_limits<double>::quiet_NaN();
+    }
+    const double presence = round % 11 == 0 ? std::numeric_limits<double>::quiet_NaN() : random.uniform();
+    const FaceMotion face = face_motion(points, presence, kCamera, 0.04 * round, neutral);
+    EXPECT_GE(face.confidence, 0.0);
+    EXPECT_LE(face.confidence, 1.0);
+    EXPECT_NEAR(face.head.norm(), 1.0, 1e-9);
+    EXPECT_TRUE(face.gaze.allFinite());
+    for (const double value : face.expressions) {
+      EXPECT_TRUE(value >= 0.0 && value <= 1.0) << value;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace telemime
