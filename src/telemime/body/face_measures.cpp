@@ -188,7 +188,7 @@ void NeutralFace::learn(const FaceMeasures& seen, double time) {
 
 void NeutralFace::update() {
   // The canonical face counts as some samples, fewer the more were seen.
-  constexpr std::size_t kPrior = 6;
+  constexpr std::size_t kPrior = 2;
   constexpr std::size_t kSeenPerPrior = 4;
   const std::size_t prior = kPrior - std::min(kPrior, seen_.size() / kSeenPerPrior);
   static const FaceMeasures canonical = measure_face(canonical_face(), HeadFit{});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/pose_landmarks.h"
 
 namespace telemime {
@@ -39,6 +40,8 @@ struct FrameFeatures {
   std::optional<HeadRegion> head;  ///< empty: no head was found
   /// What the networks see of the person, in pixels of the working image; empty: no networks, or nobody.
   std::optional<PoseLandmarks> landmarks;
+  /// The person's face, in pixels of the frame's own image; empty: faces are not looked for, or none is seen.
+  std::optional<FaceLandmarks> face;
 
   /// The rest is filled in by extract() (tracker/track_frame.h).
   std::int64_t frame = 0;             ///< index of the frame
@@ -50,6 +53,7 @@ struct FrameFeatures {
   std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
   double ms = 0.0;                    ///< time that the image side took
   double networks_ms = 0.0;           ///< part of it that the networks took
+  double face_ms = 0.0;               ///< and the face
 };
 
 }  // namespace telemime

@@ -63,10 +63,11 @@ ViewerRequest FileRun::add(FrameRecord record) {
     begin();
   }
   keep_picture(picture_side(), record.frame);
-  // Of the features only what fill_back() asks for is still needed.
-  const bool person_present = record.features.person_present;
-  record.features = {};
-  record.features.person_present = person_present;
+  // Of the features only what fill_back() asks for and what is drawn is still needed.
+  FrameFeatures kept;
+  kept.person_present = record.features.person_present;
+  kept.face = std::move(record.features.face);
+  record.features = std::move(kept);
   queue_.records.push_back(std::move(record));
   const std::size_t filled = fill_back(run_.tracker, run_.state, fill_seeds_, queue_);
   note(filled == 0 ? ""
@@ -176,10 +177,12 @@ void FileRun::draw(const FrameRecord& record, const MotionFrame& motion) {
   }
   // The overlay is a side result: an image that cannot be drawn is left out.
   try {
-    overlay_ = draw_overlay(record.frame.image, {.motion = &motion,
-                                                 .model = &run_.state.model,
-                                                 .camera = run_.tracker.camera,
-                                                 .note = record.estimate.note});
+    overlay_ =
+        draw_overlay(record.frame.image, {.motion = &motion,
+                                          .model = &run_.state.model,
+                                          .camera = run_.tracker.camera,
+                                          .face = record.features.face ? &*record.features.face : nullptr,
+                                          .note = record.estimate.note});
     outputs_.write_overlay(overlay_, motion.time);
   } catch (const cv::Exception& e) {
     note(std::string("the overlay cannot be drawn: ") + e.what());

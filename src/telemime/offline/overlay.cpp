@@ -63,6 +63,30 @@ void draw_skeleton(cv::Mat& canvas, const OverlayView& view, const Camera& camer
   }
 }
 
+// Eyes, irises, brows and lips.
+void draw_face(cv::Mat& canvas, const OverlayView& view, double unit) {
+  static const std::vector<std::vector<std::size_t>> kLines = {
+      {33, 246, 161, 160, 159, 158, 157, 173, 133, 155, 154, 153, 145, 144, 163, 7, 33},
+      {263, 466, 388, 387, 386, 385, 384, 398, 362, 382, 381, 380, 374, 373, 390, 249, 263},
+      {469, 470, 471, 472, 469},
+      {474, 475, 476, 477, 474},
+      {70, 63, 105, 66, 107},
+      {300, 293, 334, 296, 336},
+      {61, 185, 40, 39, 37, 0, 267, 269, 270, 409, 291, 375, 321, 405, 314, 17, 84, 181, 91, 146, 61},
+      {78, 191, 80, 81, 82, 13, 312, 311, 310, 415, 308, 324, 318, 402, 317, 14, 87, 178, 88, 95, 78}};
+  const double scale = static_cast<double>(canvas.cols) / view.camera.width;
+  for (const std::vector<std::size_t>& line : kLines) {
+    for (std::size_t k = 1; k < line.size(); ++k) {
+      const auto at = [&](std::size_t i) {
+        const Eigen::Vector2d p = (view.face->points[i].pixel.array() + 0.5) * scale - 0.5;
+        return fixed(p.x(), p.y());
+      };
+      cv::line(canvas, at(line[k - 1]), at(line[k]), kContour, std::max(1, static_cast<int>(unit)),
+               cv::LINE_AA, kFractionBits);
+    }
+  }
+}
+
 void draw_contour(cv::Mat& canvas, const OverlayView& view, const Camera& camera) {
   Rendering rendering;
   std::vector<Eigen::Vector2f> contour;
@@ -142,6 +166,9 @@ cv::Mat draw_overlay(const cv::Mat& image, const OverlayView& view) {
     draw_skeleton(picture, view, camera, unit);
     cv::Mat top = panel.rowRange(0, top_rows);
     draw_top_view(top, *view.motion, unit);
+  }
+  if (view.face != nullptr) {
+    draw_face(picture, view, unit);
   }
   cv::Mat gauges = panel.rowRange(top_rows, panel.rows);
   draw_gauge(gauges, "regions F", tracking ? view.motion->region_score : 0.0, 1.0, 0, unit);

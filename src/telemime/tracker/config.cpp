@@ -126,6 +126,7 @@ SettingTable settings_of(Config& c) {
            "Track a file backward, too, and decide about its frames together: steadier and more accurate. "
            "Only "
            "with the methods heuristics and condensation."),
+      flag("face", c.face, "Track head, eyes and expression, where networks find the person."),
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the particle filter; 0: one for each processor."),
       text("cues", c.cue_names, {},
@@ -153,6 +154,12 @@ void add_cue(Config& config, const Cue& cue) {
 
 bool uses_networks(const Config& config) {
   return resolved(config).image.landmarks && !find_models(config.image.models).empty();
+}
+
+bool uses_face(const Config& config) {
+  const std::vector<std::string> names = {"face_detection_short_range", "face_landmark_with_attention"};
+  return config.face && uses_networks(config) &&
+         missing_models(find_models(config.image.models), names).empty();
 }
 
 bool uses_filter(const Config& config) {

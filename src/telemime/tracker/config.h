@@ -31,7 +31,7 @@ struct TrackingConfig {
   double velocity = 0.5;
 };
 
-/// The whole configuration. A setting whose name has no dot is one of the thirteen public ones, which are
+/// The whole configuration. A setting whose name has no dot is one of the fourteen public ones, which are
 /// options of the program, too; all others are for experts.
 struct Config {
   std::string quality = "balanced";
@@ -49,6 +49,7 @@ struct Config {
   SmoothingOptions smoothing;
   bool look_back = true;
   TrajectoryConfig offline;
+  bool face = true;
   std::string cue_names = "regions,contours,landmarks,bones";
   CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file
 
@@ -66,6 +67,9 @@ SettingTable settings_of(Config& config);
 
 /// Whether networks find the person: a cue needs them, and the models are installed.
 bool uses_networks(const Config& config);
+
+/// Whether the person's face is tracked: networks find the person, and those of faces are installed.
+bool uses_face(const Config& config);
 
 /// Does `tracking.method` use the particle filter?
 bool uses_filter(const Config& config);

@@ -90,4 +90,9 @@ Pose pose_of(const JointRotations& rotations, const Pose& near) {
   return pose;
 }
 
+Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::AngleAxisd turn(from.conjugate() * to);
+  return wrap_angle(turn.angle()) * turn.axis();
+}
+
 }  // namespace telemime

@@ -22,4 +22,7 @@ JointRotations rotations_of(const Pose& pose);
 /// included.
 Pose pose_of(const JointRotations& rotations, const Pose& near);
 
+/// Rotation vector from one orientation to another, rad, in the frame of the first.
+Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
+
 }  // namespace telemime

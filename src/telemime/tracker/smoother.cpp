@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "telemime/body/rotations.h"
+#include "telemime/tracker/face_smoother.h"
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {
@@ -72,6 +72,21 @@ class RotationSmoother : public Smoother {
   RotationSmoother(const Body& body, const Camera& camera) : body_(body), camera_(camera) {}
 
   MotionFrame operator()(const MotionFrame& frame) final {
+    MotionFrame result = steadied_body(frame);
+    result.face = face_(frame.face, frame.time);
+    return result;
+  }
+
+ protected:
+  /// First frame after a start or a loss: smooth_ becomes `measured`.
+  virtual void start(const JointRotations& measured) = 0;
+  /// Moves smooth_ toward `measured`, `step` seconds after the last.
+  virtual void update(const JointRotations& measured, const NoiseRatios& noise, double step) = 0;
+
+  JointRotations smooth_;
+
+ private:
+  MotionFrame steadied_body(const MotionFrame& frame) {
     if (frame.state == TrackState::lost || !frame.pose.vector().allFinite()) {
       last_time_.reset();
       return frame;
@@ -87,18 +102,10 @@ class RotationSmoother : public Smoother {
     return with_pose(frame, pose_of(smooth_, frame.pose), body_, camera_);
   }
 
- protected:
-  /// First frame after a start or a loss: smooth_ becomes `measured`.
-  virtual void start(const JointRotations& measured) = 0;
-  /// Moves smooth_ toward `measured`, `step` seconds after the last.
-  virtual void update(const JointRotations& measured, const NoiseRatios& noise, double step) = 0;
-
-  JointRotations smooth_;
-
- private:
   Body body_;
   Camera camera_;
   std::optional<double> last_time_;
+  FaceSmoother face_;
 };
 
 /// Equation 4.30 for a rotation: a of the past and 1 - a of the present along the arc between them.
@@ -122,31 +129,6 @@ class RecursiveSmoother final : public RotationSmoother {
 
   double present_;
 };
-
-/// Share of the present in a first-order low-pass.
-double share(double cutoff, double step) {
-  const double tau = 1.0 / (2.0 * std::numbers::pi * cutoff);
-  return step / (step + tau);
-}
-
-/// Low-passed velocity of one quantity, and from it the share of the present of the quantity.
-class SpeedShare {
- public:
-  void reset() { velocity_.setZero(); }
-  double operator()(const Eigen::Vector3d& change, double step, const OneEuroOptions& options) {
-    velocity_ += share(options.speed_cutoff, step) * (change / step - velocity_);
-    return share(options.minimum_cutoff + options.slope * velocity_.norm(), step);
-  }
-
- private:
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-};
-
-/// Rotation vector from one orientation to another, rad, in the frame of the first.
-Eigen::Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
-  const Eigen::AngleAxisd turn(from.conjugate() * to);
-  return wrap_angle(turn.angle()) * turn.axis();
-}
 
 class OneEuroSmoother final : public RotationSmoother {
  public:

@@ -8,15 +8,9 @@
 #include "telemime/body/motion_frame.h"
 #include "telemime/core/camera.h"
 #include "telemime/core/settings.h"
+#include "telemime/tracker/one_euro.h"
 
 namespace telemime {
-
-/// Cutoff frequency of a One-Euro filter: minimum + slope * speed (Casiez, Roussel & Vogel, CHI 2012).
-struct OneEuroOptions {
-  double minimum_cutoff = 1.0;
-  double slope = 1.0;
-  double speed_cutoff = 1.0;
-};
 
 /// Settings of the smoother; the table (settings_of) gives the meaning, unit and range of each.
 struct SmoothingOptions {
@@ -36,7 +30,8 @@ inline constexpr double kLongestGap = 1.0;
 /// smoothed, not angles, so that nothing happens where angles jump; the joints follow by forward kinematics
 /// and the pixels by what the joints move in the image. A lost frame, or one that is not finite, passes
 /// unchanged and ends the memory; so does a time that does not advance or that advances more than
-/// kLongestGap. Smoothed angles may leave the joint limits by little.
+/// kLongestGap. The face is steadied in lost frames, too. Smoothed angles may leave the joint limits by
+/// little.
 class Smoother {
  public:
   Smoother() = default;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "telemime/body/face_expression.h"
 #include "telemime/core/stopwatch.h"
 #include "telemime/tracker/lost_and_found.h"
 #include "telemime/tracking/posterior.h"
@@ -55,8 +56,24 @@ FrameEstimate begin_estimate(const FrameFeatures& features, const TrackerState& 
   if (features.networks_ms > 0.0) {
     result.motion.stage_ms.emplace_back("networks", features.networks_ms);
   }
+  if (features.face_ms > 0.0) {
+    result.motion.stage_ms.emplace_back("face", features.face_ms);
+  }
   result.note = features.note;
   return result;
+}
+
+// Head, eyes and expression (docs/face.md); nothing if no face is seen.
+std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& camera, TrackerState& state) {
+  if (!features.face) {
+    return std::nullopt;
+  }
+  FacePoints points;
+  for (std::size_t i = 0; i < kFacePoints; ++i) {
+    const FaceLandmark& seen = features.face->points[i];
+    points[i] = {seen.pixel.x(), seen.pixel.y(), seen.depth};
+  }
+  return face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
 }
 
 void advance_time(double time, TrackerState& state) {
@@ -150,6 +167,12 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   if (!features.head) {
     scene.head_since = frame.index + 1;
   }
+  // The face of the person.
+  if (scene.face.has_networks() && features.landmarks) {
+    Stopwatch face;
+    features.face = scene.face.find(frame.image, *features.landmarks, features.labels.size());
+    features.face_ms = face.lap();
+  }
   features.frame = frame.index;
   features.time = frame.time;
   features.ms = watch.lap();
@@ -186,6 +209,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   result.motion.state = tracking ? TrackState::tracking : TrackState::lost;
   result.motion.pose = state.pose;
   place_joints(state.model.body, tracker.camera, result.motion);
+  result.motion.face = face_of(features, tracker.camera, state);
   result.motion.stage_ms.emplace_back("search", watch.lap());
   return result;
 }

@@ -2,6 +2,7 @@
 #include "telemime/tracker/tracker_state.h"
 
 #include "telemime/likelihood/all.h"
+#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -16,7 +17,10 @@ Config fitted_to(Config config, const Camera& camera) {
 
 TrackingRun make_tracking_run(const Config& config, const Camera& camera) {
   Config fitted = fitted_to(config, camera);
-  SceneState scene{.features = FeatureExtractor(fitted.image)};
+  SceneState scene{.features = FeatureExtractor(fitted.image), .face = {}};
+  if (uses_face(fitted)) {
+    scene.face = FaceFinder(find_models(fitted.image.models));
+  }
   const bool has_filter = uses_filter(fitted);
   Tracker tracker{.config = fitted,
                   .camera = camera,
@@ -52,6 +56,7 @@ void forget_person(TrackingRun& run) {
   TrackerState& state = run.state;
   state.phase = Phase::waiting;
   state.person.reset();
+  state.neutral_face = {};
   state.known_start.reset();
   state.filter.particles.clear();
   state.heading = 0.0;

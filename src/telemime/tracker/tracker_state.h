@@ -6,9 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "telemime/body/face_measures.h"
 #include "telemime/body/limits.h"
 #include "telemime/core/camera.h"
 #include "telemime/core/random.h"
+#include "telemime/image/face_finder.h"
 #include "telemime/image/features.h"
 #include "telemime/tracker/config.h"
 #include "telemime/tracking/particle_filter.h"
@@ -53,6 +55,8 @@ struct TrackerState {
   double heading = 0.0;                   ///< torsion of the root that the filter's last step predicted, rad
   Random random{1};                       ///< for every draw outside the filter
 
+  NeutralFace neutral_face;  ///< of the person
+
   double time = 0.0;                ///< of the last frame, s
   double steps = 1.0;               ///< between the last two frames, in 1/25 s
   double steps_before = 1.0;        ///< between the two before these
@@ -78,6 +82,7 @@ struct Tracker {
 /// What `extract` carries from frame to frame: the scene, the person's colours, the head.
 struct SceneState {
   FeatureExtractor features;
+  FaceFinder face;  ///< without networks where faces are not tracked
   /// The first frame from which on a head was visible, with the colours that are known now.
   std::int64_t head_since = 0;
   bool relearn_colours = false;  ///< the known colours may be somebody else's
