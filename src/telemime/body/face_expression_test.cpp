@@ -17,7 +17,7 @@ namespace {
 using testing::TestFace;
 using enum Expression;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDeg = std::numbers::pi / 180.0;
 const Camera kCamera{.width = 640, .height = 480, .fx = 600, .fy = 600, .cx = 320, .cy = 240};
 constexpr Side kL = Side::left;
 constexpr Side kR = Side::right;
@@ -33,9 +33,9 @@ FaceMotion motion_of(const TestFace& face, const Eigen::Quaterniond& turn = Eige
 }
 
 Eigen::Quaterniond turned(double yaw, double pitch = 0.0, double roll = 0.0) {
-  return Eigen::AngleAxisd(yaw * kDegree, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(pitch * kDegree, Eigen::Vector3d::UnitX()) *
-         Eigen::AngleAxisd(roll * kDegree, Eigen::Vector3d::UnitZ());
+  return Eigen::AngleAxisd(yaw * kDeg, Eigen::Vector3d::UnitY()) *
+         Eigen::AngleAxisd(pitch * kDeg, Eigen::Vector3d::UnitX()) *
+         Eigen::AngleAxisd(roll * kDeg, Eigen::Vector3d::UnitZ());
 }
 
 /// What a face does, which coefficients show it, and which others may.
@@ -53,10 +53,10 @@ const std::vector<Deed>& deeds() {
       {[](TestFace& f) { f.close_eye(kR, -0.5); }, {eye_wide_right}, {}},
       {[](TestFace& f) { f.raise_lower_lid(kL, 2.2); }, {eye_squint_left}, {eye_blink_left}},
       {[](TestFace& f) { f.raise_lower_lid(kR, 2.2); }, {eye_squint_right}, {eye_blink_right}},
-      {[](TestFace& f) { f.look(33 * kDegree, 0); }, {eye_look_out_left, eye_look_in_right}, {}},
-      {[](TestFace& f) { f.look(-33 * kDegree, 0); }, {eye_look_in_left, eye_look_out_right}, {}},
-      {[](TestFace& f) { f.look(0, 28 * kDegree); }, {eye_look_up_left, eye_look_up_right}, {}},
-      {[](TestFace& f) { f.look(0, -28 * kDegree); },
+      {[](TestFace& f) { f.look(33 * kDeg, 0); }, {eye_look_out_left, eye_look_in_right}, {}},
+      {[](TestFace& f) { f.look(-33 * kDeg, 0); }, {eye_look_in_left, eye_look_out_right}, {}},
+      {[](TestFace& f) { f.look(0, 28 * kDeg); }, {eye_look_up_left, eye_look_up_right}, {}},
+      {[](TestFace& f) { f.look(0, -28 * kDeg); },
        {eye_look_down_left, eye_look_down_right},
        {eye_wide_left, eye_wide_right}},
       {[](TestFace& f) {
@@ -317,7 +317,7 @@ TEST(FaceExpression, HeadAndGazeAreMeasured) {
       face.look(0.2, -0.1);
       const Eigen::Quaterniond turn = turned(yaw, pitch, -20.0);
       const FaceMotion seen = motion_of(face, turn);
-      EXPECT_LT(seen.head.angularDistance(turn), 2.0 * kDegree) << yaw << ", " << pitch;
+      EXPECT_LT(seen.head.angularDistance(turn), 2.0 * kDeg) << yaw << ", " << pitch;
       if (std::abs(yaw) < 50.0) {
         EXPECT_NEAR(seen.gaze.x(), 0.2, 0.02);
         EXPECT_NEAR(seen.gaze.y(), -0.1, 0.02);

@@ -21,6 +21,12 @@ bool spread_is_finite(const PoseSpread& spread) {
                      [](const Eigen::Matrix3d& c) { return c.allFinite(); });
 }
 
+bool face_is_finite(const FaceMotion& face) {
+  return std::isfinite(face.confidence) && face.head.coeffs().allFinite() && face.gaze.allFinite() &&
+         std::all_of(face.expressions.begin(), face.expressions.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
 double finite_or(double value, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
@@ -53,6 +59,9 @@ MotionFrame FiniteFrames::operator()(const MotionFrame& frame) {
   clean.contour_score = finite_or(frame.contour_score, last_.contour_score);
   if (clean.spread && !spread_is_finite(*clean.spread)) {
     clean.spread.reset();
+  }
+  if (clean.face && !face_is_finite(*clean.face)) {
+    clean.face.reset();
   }
   for (auto& [stage, ms] : clean.stage_ms) {
     ms = finite_or(ms, 0.0);

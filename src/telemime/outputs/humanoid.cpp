@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/outputs/humanoid.h"
 
+#include <algorithm>
+
 #include "telemime/body/rotations.h"
 #include "telemime/outputs/t_pose.h"
 
@@ -138,6 +140,27 @@ HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::
     set(bones.hand, in_t_pose(half_twist.transpose() * hand_in_fore));
   }
   return motion;
+}
+
+void turn_head(const FaceMotion& face, HumanoidMotion& motion) {
+  using enum HumanBone;
+  const Eigen::Quaterniond world_from_camera(Eigen::Matrix3d(camera_from_body_at_rest().transpose()));
+  const Eigen::Quaterniond held = world_from_camera * face.head * world_from_camera.conjugate();
+  const Eigen::Quaterniond chest_up = motion[hips] * motion[spine] * motion[HumanBone::chest];
+  const auto upright = [](Eigen::Quaterniond q) {
+    if (q.w() < 0.0) {
+      q.coeffs() = -q.coeffs();
+    }
+    return q.normalized();
+  };
+  // The neck does not turn farther than this.
+  constexpr double kFarthest = 1.4;  // rad
+  Eigen::AngleAxisd turn(upright(chest_up.conjugate() * held));
+  turn.angle() = std::min(turn.angle(), kFarthest);
+  const Eigen::Quaterniond half(Eigen::AngleAxisd(0.5 * turn.angle(), turn.axis()));
+  const double seen = std::clamp(face.confidence, 0.0, 1.0);
+  motion.rotation[at(neck)] = upright(motion[neck].slerp(seen, half));
+  motion.rotation[at(HumanBone::head)] = upright(motion[HumanBone::head].slerp(seen, half));
 }
 
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "telemime/body/body.h"
+#include "telemime/body/face_motion.h"
 
 namespace telemime {
 
@@ -66,6 +67,10 @@ HumanoidSkeleton humanoid_skeleton(const Body& body);
 /// the shoulder (body.h) exactly: hands are within 10 mm. `origin` is the position of the root (m, camera
 /// frame) at which the hips are above those of the skeleton.
 HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::Vector3d& origin);
+
+/// Turns neck and head, each by half, to how the face holds the head, as far as the face is seen (its
+/// confidence).
+void turn_head(const FaceMotion& face, HumanoidMotion& motion);
 
 /// The joints of the bones by forward kinematics, m.
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,

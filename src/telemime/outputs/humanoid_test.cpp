@@ -135,5 +135,31 @@ TEST(Humanoid, TheMirroredPoseIsTheMirroredAvatar) {
   expect_mirrored(HumanBone::r_hand, HumanBone::l_hand);
 }
 
+TEST(Humanoid, HeadIsHeldAsTheFaceIs) {
+  const Body body = make_body(Shape{});
+  Pose pose;
+  pose[Angle::root_torsion] = 0.3;
+  FaceMotion face;
+  // Turned to the person's left by 0.8: about the axis down.
+  face.head = Eigen::AngleAxisd(-0.8, Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d nose = face.head * -Eigen::Vector3d::UnitZ();
+  const HumanoidMotion before = humanoid_motion(body, pose, pose.root);
+  for (const double confidence : {0.0, 1.0}) {
+    face.confidence = confidence;
+    HumanoidMotion motion = before;
+    turn_head(face, motion);
+    using enum HumanBone;
+    const Eigen::Vector3d forward =
+        motion[hips] * motion[spine] * motion[chest] * motion[neck] * motion[head] * Eigen::Vector3d::UnitZ();
+    if (confidence == 0.0) {
+      EXPECT_LT(motion[neck].angularDistance(before[neck]), 1e-9);
+      EXPECT_LT(motion[head].angularDistance(before[head]), 1e-9);
+    } else {
+      // The world's axes are the camera's with y and z turned round.
+      EXPECT_LT((forward - Eigen::Vector3d(nose.x(), -nose.y(), -nose.z())).norm(), 1e-6);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace telemime

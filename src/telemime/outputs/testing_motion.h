@@ -44,6 +44,19 @@ inline MotionFrame frame_of(const Body& body, const Camera& camera, const Pose& 
   return frame;
 }
 
+/// A face with all numbers set.
+inline FaceMotion random_face(Random& random) {
+  FaceMotion face;
+  face.confidence = random.uniform();
+  face.head =
+      Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+  face.gaze = {random.uniform(-0.6, 0.6), random.uniform(-0.5, 0.5)};
+  for (double& value : face.expressions) {
+    value = random.uniform();
+  }
+  return face;
+}
+
 /// A random pose inside the limits, 1.0 to 1.6 m in front of the camera.
 inline Pose random_pose(const JointLimits& limits, Random& random) {
   Pose pose;

@@ -13,7 +13,8 @@ namespace telemime {
 /// Default port of the "Marionette", the receiver of the VMC protocol.
 inline constexpr std::uint16_t kMarionettePort = 39539;
 
-/// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves]: the VMC protocol over UDP
+/// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves][&expressions=vrm0|vrm1|arkit]: the
+/// VMC protocol over UDP
 /// (vmc_messages.h). UDP has no connections: a missing receiver is noticed only if the system reports it,
 /// which it always does on this computer. Throws Error(usage).
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url);

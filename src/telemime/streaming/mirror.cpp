@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/streaming/mirror.h"
 
+#include "telemime/body/face_expression.h"
+
 #include <utility>
 
 namespace telemime {
@@ -55,6 +57,9 @@ MotionFrame mirrored(const MotionFrame& frame, const Camera& camera) {
   }
   exchange_sides(m.joints.at);
   exchange_sides(m.pixels);
+  if (m.face) {
+    m.face = mirrored(*m.face);
+  }
   if (m.spread) {
     const Eigen::DiagonalMatrix<double, 3> mirror(-1.0, 1.0, 1.0);
     for (Eigen::Matrix3d& covariance : m.spread->covariance) {

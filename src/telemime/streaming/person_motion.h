@@ -27,7 +27,11 @@ class PersonMotion {
     if (!origin_) {
       origin_ = frame.pose.root;
     }
-    return humanoid_motion(body_, frame.pose, *origin_);
+    HumanoidMotion motion = humanoid_motion(body_, frame.pose, *origin_);
+    if (frame.face) {
+      turn_head(*frame.face, motion);
+    }
+    return motion;
   }
 
  private:

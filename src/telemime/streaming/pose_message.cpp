@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "telemime/outputs/numbers.h"
+#include "telemime/outputs/vrm_expressions.h"
 
 namespace telemime {
 namespace {
@@ -59,6 +60,24 @@ void add_spread(const PoseSpread& spread, Json& message) {
   message["second_mode"] = rounded(spread.second_mode, kScoreDecimals);
 }
 
+/// The coefficients of ARKit as a list in the order of kExpressionNames, and the expressions of VRM by name.
+Json face_json(const FaceMotion& face) {
+  constexpr int kWeightDecimals = 3;
+  Json arkit = Json::array();
+  for (const double value : face.expressions) {
+    arkit.push_back(rounded(value, kWeightDecimals));
+  }
+  Json vrm = Json::object();
+  const auto weights = vrm_expressions(face);
+  for (std::size_t i = 0; i < kVrmExpressionCount; ++i) {
+    vrm[std::string(kVrmExpressionNames[i])] = rounded(weights[i], kWeightDecimals);
+  }
+  return {{"confidence", rounded(face.confidence, kWeightDecimals)},
+          {"gaze", {rounded(face.gaze.x(), kWeightDecimals), rounded(face.gaze.y(), kWeightDecimals)}},
+          {"arkit", std::move(arkit)},
+          {"vrm", std::move(vrm)}};
+}
+
 /// Bytes that are not UTF-8 become replacement characters.
 std::string text_of(const Json& message) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -104,6 +123,9 @@ std::string PoseMessages::pose(const MotionFrame& raw, double stamp) {
     add_joints(frame, message);
     if (frame.spread) {
       add_spread(*frame.spread, message);
+    }
+    if (frame.face) {
+      message["face"] = face_json(*frame.face);
     }
     message["F"] = rounded(frame.region_score, kScoreDecimals);
     message["D_C"] = rounded(frame.contour_score, kScoreDecimals);

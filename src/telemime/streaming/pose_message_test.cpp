@@ -87,6 +87,21 @@ TEST_F(PoseMessage, APoseHasTheRotationsJointsAndPixels) {
   }
 }
 
+TEST_F(PoseMessage, FaceHasTheExpressionsOfArkitAndVrm) {
+  MotionFrame frame = testing_motion::frame_of(header_.body, header_.camera, Pose{}, 0, header_.fps);
+  frame.face.emplace();
+  frame.face->confidence = 1.0;
+  frame.face->gaze = {0.25, -0.125};
+  (*frame.face)[Expression::jaw_open] = 0.6;
+  const auto message = nlohmann::json::parse(PoseMessages(header_).pose(frame, 0.0));
+  const auto& face = message["face"];
+  EXPECT_EQ(face["gaze"], (std::vector<double>{0.25, -0.125}));
+  ASSERT_EQ(face["arkit"].size(), kExpressionCount);
+  EXPECT_EQ(face["arkit"][static_cast<std::size_t>(Expression::jaw_open)], 0.6);
+  EXPECT_EQ(face["vrm"]["aa"], 1.0);
+  EXPECT_EQ(face["vrm"]["blinkLeft"], 0.0);
+}
+
 TEST_F(PoseMessage, SpreadInSquareMillimetres) {
   MotionFrame frame = frame_of({});
   frame.spread.emplace();

@@ -117,6 +117,8 @@ struct Marionette {
   float time = -1.0F;
   UnityPlace root;
   std::map<std::string, UnityPlace> bones;
+  std::map<std::string, float> blends;
+  bool applied = false;  ///< the expressions are complete
 
   void take(const OscMessage& message) {
     const auto place = [&message] {
@@ -135,6 +137,13 @@ struct Marionette {
       EXPECT_EQ(message.strings.at(0), "root");
     } else if (message.path == "/VMC/Ext/Bone/Pos") {
       bones[message.strings.at(0)] = place();
+    } else if (message.path == "/VMC/Ext/Blend/Val") {
+      EXPECT_EQ(message.types, "sf");
+      EXPECT_FALSE(applied) << "a value after the expressions were applied";
+      blends[message.strings.at(0)] = message.floats.at(0);
+    } else if (message.path == "/VMC/Ext/Blend/Apply") {
+      EXPECT_EQ(message.types, "");
+      applied = true;
     } else {
       ADD_FAILURE() << "the protocol has no " << message.path;
     }

@@ -73,7 +73,8 @@ class VmcLink final : public Link {
     const auto motion = (*motion_)(frame);
     followed_at_ = motion ? std::optional(frame.time) : std::nullopt;
     for (const std::string& datagram :
-         vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.time, options_)) {
+         vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.face ? &*frame.face : nullptr,
+                       frame.time, options_)) {
       send(datagram);
     }
     // A refusal arrives after the frame that caused it: the next one is sent after it.
@@ -101,8 +102,8 @@ class VmcLink final : public Link {
       return;
     }
     boost::system::error_code ignored;
-    for (const std::string& datagram :
-         vmc_datagrams(motion_->skeleton(), nullptr, *std::exchange(followed_at_, std::nullopt), options_)) {
+    for (const std::string& datagram : vmc_datagrams(motion_->skeleton(), nullptr, nullptr,
+                                                     *std::exchange(followed_at_, std::nullopt), options_)) {
       socket_.send(asio::buffer(datagram), 0, ignored);
     }
   }
@@ -167,7 +168,7 @@ class VmcLink final : public Link {
 }  // namespace
 
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url) {
-  check_options(url, {"bundle", "positions", "root", "mirror"});
+  check_options(url, {"bundle", "positions", "root", "expressions", "mirror"});
   if (url.path.size() > 1) {
     throw Error(ErrorKind::usage, "the output \"" + url.text + "\" has a path, which is not allowed here",
                 "Write it like vmc://localhost:39539.");
@@ -176,6 +177,10 @@ std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url) {
   options.bundles = option(url, "bundle", {"1", "0"}) == "1";
   options.all_positions = option(url, "positions", {"all", "hips"}) == "all";
   options.root_moves = option(url, "root", {"still", "moves"}) == "moves";
+  const std::string expressions = option(url, "expressions", {"vrm0", "vrm1", "arkit"});
+  options.expressions = expressions == "arkit"  ? VmcExpressions::arkit
+                        : expressions == "vrm1" ? VmcExpressions::vrm1
+                                                : VmcExpressions::vrm0;
   return make_queued_sender(url,
                             [&](SendLoop& loop) { return std::make_unique<VmcLink>(loop, url, options); });
 }

@@ -10,6 +10,8 @@
 #include <memory>
 #include <new>
 
+#include "telemime/outputs/vrm_expressions.h"
+
 namespace telemime {
 namespace {
 
@@ -106,6 +108,26 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
   }
 }
 
+void add_expressions(const FaceMotion& face, VmcExpressions names, std::vector<Message>& messages) {
+  const auto add = [&messages](std::string_view name, double weight) {
+    Message message = empty_message("/VMC/Ext/Blend/Val");
+    lo_message_add_string(message.content.get(), std::string(name).c_str());
+    lo_message_add_float(message.content.get(), static_cast<float>(weight));
+    messages.push_back(std::move(message));
+  };
+  if (names == VmcExpressions::arkit) {
+    for (std::size_t i = 0; i < kExpressionCount; ++i) {
+      add(kExpressionNames[i], face.expressions[i]);
+    }
+  } else {
+    const auto weights = vrm_expressions(face);
+    for (std::size_t i = 0; i < kVrmExpressionCount; ++i) {
+      add(names == VmcExpressions::vrm0 ? kVrm0ExpressionNames[i] : kVrmExpressionNames[i], weights[i]);
+    }
+  }
+  messages.push_back(empty_message("/VMC/Ext/Blend/Apply"));
+}
+
 std::string bundle_of(const std::vector<const Message*>& messages) {
   // lo_bundle_free never releases the copies of the paths (liblo 0.31).
   const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(lo_bundle_new(kAtOnce),
@@ -161,13 +183,16 @@ std::vector<std::string> single(const std::vector<Message>& messages) {
 }  // namespace
 
 std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const HumanoidMotion* motion,
-                                       double time, const VmcOptions& options) {
+                                       const FaceMotion* face, double time, const VmcOptions& options) {
   std::vector<Message> messages;
   messages.push_back(ok_message(motion != nullptr));
   messages.push_back(time_message(time));
   const std::size_t common = messages.size();
   if (motion != nullptr) {
     add_places(skeleton, *motion, options, messages);
+  }
+  if (motion != nullptr && face != nullptr) {
+    add_expressions(*face, options.expressions, messages);
   }
   return options.bundles ? bundled(messages, common, options.largest) : single(messages);
 }

@@ -6,9 +6,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "telemime/core/errors.h"
 #include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/testing_motion.h"
+#include "telemime/outputs/vrm_expressions.h"
 #include "telemime/streaming/sender.h"
 #include "telemime/streaming/testing_osc.h"
 #include "telemime/streaming/testing_receivers.h"
@@ -128,7 +131,7 @@ TEST_F(Vmc, EachBundleIsCompleteInItself) {
        {std::size_t{200}, std::size_t{600}, kVmcLargestDatagram, kVmcLargestLocalDatagram}) {
     VmcOptions options;
     options.largest = largest;
-    const auto datagrams = vmc_datagrams(skeleton_, &motion, 2.5, options);
+    const auto datagrams = vmc_datagrams(skeleton_, &motion, nullptr, 2.5, options);
     EXPECT_EQ(datagrams.size() == 1, largest == kVmcLargestLocalDatagram);
     Marionette all;
     for (const std::string& datagram : datagrams) {
@@ -180,6 +183,27 @@ TEST_F(Vmc, SingleMessagesWithoutBundles) {
     EXPECT_EQ(datagram.substr(0, 9), "/VMC/Ext/");
   }
   expect_equal(got.marionette, humanoid_motion(header_.body, frame.pose, frame.pose.root));
+}
+
+TEST_F(Vmc, ExpressionsInTheNamesThatAreAskedFor) {
+  MotionFrame frame = frame_of(random_pose(), 0);
+  frame.face = testing_motion::random_face(random_);
+  const auto weights = vrm_expressions(*frame.face);
+  constexpr std::pair<const char*, const char*> kCases[] = {
+      {"", "Blink_L"}, {"?expressions=vrm1", "blinkLeft"}, {"?expressions=arkit", "eyeBlinkLeft"}};
+  for (const auto& [query, blink] : kCases) {
+    UdpReceiver receiver;
+    const auto sender = make_sender(url_of(receiver.port(), query));
+    sender->begin(header_);
+    sender->send(frame, kTaken);
+    const ReceivedFrame got = next_frame(receiver);
+    const bool arkit = std::string(query).ends_with("arkit");
+    EXPECT_EQ(got.marionette.blends.size(), arkit ? kExpressionCount : kVrmExpressionCount);
+    EXPECT_TRUE(got.marionette.applied);
+    EXPECT_FLOAT_EQ(got.marionette.blends.at(blink),
+                    static_cast<float>(arkit ? (*frame.face)[Expression::eye_blink_left] : weights[11]));
+  }
+  EXPECT_THROW(make_sender(url_of(receiver_.port(), "?expressions=all")), Error);
 }
 
 TEST_F(Vmc, PositionsOfTheHipsAlone) {

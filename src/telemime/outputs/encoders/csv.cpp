@@ -30,7 +30,11 @@ class CsvEncoder final : public Encoder {
     for (const auto name : kJointNames) {
       line.append(",").append(name).append("_u_px,").append(name).append("_v_px");
     }
-    return line + ",F,D_C,evaluations\n";
+    line += ",F,D_C,evaluations,face_confidence,head_qx,head_qy,head_qz,head_qw,gaze_left_deg,gaze_up_deg";
+    for (const auto name : kExpressionNames) {
+      line.append(",").append(name);
+    }
+    return line + "\n";
   }
 
   std::string frame(const MotionFrame& raw) override {
@@ -51,10 +55,25 @@ class CsvEncoder final : public Encoder {
     }
     append_cell(line, frame.region_score, 6);
     append_cell(line, frame.contour_score, 6);
-    return line + "," + std::to_string(frame.evaluations) + "\n";
+    line.append(",").append(std::to_string(frame.evaluations));
+    append_face(line, frame.face.value_or(FaceMotion{}));
+    return line + "\n";
   }
 
  private:
+  static void append_face(std::string& line, const FaceMotion& face) {
+    append_cell(line, face.confidence, 3);
+    for (const double value : {face.head.x(), face.head.y(), face.head.z(), face.head.w()}) {
+      append_cell(line, value, 6);
+    }
+    for (const double angle : face.gaze) {
+      append_cell(line, angle * kDegreesPerRadian, 2);
+    }
+    for (const double value : face.expressions) {
+      append_cell(line, value, 3);
+    }
+  }
+
   static void append_place(std::string& line, const Eigen::Vector3d& place) {
     for (const double value : place) {
       append_cell(line, value * kMillimetresPerMetre, 2);

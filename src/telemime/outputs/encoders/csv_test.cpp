@@ -29,6 +29,8 @@ TEST(Csv, EveryRowHasEveryColumnAndTheRightNumbers) {
   const StreamHeader header = testing_motion::header();
   auto frames = testing_motion::gesture(header, 4);
   frames[2].state = TrackState::lost;
+  Random random(1);
+  frames[1].face = testing_motion::random_face(random);
   const auto rows = table(testing_motion::encode_all(*make_csv_encoder(), header, frames));
   ASSERT_EQ(rows.size(), 5U);
   const auto cell = [&rows](std::size_t row, const std::string& column) {
@@ -47,6 +49,9 @@ TEST(Csv, EveryRowHasEveryColumnAndTheRightNumbers) {
   }
   EXPECT_EQ(cell(3, "state"), "lost");
   EXPECT_EQ(cell(4, "evaluations"), "700");
+  EXPECT_NEAR(std::stod(cell(2, "jawOpen")), (*frames[1].face)[Expression::jaw_open], 1e-3);
+  EXPECT_EQ(cell(1, "face_confidence"), "0.000");
+  EXPECT_EQ(cell(1, "head_qw"), "1.000000");
 }
 
 }  // namespace

@@ -94,6 +94,23 @@ Json spread_json(const PoseSpread& spread) {
           {"effective_particles", rounded(spread.effective_particles, 1)}};
 }
 
+Json face_json(const FaceMotion& face) {
+  constexpr int kRotationDecimals = 6;
+  constexpr int kWeightDecimals = 3;
+  Json expressions = Json::object();
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    expressions[std::string(kExpressionNames[i])] = rounded(face.expressions[i], kWeightDecimals);
+  }
+  Json head = Json::array();
+  for (const double value : {face.head.x(), face.head.y(), face.head.z(), face.head.w()}) {
+    head.push_back(rounded(value, kRotationDecimals));
+  }
+  return {{"confidence", rounded(face.confidence, kWeightDecimals)},
+          {"head", head},
+          {"gaze", {degrees(face.gaze.x()), degrees(face.gaze.y())}},
+          {"expressions", expressions}};
+}
+
 /// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement characters.
 std::string line(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -151,6 +168,9 @@ class JsonlEncoder final : public Encoder {
                      {"D_C", rounded(frame.contour_score, kScoreDecimals)}}},
                    {"evaluations", frame.evaluations},
                    {"ms", ms}};
+    if (frame.face) {
+      object["face"] = face_json(*frame.face);
+    }
     if (frame.spread) {
       object["spread"] = spread_json(*frame.spread);
     }

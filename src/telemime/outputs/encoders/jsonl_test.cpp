@@ -175,6 +175,31 @@ TEST(Jsonl, ASpreadThatIsNotFiniteIsLeftOut) {
   }
 }
 
+TEST(Jsonl, ReadsBackTheFaceThatItWrote) {
+  const StreamHeader header = testing_motion::header();
+  Random random(4);
+  MotionFrame frame = testing_motion::frame_of(header.body, header.camera, Pose{}, 0, header.fps);
+  frame.face = testing_motion::random_face(random);
+  const auto encoder = make_jsonl_encoder();
+  const std::string text = encoder->begin(header) + encoder->frame(frame);
+  const PoseFile file = parse_pose_jsonl(text, "face");
+  ASSERT_TRUE(file.frames.at(0).face);
+  const FaceMotion& read = *file.frames[0].face;
+  EXPECT_NEAR(read.confidence, frame.face->confidence, 1e-3);
+  EXPECT_LT(read.head.angularDistance(frame.face->head), 1e-5);
+  EXPECT_LT((read.gaze - frame.face->gaze).norm(), 1e-4);
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    EXPECT_NEAR(read.expressions[i], frame.face->expressions[i], 1e-3);
+  }
+  EXPECT_NE(text.find("\"tongueOut\""), std::string::npos);
+  // One that is not finite is left out; one that cannot be is refused.
+  frame.face->gaze.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(encoder->frame(frame).find("face"), std::string::npos);
+  std::string wrong = text;
+  wrong.replace(wrong.find("\"confidence\":") + 13, 1, ":7");
+  EXPECT_THROW(parse_pose_jsonl(wrong + text.substr(text.find('\n') + 1), "face"), Error);
+}
+
 TEST(JsonlReader, RefusesASpreadThatIsNone) {
   const StreamHeader header = testing_motion::header();
   auto frames = testing_motion::gesture(header, 1);

@@ -56,7 +56,11 @@ void MotionKeys::add(const MotionFrame& frame) {
   if (!origin_) {
     origin_ = frame.pose.root;
   }
-  columns_.add(time, humanoid_motion(body_, frame.pose, *origin_));
+  HumanoidMotion motion = humanoid_motion(body_, frame.pose, *origin_);
+  if (frame.face) {
+    turn_head(*frame.face, motion);
+  }
+  columns_.add(time, motion);
 }
 
 void MotionKeys::add_animation(GltfDocument& document) const {

@@ -2,6 +2,7 @@
 #include "telemime/outputs/readers/jsonl.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "telemime/core/files.h"
@@ -79,6 +80,32 @@ PoseSpread read_spread(const JsonField& object) {
   return spread;
 }
 
+FaceMotion read_face(const JsonField& object) {
+  const auto weight = [](const JsonField& field) {
+    const double value = field.number();
+    if (!(value >= 0.0 && value <= 1.0)) {
+      field.fail("must be between 0 and 1");
+    }
+    return value;
+  };
+  FaceMotion face;
+  face.confidence = weight(object["confidence"]);
+  const auto [x, y, z, w] = object["head"].numbers<4>();
+  face.head = Eigen::Quaterniond(w, x, y, z);
+  constexpr double kRounding = 0.01;
+  if (std::abs(face.head.norm() - 1.0) > kRounding) {
+    object["head"].fail("must be a unit quaternion");
+  }
+  face.head.normalize();
+  const auto [left, up] = object["gaze"].numbers<2>();
+  face.gaze = Eigen::Vector2d(left, up) / kDegreesPerRadian;
+  const JsonField expressions = object["expressions"];
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    face.expressions[i] = weight(expressions[kExpressionNames[i]]);
+  }
+  return face;
+}
+
 MotionFrame read_frame(const JsonField& line, const Camera& camera) {
   MotionFrame frame;
   frame.frame = line["frame"].integer(0, INT64_MAX);
@@ -114,6 +141,9 @@ MotionFrame read_frame(const JsonField& line, const Camera& camera) {
   }
   if (line.has("evaluations")) {
     frame.evaluations = static_cast<int>(line["evaluations"].integer(0, INT32_MAX));
+  }
+  if (line.has("face")) {
+    frame.face = read_face(line["face"]);
   }
   if (line.has("spread")) {
     frame.spread = read_spread(line["spread"]);
