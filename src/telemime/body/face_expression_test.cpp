@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -19,8 +21,6 @@ using enum Expression;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 const Camera kCamera{.width = 640, .height = 480, .fx = 600, .fy = 600, .cx = 320, .cy = 240};
-constexpr Side kL = Side::left;
-constexpr Side kR = Side::right;
 
 FaceMotion motion_of(const TestFace& face, const Eigen::Quaterniond& turn = Eigen::Quaterniond::Identity()) {
   NeutralFace neutral;
@@ -45,14 +45,61 @@ struct Deed {
   std::vector<Expression> also;
 };
 
-const std::vector<Deed>& deeds() {
-  static const std::vector<Deed> all = {
-      {[](TestFace& f) { f.close_eye(kL, 0.9); }, {eye_blink_left}, {}},
-      {[](TestFace& f) { f.close_eye(kR, 0.9); }, {eye_blink_right}, {}},
-      {[](TestFace& f) { f.close_eye(kL, -0.5); }, {eye_wide_left}, {}},
-      {[](TestFace& f) { f.close_eye(kR, -0.5); }, {eye_wide_right}, {}},
-      {[](TestFace& f) { f.raise_lower_lid(kL, 2.2); }, {eye_squint_left}, {eye_blink_left}},
-      {[](TestFace& f) { f.raise_lower_lid(kR, 2.2); }, {eye_squint_right}, {eye_blink_right}},
+/// What both sides can do, once on each; `by` is outwards, down, back.
+std::vector<Deed> sided_deeds() {
+  using Move = std::function<void(TestFace&, Side)>;
+  const auto out = [](Side side, double x, double y) -> Eigen::Vector3d {
+    return x * TestFace::outward(side) + Eigen::Vector3d(0, y, 0);
+  };
+  struct Sided {
+    Expression left, right;
+    Move move;
+    std::array<std::vector<Expression>, 2> also = {};
+  };
+  const std::vector<Sided> list = {
+      {eye_blink_left, eye_blink_right, [](TestFace& f, Side s) { f.close_eye(s, 0.9); }},
+      {eye_wide_left, eye_wide_right, [](TestFace& f, Side s) { f.close_eye(s, -0.5); }},
+      {eye_squint_left,
+       eye_squint_right,
+       [](TestFace& f, Side s) { f.raise_lower_lid(s, 2.2); },
+       {{{eye_blink_left}, {eye_blink_right}}}},
+      {brow_outer_up_left, brow_outer_up_right, [](TestFace& f, Side s) { f.brow_outer(s, 7); }},
+      {brow_down_left, brow_down_right, [](TestFace& f, Side s) { f.brow_inner(s, -5); }},
+      {cheek_squint_left, cheek_squint_right,
+       [=](TestFace& f, Side s) {
+         f.move(f.on(s, {50, 205, 123}), out(s, 0, -7));
+       }},
+      {nose_sneer_left, nose_sneer_right,
+       [=](TestFace& f, Side s) {
+         f.move(f.on(s, {129, 98, 64}), out(s, 0, -6));
+       }},
+      {mouth_smile_left, mouth_smile_right, [=](TestFace& f, Side s) { f.move(f.corner(s), out(s, 5, -7)); }},
+      {mouth_frown_left, mouth_frown_right, [=](TestFace& f, Side s) { f.move(f.corner(s), out(s, 0, 7)); }},
+      {mouth_stretch_left, mouth_stretch_right,
+       [=](TestFace& f, Side s) { f.move(f.corner(s), out(s, 9, 0)); }},
+      {mouth_upper_up_left, mouth_upper_up_right,
+       [=](TestFace& f, Side s) { f.move(f.upper_lip(s), out(s, 0, -6)); }},
+      {mouth_lower_down_left, mouth_lower_down_right,
+       [=](TestFace& f, Side s) { f.move(f.lower_lip(s), out(s, 0, 6)); }},
+      {mouth_press_left, mouth_press_right,
+       [](TestFace& f, Side s) {
+         f.thin(f.on(s, {37, 39, 84, 181}), f.on(s, {82, 81, 87, 178}), 0.85);
+       }},
+  };
+  std::vector<Deed> deeds;
+  for (const Sided& sided : list) {
+    for (const Side side : {Side::left, Side::right}) {
+      deeds.push_back({[move = sided.move, side](TestFace& f) { move(f, side); },
+                       {side == Side::left ? sided.left : sided.right},
+                       sided.also[static_cast<std::size_t>(side)]});
+    }
+  }
+  return deeds;
+}
+
+std::vector<Deed> make_deeds() {
+  const std::vector<Expression> press = {mouth_press_left, mouth_press_right};
+  std::vector<Deed> all = {
       {[](TestFace& f) { f.look(33 * kDeg, 0); }, {eye_look_out_left, eye_look_in_right}, {}},
       {[](TestFace& f) { f.look(-33 * kDeg, 0); }, {eye_look_in_left, eye_look_out_right}, {}},
       {[](TestFace& f) { f.look(0, 28 * kDeg); }, {eye_look_up_left, eye_look_up_right}, {}},
@@ -60,34 +107,10 @@ const std::vector<Deed>& deeds() {
        {eye_look_down_left, eye_look_down_right},
        {eye_wide_left, eye_wide_right}},
       {[](TestFace& f) {
-         f.brow_inner(kL, 7);
-         f.brow_inner(kR, 7);
+         f.brow_inner(Side::left, 7);
+         f.brow_inner(Side::right, 7);
        },
        {brow_inner_up},
-       {}},
-      {[](TestFace& f) { f.brow_outer(kL, 7); }, {brow_outer_up_left}, {}},
-      {[](TestFace& f) { f.brow_outer(kR, 7); }, {brow_outer_up_right}, {}},
-      {[](TestFace& f) { f.brow_inner(kL, -5); }, {brow_down_left}, {}},
-      {[](TestFace& f) { f.brow_inner(kR, -5); }, {brow_down_right}, {}},
-      {[](TestFace& f) {
-         f.move(f.on(kL, {50, 205, 123}), {0, -7, 0});
-       },
-       {cheek_squint_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.on(kR, {50, 205, 123}), {0, -7, 0});
-       },
-       {cheek_squint_right},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.on(kL, {129, 98, 64}), {0, -6, 0});
-       },
-       {nose_sneer_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.on(kR, {129, 98, 64}), {0, -6, 0});
-       },
-       {nose_sneer_right},
        {}},
       {[](TestFace& f) {
          f.jaw({0, 25, 0});
@@ -131,22 +154,12 @@ const std::vector<Deed>& deeds() {
          f.thin({0, 37, 39, 267, 269}, {13, 82, 81, 312, 311}, 0.8);
        },
        {mouth_roll_upper},
-       {mouth_press_left, mouth_press_right}},
+       press},
       {[](TestFace& f) {
          f.thin({17, 84, 181, 314, 405}, {14, 87, 178, 317, 402}, 0.8);
        },
        {mouth_roll_lower},
        {mouth_shrug_lower, mouth_press_left, mouth_press_right}},
-      {[](TestFace& f) {
-         f.thin({37, 39, 84, 181}, {82, 81, 87, 178}, 0.85);
-       },
-       {mouth_press_right},
-       {}},
-      {[](TestFace& f) {
-         f.thin({267, 269, 314, 405}, {312, 311, 317, 402}, 0.85);
-       },
-       {mouth_press_left},
-       {}},
       {[](TestFace& f) {
          f.move(f.upper_lip(), {0, -6, 0});
          f.move({87, 14, 317, 178, 402}, {0, -6, 0});
@@ -158,57 +171,14 @@ const std::vector<Deed>& deeds() {
        },
        {mouth_shrug_lower, mouth_shrug_upper},
        {mouth_smile_left, mouth_smile_right}},
-      {[](TestFace& f) {
-         f.move(f.corner(kL), {5, -7, 0});
-       },
-       {mouth_smile_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.corner(kR), {-5, -7, 0});
-       },
-       {mouth_smile_right},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.corner(kL), {0, 7, 0});
-       },
-       {mouth_frown_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.corner(kR), {0, 7, 0});
-       },
-       {mouth_frown_right},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.corner(kL), {9, 0, 0});
-       },
-       {mouth_stretch_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.corner(kR), {-9, 0, 0});
-       },
-       {mouth_stretch_right},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.upper_lip(kL), {0, -6, 0});
-       },
-       {mouth_upper_up_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.upper_lip(kR), {0, -6, 0});
-       },
-       {mouth_upper_up_right},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.lower_lip(kL), {0, 6, 0});
-       },
-       {mouth_lower_down_left},
-       {}},
-      {[](TestFace& f) {
-         f.move(f.lower_lip(kR), {0, 6, 0});
-       },
-       {mouth_lower_down_right},
-       {}},
   };
+  const std::vector<Deed> sided = sided_deeds();
+  all.insert(all.end(), sided.begin(), sided.end());
+  return all;
+}
+
+const std::vector<Deed>& deeds() {
+  static const std::vector<Deed> all = make_deeds();
   return all;
 }
 
@@ -338,19 +308,19 @@ TEST(FaceExpression, HeadBesideTheAxisIsTurnedWithItsRay) {
 TEST(FaceExpression, PersonsOwnFaceIsLearned) {
   // Somebody whose eyes are narrower, brows higher and mouth wider than those of the canonical face.
   TestFace own;
-  own.close_eye(kL, 0.25);
-  own.close_eye(kR, 0.25);
-  own.brow_inner(kL, 4);
-  own.brow_inner(kR, 4);
-  own.move(own.corner(kL), {5, 0, 0});
-  own.move(own.corner(kR), {-5, 0, 0});
+  own.close_eye(Side::left, 0.25);
+  own.close_eye(Side::right, 0.25);
+  own.brow_inner(Side::left, 4);
+  own.brow_inner(Side::right, 4);
+  own.move(own.corner(Side::left), {5, 0, 0});
+  own.move(own.corner(Side::right), {-5, 0, 0});
   NeutralFace neutral;
   FaceMotion face;
   for (int i = 0; i < 100; ++i) {
     TestFace now = own;
     if (i % 10 == 0) {  // blinks do not matter
-      now.close_eye(kL, 0.9);
-      now.close_eye(kR, 0.9);
+      now.close_eye(Side::left, 0.9);
+      now.close_eye(Side::right, 0.9);
     }
     face = face_motion(now.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 0.04 * i,
                        neutral);
@@ -358,7 +328,7 @@ TEST(FaceExpression, PersonsOwnFaceIsLearned) {
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     EXPECT_LT(face.expressions[i], 0.05) << kExpressionNames[i];
   }
-  own.close_eye(kL, 0.9);
+  own.close_eye(Side::left, 0.9);
   face = face_motion(own.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 4.0, neutral);
   EXPECT_GT(face[eye_blink_left], 0.8);
   EXPECT_LT(face[eye_blink_right], 0.2);
@@ -368,7 +338,7 @@ TEST(FaceExpression, LastingGrimaceDoesNotBecomeTheFaceAtRest) {
   NeutralFace neutral;
   TestFace grimace;
   grimace.jaw({0, 30, 0});
-  grimace.close_eye(kL, 0.95);
+  grimace.close_eye(Side::left, 0.95);
   FaceMotion face;
   for (int i = 0; i < 500; ++i) {
     face = face_motion(grimace.seen(Eigen::Quaterniond::Identity(), 2.0, {320, 240}), 1.0, kCamera, 0.2 * i,

@@ -127,10 +127,10 @@ struct TestFace {
     }
   }
   /// Moves each edge of a lip this share of the way to its inside.
-  void thin(List edges, List insides, double share) {
+  void thin(const std::vector<std::size_t>& edges, const std::vector<std::size_t>& insides, double share) {
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      Eigen::Vector3d& edge = points[edges.begin()[k]];
-      edge += share * (points[insides.begin()[k]] - edge);
+      Eigen::Vector3d& edge = points[edges[k]];
+      edge += share * (points[insides[k]] - edge);
     }
   }
 
