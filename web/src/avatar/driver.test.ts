@@ -19,6 +19,7 @@ const pose = (frame: number, q: Quat, hips: [number, number, number] = [0, 1, 0]
   secondMode: null,
   F: null,
   Dc: null,
+  face: null,
 });
 
 /** Tracked and drawn at 60 Hz, one pose every 40 ms, until `seconds`. */

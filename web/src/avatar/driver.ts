@@ -4,6 +4,7 @@
 
 import { angleBetween, mix, slerp, type Quat, type Vec3 } from "../shared/quaternion";
 import type { BodyMessage, Pose, TrackedPose } from "../live/protocol";
+import { faceOf, type Face } from "./face";
 import { mirrorBones, mirrorPosition } from "./mirror";
 import { RestBlend, blendPoses, relaxedFingers, restPose } from "./rest";
 
@@ -21,6 +22,7 @@ export interface Shown {
   bones: Map<string, Quat>;
   /** Displacement of the hips from the T-pose, as a fraction of their height. */
   hips: Vec3;
+  face: Face;
   /** False when nothing has changed since the last call. */
   moving: boolean;
   /** The newest pose, when this is the first call that shows it. */
@@ -83,6 +85,7 @@ export class PoseDriver {
       bones = mirrorBones(bones);
       hips = mirrorPosition(hips);
     }
+    const face = faceOf(this.target?.face ?? null, rest, this.mirrored);
     const moving =
       change > STILL ||
       rest !== before ||
@@ -90,7 +93,7 @@ export class PoseDriver {
       this.mirrored !== this.wasMirrored ||
       fresh !== null;
     this.wasMirrored = this.mirrored;
-    return { bones, hips, moving, fresh, rest };
+    return { bones, hips, face, moving, fresh, rest };
   }
 
   /** Moves the eased pose toward the newest one; returns the largest change, rad or m. */

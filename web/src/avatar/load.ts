@@ -15,6 +15,7 @@ import {
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { drawsInSoftware } from "../shared/graphics";
 import type { Quat, Vec3 } from "../shared/quaternion";
+import { AvatarFace, FACE_AT_REST, type Face } from "./face";
 import { foldMissing } from "./fold";
 import { dropOddSprings, fitToHuman, scaleSprings } from "./fit";
 import { AvatarError, inspect, type Facts, type Json } from "./inspect";
@@ -38,6 +39,7 @@ export class Avatar {
   readonly hasSprings: boolean;
   /** What was changed or left out, for the user. */
   readonly notes: string[];
+  readonly face: AvatarFace;
   private readonly restWorld = new Map<string, Quaternion>();
   private readonly restHips: Vector3;
   /** VRM 0.x faces -z in its own frame: the signs of x and z change. */
@@ -52,6 +54,7 @@ export class Avatar {
     notes: string[] = [],
   ) {
     this.scene = vrm.scene;
+    this.face = new AvatarFace(vrm);
     this.flip = facts.version === "0" ? -1 : 1;
     vrm.humanoid.resetNormalizedPose();
     vrm.update(0);
@@ -103,7 +106,8 @@ export class Avatar {
   }
 
   /** `hips`: displacement from the T-pose as a fraction of the hips' height. `dt`: time step of hair and clothes, s. */
-  show(bones: ReadonlyMap<string, Quat>, hips: Vec3, dt: number): void {
+  show(bones: ReadonlyMap<string, Quat>, hips: Vec3, dt: number, face: Face = FACE_AT_REST): void {
+    this.face.show(face);
     const f = this.flip;
     for (const [bone, q] of foldMissing(bones, (b) => this.node(b) !== null)) {
       this.node(bone)!.quaternion.set(f * q[0], q[1], f * q[2], q[3]);

@@ -124,7 +124,7 @@ export class Stage {
     if (!painter.ready(now)) return false;
     const since = now - this.lastDraw;
     this.lastDraw = now;
-    avatar.show(shown.bones, shown.hips, Math.min(0.1, since));
+    avatar.show(shown.bones, shown.hips, Math.min(0.1, since), shown.face);
     const hips = avatar.position("hips", this.scratch);
     this.shadow.position.x = hips.x;
     this.shadow.position.z = hips.z;

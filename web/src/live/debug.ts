@@ -22,6 +22,8 @@ export interface Debug {
    * `world` and `position` from the file's own bones.
    */
   boneRotations(): Record<string, BoneReading>;
+  /** The weights of the avatar's expressions as drawn last, by the names of ARKit and VRM 1.0. */
+  expressions(): Record<string, number>;
 }
 
 /** A pose with its maps as plain objects. */

@@ -254,4 +254,5 @@ exposeDebug({
     return { ...counters, ...loop.counters, misunderstood: connection.misunderstood, ...camera.counters };
   },
   boneRotations: () => loop.avatar?.read() ?? {},
+  expressions: () => loop.avatar?.face.read() ?? {},
 });

@@ -76,6 +76,14 @@ const BodySchema = v.pipe(
 );
 export type BodyMessage = v.InferOutput<typeof BodySchema>;
 
+const FaceSchema = v.object({
+  confidence: number,
+  gaze: v.strictTuple([number, number]), // rad in the head: to the person's left, up
+  arkit: v.pipe(v.array(number), v.length(52)),
+  vrm: mapOf(number),
+});
+export type FaceMessage = v.InferOutput<typeof FaceSchema>;
+
 const frame = { type: v.literal("pose"), frame: number, time: number, stamp: number };
 const TrackedSchema = v.pipe(
   v.object({
@@ -89,6 +97,7 @@ const TrackedSchema = v.pipe(
     second_mode: numberOrNull,
     F: numberOrNull,
     D_C: numberOrNull,
+    face: v.fallback(v.nullable(FaceSchema), null),
   }),
   v.transform(({ second_mode, D_C, ...m }) => ({ ...m, secondMode: second_mode, Dc: D_C })),
 );
