@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -100,17 +101,6 @@ std::size_t add_material(GltfDocument& document, const AvatarPart& part) {
   return add_to(document, "materials", std::move(material));
 }
 
-// A blink of the eyes on one side only, as displacements; 0 elsewhere.
-std::vector<Eigen::Vector3d> blink_of_side(const AvatarPart& part, bool left) {
-  std::vector<Eigen::Vector3d> moved = part.blink;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    if ((part.surface.vertices[i].x() >= 0.0) != left) {
-      moved[i].setZero();
-    }
-  }
-  return moved;
-}
-
 Json primitive(GltfDocument& document, const Figure& figure, const AvatarPart& part, bool on_head) {
   std::vector<std::uint8_t> bones;
   std::vector<std::uint16_t> weights;
@@ -134,11 +124,19 @@ Json primitive(GltfDocument& document, const Figure& figure, const AvatarPart& p
       {"WEIGHTS_0", add_accessor(document, weights)}};
   result["indices"] = add_indices(document, indices);
   result["material"] = add_material(document, part);
-  if (!part.blink.empty()) {
-    for (const bool left : {true, false}) {
-      const std::size_t moved =
-          add_accessor(document, flat(blink_of_side(part, left)), "VEC3", GltfTarget::vertices, true);
-      result["targets"].push_back({{"POSITION", moved}});
+  // The shapes that leave a part where it is share one array of zeros.
+  std::optional<std::size_t> still;
+  for (const std::vector<Eigen::Vector3d>& moved : part.moved) {
+    if (moved.empty()) {
+      continue;
+    }
+    const bool moves = std::any_of(moved.begin(), moved.end(), [](const auto& m) { return m.norm() > 0.0; });
+    if (moves || !still) {
+      const std::size_t index = add_accessor(document, flat(moved), "VEC3", GltfTarget::vertices, true);
+      still = moves ? still : index;
+      result["targets"].push_back({{"POSITION", index}});
+    } else {
+      result["targets"].push_back({{"POSITION", *still}});
     }
   }
   return result;
@@ -153,6 +151,26 @@ Json expression(std::size_t node, const std::vector<int>& targets) {
           {"overrideBlink", "none"},
           {"overrideLookAt", "none"},
           {"overrideMouth", "none"}};
+}
+
+// Each shape, and blink: both eyes.
+Json expressions(std::size_t face) {
+  Json preset = {{"blink", expression(face, {0, 1})}};
+  for (std::size_t shape = 0; shape < kFaceShapeCount; ++shape) {
+    preset[std::string(kFaceShapeNames[shape])] = expression(face, {static_cast<int>(shape)});
+  }
+  return {{"preset", preset}};
+}
+
+// The eyes are drawn on the head: expressions move them.
+Json look_at(const Figure& figure) {
+  const Json range = {{"inputMaxValue", 30.0}, {"outputScale", 1.0}};
+  return {{"offsetFromHeadBone", {0.0, 0.036 * figure.head_size(), 0.1 * figure.head_size()}},
+          {"type", "expression"},
+          {"rangeMapHorizontalInner", range},
+          {"rangeMapHorizontalOuter", range},
+          {"rangeMapVerticalDown", range},
+          {"rangeMapVerticalUp", range}};
 }
 
 Json meta(const AvatarLook& look) {
@@ -212,8 +230,8 @@ std::string make_avatar(const Shape& shape, const AvatarLook& look) {
   const std::size_t face_mesh = add_to(document, "meshes",
                                        {{"name", "face"},
                                         {"primitives", std::move(face)},
-                                        {"weights", {0.0, 0.0}},
-                                        {"extras", {{"targetNames", {"blinkLeft", "blinkRight"}}}}});
+                                        {"weights", std::vector<double>(kFaceShapeCount, 0.0)},
+                                        {"extras", {{"targetNames", kFaceShapeNames}}}});
   add_skinned_mesh(document, "body", body_mesh, skin);
   const std::size_t face_node = add_skinned_mesh(document, "face", face_mesh, skin);
 
@@ -221,11 +239,8 @@ std::string make_avatar(const Shape& shape, const AvatarLook& look) {
   document.json["extensions"]["VRMC_vrm"] = {{"specVersion", "1.0"},
                                              {"meta", meta(look)},
                                              {"humanoid", {{"humanBones", human_bones()}}},
-                                             {"expressions",
-                                              {{"preset",
-                                                {{"blink", expression(face_node, {0, 1})},
-                                                 {"blinkLeft", expression(face_node, {0})},
-                                                 {"blinkRight", expression(face_node, {1})}}}}}};
+                                             {"lookAt", look_at(figure)},
+                                             {"expressions", expressions(face_node)}};
   return glb_bytes(document);
 }
 

@@ -58,9 +58,10 @@ inline constexpr std::array<AvatarLook, 5> kAvatarLooks = {{
 const AvatarLook& avatar_look(std::string_view name);
 
 /// A person with these proportions as a VRM 1.0 file (binary glTF with VRMC_vrm): skinned surfaces in the
-/// T-pose of humanoid.h, the expressions blink, blinkLeft and blinkRight. Both sides get the mean of the
-/// shape's sides; its sleeve is not used, the look has its own. The same arguments give the same bytes.
-/// Throws Error(usage) for a stature that is not between 0.5 and 2.5 m, or a scale not between 0.4 and 2.5.
+/// T-pose of humanoid.h, the expressions of VRM 1.0 and eyes that look (expressions, too). Both sides get the
+/// mean of the shape's sides; its sleeve is not used, the look has its own. The same arguments give the same
+/// bytes. Throws Error(usage) for a stature that is not between 0.5 and 2.5 m, or a scale not between 0.4
+/// and 2.5.
 std::string make_avatar(const Shape& shape, const AvatarLook& look);
 
 }  // namespace telemime

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "avatars/tailor.h"
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
 #include "telemime/outputs/gltf/testing_glb.h"
@@ -210,6 +211,34 @@ TEST(Avatar, ABlinkClosesTheEyesOnly) {
     }
   }
   EXPECT_EQ(moving, (std::set<std::string>{"eye_white", "iris", "lashes", "pupil", "spark"}));
+}
+
+TEST(Avatar, EachExpressionMovesItsPartsOfTheFace) {
+  for (const char* const look : {"plain", "robot"}) {
+    const Glb glb = testing_glb::parse(make_avatar(Shape{}, avatar_look(look)));
+    const auto& preset = glb.json["extensions"]["VRMC_vrm"]["expressions"]["preset"];
+    EXPECT_EQ(preset.size(), kFaceShapeCount + 1);
+    const auto moving = [&](const std::string& name) {
+      std::set<std::string> materials;
+      const std::size_t target = preset[name]["morphTargetBinds"][0]["index"];
+      for (const auto& primitive : glb.json["meshes"][1]["primitives"]) {
+        for (const auto& moved : vectors(numbers<float>(glb, primitive["targets"][target]["POSITION"]))) {
+          EXPECT_LT(moved.norm(), 0.05F) << name;
+          if (moved.norm() > 1e-4F) {
+            materials.insert(glb.json["materials"][primitive["material"].get<std::size_t>()]["name"]);
+          }
+        }
+      }
+      return materials;
+    };
+    using Names = std::set<std::string>;
+    const bool robot = std::string(look) == "robot";
+    for (const char* const vowel : {"aa", "ih", "ou", "ee", "oh"}) {
+      EXPECT_EQ(moving(vowel), robot ? Names{"eyes"} : Names{"mouth"}) << vowel;
+    }
+    EXPECT_EQ(moving("angry"), robot ? Names{"eyes"} : (Names{"brows", "mouth"}));
+    EXPECT_EQ(moving("lookLeft"), robot ? Names{"eyes"} : (Names{"iris", "pupil", "spark"}));
+  }
 }
 
 TEST(Avatar, WhatCannotBeMadeIsRefused) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "avatars/avatar.h"
@@ -10,6 +12,30 @@
 
 namespace telemime {
 
+/// What a face can be made to show: the expressions of VRM 1.0 of which each is one morph target.
+enum class FaceShape : std::size_t {
+  blink_left,
+  blink_right,
+  aa,
+  ih,
+  ou,
+  ee,
+  oh,
+  happy,
+  angry,
+  sad,
+  relaxed,
+  surprised,
+  look_up,
+  look_down,
+  look_left,
+  look_right,
+};
+inline constexpr std::size_t kFaceShapeCount = 16;
+inline constexpr std::array<std::string_view, kFaceShapeCount> kFaceShapeNames = {
+    "blinkLeft", "blinkRight", "aa",      "ih",        "ou",     "ee",       "oh",       "happy",
+    "angry",     "sad",        "relaxed", "surprised", "lookUp", "lookDown", "lookLeft", "lookRight"};
+
 /// A surface of one colour, in the T-pose.
 struct AvatarPart {
   std::string name;  ///< of its material; parts of the same name are of the same material
@@ -17,7 +43,8 @@ struct AvatarPart {
   double roughness = 0.8;  ///< 0 mirror, 1 chalk
   Triangles surface;
   bool glows = false;
-  std::vector<Eigen::Vector3d> blink = {};  ///< where each vertex goes when the eyes close; else empty
+  /// Where each vertex of a face goes for each FaceShape, as displacements; otherwise empty.
+  std::array<std::vector<Eigen::Vector3d>, kFaceShapeCount> moved = {};
 };
 
 /// What garments are cut with: planes of the T-pose world and boxes about the person.
@@ -63,7 +90,7 @@ std::vector<AvatarPart> make_outfit(const Figure& figure, const AvatarLook& look
 /// What is fixed to the head: hair, or a robot's helmet; may be empty.
 std::vector<AvatarPart> make_hair(const Figure& figure, const AvatarLook& look);
 
-/// Eyes, brows and mouth, drawn on the head. All parts know how to blink.
+/// Eyes, brows and mouth, drawn on the head. All parts know all shapes.
 std::vector<AvatarPart> make_face(const Figure& figure, const AvatarLook& look);
 
 /// White shells over a dark frame.
