@@ -218,6 +218,7 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
   }
   // The person's shape, and all frames from where they came into the picture once more with it.
   result.person = fit_person(run.tracker, std::move(scouting));
+  before.neutral_face = run.state.neutral_face;  // as all of these frames show it
   run.state = std::move(before);
   run.state.known_start = result.person->start;
   for (FrameRecord& record : result.records) {

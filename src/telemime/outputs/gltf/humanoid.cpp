@@ -2,6 +2,8 @@
 #include "telemime/outputs/gltf/humanoid.h"
 
 #include <array>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace telemime {
@@ -42,6 +44,32 @@ std::size_t add_skinned_mesh(GltfDocument& document, const char* name, std::size
   const std::size_t node = add_to(document, "nodes", {{"name", name}, {"mesh", mesh}, {"skin", skin}});
   document.json["scenes"][0]["nodes"].push_back(node);
   return node;
+}
+
+std::size_t add_face_nodes(GltfDocument& document) {
+  const auto add = [&](std::string_view name) {
+    const std::size_t node = add_to(document, "nodes", {{"name", name}});
+    document.json["scenes"][0]["nodes"].push_back(node);
+    return node;
+  };
+  const std::size_t first = add(kVrmExpressionNames[0]);
+  for (std::size_t i = 1; i < kAnimatedExpressionCount; ++i) {
+    add(kVrmExpressionNames[i]);
+  }
+  add("lookAt");
+  return first;
+}
+
+nlohmann::ordered_json animated_expressions(std::size_t first_node) {
+  nlohmann::ordered_json preset;
+  for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {
+    preset[std::string(kVrmExpressionNames[i])] = {{"node", first_node + i}};
+  }
+  return {{"preset", preset}};
+}
+
+nlohmann::ordered_json animated_look_at(std::size_t first_node) {
+  return {{"node", first_node + kAnimatedExpressionCount}, {"offsetFromHeadBone", {0.0, 0.06, 0.0}}};
 }
 
 nlohmann::ordered_json human_bones() {

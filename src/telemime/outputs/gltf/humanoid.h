@@ -5,6 +5,7 @@
 
 #include "telemime/outputs/gltf/document.h"
 #include "telemime/outputs/humanoid.h"
+#include "telemime/outputs/vrm_expressions.h"
 
 namespace telemime {
 
@@ -21,6 +22,16 @@ std::size_t add_skinned_mesh(GltfDocument& document, const char* name, std::size
 /// Adds a mesh with one rounded piece along every bone, which follows only that bone. It shows the motion and
 /// makes Blender import the bones as an armature. Returns the mesh's index.
 std::size_t add_mannequin(GltfDocument& document, const HumanoidSkeleton& skeleton, double stature);
+
+/// The expressions of VRM that an animation has: all but those of the gaze.
+inline constexpr std::size_t kAnimatedExpressionCount = 13;
+
+/// Adds a node for each of these expressions, then one for the gaze, to the scene; returns the first.
+std::size_t add_face_nodes(GltfDocument& document);
+
+/// The expressions and the gaze of VRMC_vrm_animation, given the first of these nodes.
+nlohmann::ordered_json animated_expressions(std::size_t first_node);
+nlohmann::ordered_json animated_look_at(std::size_t first_node);
 
 /// The map from names of bones to nodes, as in VRMC_vrm and VRMC_vrm_animation.
 nlohmann::ordered_json human_bones();

@@ -15,7 +15,7 @@ void repeat_last(std::vector<float>& column, std::size_t width) {
 
 }  // namespace
 
-void MotionKeys::Columns::add(float time, const HumanoidMotion& motion) {
+void MotionKeys::Columns::add(float time, const HumanoidMotion& motion, const FaceMotion& face) {
   times.push_back(time);
   const Eigen::Vector3f place = motion.hips.cast<float>();
   hips.insert(hips.end(), place.begin(), place.end());
@@ -23,6 +23,15 @@ void MotionKeys::Columns::add(float time, const HumanoidMotion& motion) {
     const Eigen::Quaternionf q = motion.rotation[b].cast<float>().normalized();
     rotations[b].insert(rotations[b].end(), {q.x(), q.y(), q.z(), q.w()});
   }
+  const auto weights = vrm_expressions(face);
+  for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {
+    expressions[i].insert(expressions[i].end(), {static_cast<float>(weights[i]), 0.0F, 0.0F});
+  }
+  // Seen from the avatar, which faces +z: about y to its left, then about x downwards.
+  const Eigen::Quaternionf look = (Eigen::AngleAxisd(face.gaze.x(), Eigen::Vector3d::UnitY()) *
+                                   Eigen::AngleAxisd(-face.gaze.y(), Eigen::Vector3d::UnitX()))
+                                      .cast<float>();
+  gaze.insert(gaze.end(), {look.x(), look.y(), look.z(), look.w()});
 }
 
 void MotionKeys::Columns::hold(float time) {
@@ -31,9 +40,14 @@ void MotionKeys::Columns::hold(float time) {
   for (std::vector<float>& rotation : rotations) {
     repeat_last(rotation, 4);
   }
+  for (std::vector<float>& expression : expressions) {
+    repeat_last(expression, 3);
+  }
+  repeat_last(gaze, 4);
 }
 
-MotionKeys::MotionKeys(const Body& body) : body_(body) {}
+MotionKeys::MotionKeys(const Body& body, std::optional<std::size_t> face_node)
+    : body_(body), face_node_(face_node) {}
 
 void MotionKeys::add(const MotionFrame& frame) {
   if (!start_) {
@@ -60,7 +74,7 @@ void MotionKeys::add(const MotionFrame& frame) {
   if (frame.face) {
     turn_head(*frame.face, motion);
   }
-  columns_.add(time, motion);
+  columns_.add(time, motion, frame.face.value_or(FaceMotion{}));
 }
 
 void MotionKeys::add_animation(GltfDocument& document) const {
@@ -72,7 +86,7 @@ void MotionKeys::add_animation(GltfDocument& document) const {
     HumanoidMotion rest;
     rest.hips = humanoid_skeleton(body_).position[0];
     rest.rotation.fill(Eigen::Quaterniond::Identity());
-    columns.add(0.0F, rest);
+    columns.add(0.0F, rest, FaceMotion{});
   }
   const std::size_t input = add_accessor(document, columns.times, "SCALAR", GltfTarget::none, true);
   auto channels = nlohmann::ordered_json::array();
@@ -85,6 +99,12 @@ void MotionKeys::add_animation(GltfDocument& document) const {
         add_accessor(document, columns.hips, "VEC3"));
   for (std::size_t b = 0; b < kMovingBoneCount; ++b) {
     track(b, "rotation", add_accessor(document, columns.rotations[b], "VEC4"));
+  }
+  if (face_node_) {
+    for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {
+      track(*face_node_ + i, "translation", add_accessor(document, columns.expressions[i], "VEC3"));
+    }
+    track(*face_node_ + kAnimatedExpressionCount, "rotation", add_accessor(document, columns.gaze, "VEC4"));
   }
   add_to(document, "animations",
          {{"name", "motion"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});

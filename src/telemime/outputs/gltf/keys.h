@@ -7,6 +7,7 @@
 
 #include "telemime/body/motion_frame.h"
 #include "telemime/outputs/gltf/document.h"
+#include "telemime/outputs/gltf/humanoid.h"
 #include "telemime/outputs/humanoid.h"
 
 namespace telemime {
@@ -17,7 +18,8 @@ inline constexpr std::size_t kMovingBoneCount = static_cast<std::size_t>(HumanBo
 /// A motion as the keys of a glTF animation.
 class MotionKeys {
  public:
-  explicit MotionKeys(const Body& body);
+  /// With the first of the nodes of the face (add_face_nodes), expressions and gaze get tracks, too.
+  explicit MotionKeys(const Body& body, std::optional<std::size_t> face_node = std::nullopt);
 
   /// Adds a frame with finite numbers. A lost frame makes no key; the pose before it is held until the frame
   /// before the next key, so that nothing glides through the gap. A frame that is not later than the previous
@@ -42,11 +44,15 @@ class MotionKeys {
     std::vector<float> hips;
     std::array<std::vector<float>, kMovingBoneCount> rotations;  ///< x, y, z, w
 
-    void add(float time, const HumanoidMotion& motion);
+    std::array<std::vector<float>, kAnimatedExpressionCount> expressions;  ///< x is the weight
+    std::vector<float> gaze;                                               ///< x, y, z, w
+
+    void add(float time, const HumanoidMotion& motion, const FaceMotion& face);
     void hold(float time);
   };
 
   Body body_;
+  std::optional<std::size_t> face_node_;
   Columns columns_;
   std::optional<double> start_;  ///< time of the first frame
   float last_time_ = -1.0F;

@@ -12,9 +12,9 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kFirstSnapshot = 32;
-/// Space in the JSON for numbers that get longer: some 60 by at most 9 digits each, and the position of the
+/// Space in the JSON for numbers that get longer: some 100 by at most 9 digits each, and the position of the
 /// origin.
-constexpr std::size_t kRoomToGrow = 1024;
+constexpr std::size_t kRoomToGrow = 2048;
 
 class GltfMotionEncoder final : public Encoder {
  public:
@@ -24,15 +24,19 @@ class GltfMotionEncoder final : public Encoder {
     const HumanoidSkeleton skeleton = humanoid_skeleton(header.body);
     fixed_ = make_gltf();
     add_humanoid(fixed_, skeleton);
+    std::optional<std::size_t> face;
     if (mannequin_) {
       const std::size_t mesh = add_mannequin(fixed_, skeleton, header.body.shape.stature);
       add_skinned_mesh(fixed_, "mannequin", mesh, add_humanoid_skin(fixed_, skeleton));
     } else {
       fixed_.json["extensionsUsed"] = {"VRMC_vrm_animation"};
+      face = add_face_nodes(fixed_);
       fixed_.json["extensions"]["VRMC_vrm_animation"] = {{"specVersion", "1.0"},
-                                                         {"humanoid", {{"humanBones", human_bones()}}}};
+                                                         {"humanoid", {{"humanBones", human_bones()}}},
+                                                         {"expressions", animated_expressions(*face)},
+                                                         {"lookAt", animated_look_at(*face)}};
     }
-    keys_.emplace(header.body);
+    keys_.emplace(header.body, face);
     written_ = fixed_.buffer.size();
     const std::string first = snapshot();
     return head_ + fixed_.buffer + first;

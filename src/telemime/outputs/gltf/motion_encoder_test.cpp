@@ -7,6 +7,7 @@
 #include <map>
 
 #include "telemime/outputs/all.h"
+#include "telemime/outputs/gltf/humanoid.h"
 #include "telemime/outputs/gltf/testing_glb.h"
 #include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/testing_motion.h"
@@ -191,6 +192,31 @@ TEST_P(GltfMotionTest, SaysWhatItIs) {
     const Eigen::Vector3f face = (at(positions, indices[i + 1]) - a).cross(at(positions, indices[i + 2]) - a);
     EXPECT_GT(face.dot(at(normals, indices[i]) + at(normals, indices[i + 1]) + at(normals, indices[i + 2])),
               0.0F);
+  }
+}
+
+TEST_P(GltfMotionTest, VrmAnimationHasTheFace) {
+  if (GetParam() != &make_vrma_encoder) {
+    return;
+  }
+  Random random(8);
+  auto frames = random_frames(4);
+  frames[2].face = testing_motion::random_face(random);
+  const Glb glb = written(frames);
+  const auto weights = vrm_expressions(*frames[2].face);
+  const auto& vrma = glb.json["extensions"]["VRMC_vrm_animation"];
+  EXPECT_EQ(vrma["expressions"]["preset"].size(), kAnimatedExpressionCount);
+  for (const std::size_t shown : {1U, 2U}) {
+    const auto nodes = testing_glb::play(glb, frames[shown].time);
+    for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {
+      const std::size_t node = vrma["expressions"]["preset"][std::string(kVrmExpressionNames[i])]["node"];
+      EXPECT_NEAR(nodes[node].translation.x(), shown == 2 ? weights[i] : 0.0, 1e-5) << kVrmExpressionNames[i];
+    }
+    const Eigen::Vector3d look =
+        nodes[vrma["lookAt"]["node"].get<std::size_t>()].rotation * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector2d gaze = shown == 2 ? frames[2].face->gaze : Eigen::Vector2d(0.0, 0.0);
+    EXPECT_NEAR(std::atan2(look.x(), look.z()), gaze.x(), 1e-5);
+    EXPECT_NEAR(std::asin(look.y()), gaze.y(), 1e-5);
   }
 }
 
