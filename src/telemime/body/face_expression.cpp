@@ -211,14 +211,15 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
     return {};
   }
   const FaceMeasures seen = measure_face(points, fit);
-  // Seen from the front: nothing is hidden.
   const Eigen::Vector3d nose = fit.rotation * -Eigen::Vector3d::UnitZ();
-  constexpr double kFrontal = 0.9;  // 25 degrees
+  const double yaw = std::atan2(nose.x(), -nose.z());
+  constexpr double kNodding = 0.5;  // sine of the pitch
   constexpr double kSure = 0.8;
-  if (-nose.z() > kFrontal && presence > kSure) {
-    neutral.learn(seen, time);
+  if (std::abs(nose.y()) < kNodding && presence > kSure) {
+    neutral.learn(seen, yaw, time);
   }
-  FaceMotion face = expression_of(seen, neutral.measures());
+  const FaceMeasures rest = neutral.measures(yaw);
+  FaceMotion face = expression_of(seen, rest);
   // Cheeks face 45 degrees aside.
   const auto seen_share = [&](double sign) {
     const Eigen::Vector3d cheek = fit.rotation * Eigen::Vector3d(sign, 0.0, -1.0).normalized();
@@ -227,20 +228,21 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
   const double left_seen = seen_share(1.0);
   const double right_seen = seen_share(-1.0);
   if (std::min(left_seen, right_seen) < 1.0) {
-    face.gaze = left_seen < right_seen ? gaze_of({seen, neutral.measures()}, Side::right)
-                                       : gaze_of({seen, neutral.measures()}, Side::left);
+    face.gaze =
+        left_seen < right_seen ? gaze_of({seen, rest}, Side::right) : gaze_of({seen, rest}, Side::left);
     cover_hidden_side(left_seen, right_seen, face);
   }
   // The points are a parallel projection along the ray to the head.
   const Eigen::Vector3d ray = camera.ray(fit.translation.head<2>());
   face.head = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;
-  // Small faces say little.
-  constexpr double kEyes = 63.0;  // mm between the pupils
-  face.confidence =
-      ramp(presence, 0.5, 0.9) * ramp(kEyes * fit.scale, 6.0, 16.0) * ramp(fit.residual, kWorstFit, 10.0);
-  face.gaze *= face.confidence;
+  // Of small faces the head is seen, but not what its parts do.
+  constexpr double kPupils = 63.0;  // mm apart
+  const double size = kPupils * fit.scale;
+  face.confidence = ramp(presence, 0.5, 0.9) * ramp(size, 6.0, 16.0) * ramp(fit.residual, kWorstFit, 10.0);
+  const double detail = face.confidence * ramp(size, 10.0, 36.0);
+  face.gaze *= detail;
   for (double& value : face.expressions) {
-    value *= face.confidence;
+    value *= detail;
   }
   return face;
 }

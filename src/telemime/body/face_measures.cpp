@@ -160,51 +160,86 @@ FaceMeasures measure_face(const FacePoints& points, const HeadFit& fit) {
   return m;
 }
 
-NeutralFace::NeutralFace() : neutral_(measure_face(canonical_face(), HeadFit{})) {}
+NeutralFace::NeutralFace() {
+  front_.neutral = measure_face(canonical_face(), HeadFit{});
+  sides_.fill(front_);
+}
 
-void NeutralFace::learn(const FaceMeasures& seen, double time) {
+bool NeutralFace::View::add(const FaceMeasures& sample, double time) {
   constexpr double kFirstInterval = 0.1;  // s
   constexpr double kLastInterval = 3.2;   // s
   constexpr std::size_t kMost = 64;
-  if (interval_ > 0.0 && time < next_) {
-    return;
+  if (interval > 0.0 && time < next) {
+    return false;
   }
-  if (interval_ == 0.0) {
-    interval_ = kFirstInterval;
-  } else if (seen_.size() == kMost && interval_ < kLastInterval) {
+  if (interval == 0.0) {
+    interval = kFirstInterval;
+  } else if (seen.size() == kMost && interval < kLastInterval) {
     // Every second sample goes; those that are kept are farther apart in time.
     for (std::size_t i = 0; i < kMost / 2; ++i) {
-      seen_[i] = seen_[2 * i + 1];
+      seen[i] = seen[2 * i + 1];
     }
-    seen_.resize(kMost / 2);
-    interval_ *= 2.0;
-  } else if (seen_.size() == kMost) {
-    seen_.erase(seen_.begin());
+    seen.resize(kMost / 2);
+    interval *= 2.0;
+  } else if (seen.size() == kMost) {
+    seen.erase(seen.begin());
   }
-  next_ = time + interval_;
-  seen_.push_back(seen);
-  update();
+  next = time + interval;
+  seen.push_back(sample);
+  return true;
 }
 
-void NeutralFace::update() {
-  // The canonical face counts as some samples, fewer the more were seen.
-  constexpr std::size_t kPrior = 2;
-  constexpr std::size_t kSeenPerPrior = 4;
-  const std::size_t prior = kPrior - std::min(kPrior, seen_.size() / kSeenPerPrior);
-  static const FaceMeasures canonical = measure_face(canonical_face(), HeadFit{});
+void NeutralFace::View::update(const FaceMeasures& prior, std::size_t copies) {
+  constexpr std::size_t kSeenPerCopy = 4;
+  const std::size_t left = copies - std::min(copies, seen.size() / kSeenPerCopy);
   std::vector<double> values;
   for (std::size_t m = 0; m < kFaceMeasureCount; ++m) {
-    values.assign(prior, canonical.at[m]);
-    for (const FaceMeasures& each : seen_) {
+    values.assign(left, prior.at[m]);
+    for (const FaceMeasures& each : seen) {
       values.push_back(each.at[m]);
+    }
+    if (values.empty()) {
+      return;
     }
     const auto middle =
         values.begin() + static_cast<std::ptrdiff_t>(
                              std::floor(kRules[m].quantile * static_cast<double>(values.size() - 1) + 0.5));
     std::nth_element(values.begin(), middle, values.end());
-    neutral_.at[m] =
-        std::clamp(*middle, canonical.at[m] - kRules[m].range, canonical.at[m] + kRules[m].range);
+    neutral.at[m] = std::clamp(*middle, prior.at[m] - kRules[m].range, prior.at[m] + kRules[m].range);
   }
+}
+
+void NeutralFace::learn(const FaceMeasures& seen, double yaw, double time) {
+  constexpr double kFront = 0.44;        // 25 degrees
+  constexpr double kFarthest = 1.2;      // 69 degrees
+  constexpr std::size_t kCanonical = 2;  // as many samples does the canonical face count
+  constexpr std::size_t kOwnFront = 8;   // and the front for the sides
+  static const FaceMeasures canonical = measure_face(canonical_face(), HeadFit{});
+  if (!(std::abs(yaw) < kFarthest)) {
+    return;
+  }
+  View& view = std::abs(yaw) < kFront ? front_ : sides_[yaw > 0.0 ? 0 : 1];
+  if (!view.add(seen, time)) {
+    return;
+  }
+  if (&view == &front_) {
+    front_.update(canonical, kCanonical);
+  }
+  for (View& side : sides_) {
+    side.update(front_.neutral, kOwnFront);
+  }
+}
+
+FaceMeasures NeutralFace::measures(double yaw) const {
+  constexpr double kFront = 0.3;  // 17 degrees
+  constexpr double kSide = 0.7;   // 40 degrees
+  const double share = std::clamp((std::abs(yaw) - kFront) / (kSide - kFront), 0.0, 1.0);
+  FaceMeasures result = front_.neutral;
+  const FaceMeasures& side = sides_[yaw > 0.0 ? 0 : 1].neutral;
+  for (std::size_t m = 0; m < kFaceMeasureCount; ++m) {
+    result.at[m] += share * (side.at[m] - result.at[m]);
+  }
+  return result;
 }
 
 }  // namespace telemime

@@ -49,23 +49,31 @@ struct FaceMeasures {
 /// The measures of a face of which `fit` is the head.
 FaceMeasures measure_face(const FacePoints& points, const HeadFit& fit);
 
-/// The measures of a person's face at rest: at first those of the canonical face, then quantiles of what was
-/// seen, in bounds about the canonical face. What was seen is kept at 64 times, at first every 0.1 s and
-/// later less often, so that minutes are remembered. Plain data.
+/// The measures of a person's face at rest, seen from the front and from both sides: what a network sees of
+/// the same face differs between them. At first they are those of the canonical face, and of the front; then
+/// quantiles of what was seen, in bounds about these. What was seen is kept at 64 times for each view, at
+/// first every 0.1 s and later less often, so that minutes are remembered. Plain data.
 class NeutralFace {
  public:
   NeutralFace();
-  /// Learns from a face at a time, s, which must not go back.
-  void learn(const FaceMeasures& seen, double time);
-  const FaceMeasures& measures() const { return neutral_; }
+  /// Learns from a face that is turned by `yaw` (rad, positive to the person's left) at a time, s. Times
+  /// before one that was learned from are passed over.
+  void learn(const FaceMeasures& seen, double yaw, double time);
+  FaceMeasures measures(double yaw) const;
 
  private:
-  void update();
+  struct View {
+    std::vector<FaceMeasures> seen;
+    double next = 0.0;      ///< time of the next sample, s
+    double interval = 0.0;  ///< s; 0: nothing was seen
+    FaceMeasures neutral;
 
-  std::vector<FaceMeasures> seen_;
-  double next_ = 0.0;      ///< time of the next sample, s
-  double interval_ = 0.0;  ///< s; 0: nothing was seen
-  FaceMeasures neutral_;
+    bool add(const FaceMeasures& sample, double time);
+    /// The quantiles with `prior` as `copies` samples, fewer the more were seen, and bounds about it.
+    void update(const FaceMeasures& prior, std::size_t copies);
+  };
+  View front_;
+  std::array<View, 2> sides_;  ///< turned to the person's left, right
 };
 
 }  // namespace telemime
