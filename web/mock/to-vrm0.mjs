@@ -54,6 +54,36 @@ function likeUniVrm(json, humanBones) {
   };
 }
 
+const PRESETS = {
+  ...{
+    happy: "joy",
+    angry: "angry",
+    sad: "sorrow",
+    relaxed: "fun",
+    aa: "a",
+    ih: "i",
+    ou: "u",
+    ee: "e",
+    oh: "o",
+  },
+  ...{ blink: "blink", blinkLeft: "blink_l", blinkRight: "blink_r" },
+};
+
+/** The expressions that VRM 0.x knows. */
+const expressionGroups = (json, preset) =>
+  Object.entries(PRESETS)
+    .filter(([name]) => preset[name])
+    .map(([name, presetName]) => ({
+      name: presetName,
+      presetName,
+      binds: preset[name].morphTargetBinds.map(({ node, index, weight }) => ({
+        mesh: json.nodes[node].mesh,
+        index,
+        weight: 100 * weight,
+      })),
+      materialValues: [],
+    }));
+
 /** diag(-1, 1, -1) on numbers of an accessor: vectors, or matrices from both sides. */
 function turnAccessor(json, bin, index) {
   const a = json.accessors[index];
@@ -126,7 +156,7 @@ export function toVrm0(file) {
       meshAnnotations: [],
       lookAtTypeName: "Bone",
     },
-    blendShapeMaster: { blendShapeGroups: [] },
+    blendShapeMaster: { blendShapeGroups: expressionGroups(json, vrm1.expressions?.preset ?? {}) },
     secondaryAnimation: likeUniVrm(json, humanBones),
     materialProperties: (json.materials ?? []).map((m, i) => {
       const { baseColorFactor = [1, 1, 1, 1], baseColorTexture } = m.pbrMetallicRoughness ?? {};

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Avatars of VRM 1.0 and VRM 0.x show the expressions of the stream: the poses of a real run with known faces in them.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { strangersVrm0 } from "./avatars.mjs";
+import { LIGHT, LONG, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
+
+const NAMES = "happy angry sad relaxed surprised aa ih ou ee oh blink blinkLeft blinkRight".split(" ");
+const FACES = [
+  { aa: 0.75 },
+  { blinkLeft: 0.5, blink: 0.25 },
+  { happy: 0.6, ee: 0.3 },
+  { gaze: [0.3, 0] },
+  { gaze: [0, -0.2], ou: 1 },
+];
+const LARGEST_ERROR = 0.02;
+
+let browser, program, page, close;
+let face = {};
+
+/** The face of a message, with the present one instead. */
+function replaced(text) {
+  const message = JSON.parse(text);
+  if (message.type !== "pose" || message.state !== "tracking") return text;
+  const { gaze = [0, 0], ...shown } = face;
+  const vrm = Object.fromEntries(NAMES.map((name) => [name, shown[name] ?? 0]));
+  message.face = { confidence: 1, gaze, arkit: Array(52).fill(0), vrm };
+  return JSON.stringify(message);
+}
+
+before(async () => {
+  browser = await startBrowser();
+  program = await startProgram(["demo", "--loop", ...LIGHT]);
+  ({ page, close } = await openPage(browser, program));
+  await page.routeWebSocket(/./, (socket) => {
+    const server = socket.connectToServer();
+    server.onMessage((data) => socket.send(typeof data === "string" ? replaced(data) : data));
+  });
+  await page.reload();
+});
+after(async () => {
+  await close?.();
+  await browser?.close();
+  await program?.stop();
+});
+
+async function shows(wanted, own) {
+  const looks = { lookLeft: Math.max(0, (wanted.gaze?.[0] ?? 0) / (Math.PI / 6)) };
+  const expected = { ...wanted, ...looks };
+  await page.waitForFunction(
+    ([names, expected, most]) => {
+      const shown = window.telemime.expressions();
+      return names.every((n) => !(n in shown) || Math.abs(shown[n] - (expected[n] ?? 0)) <= most);
+    },
+    [own ? [...NAMES, "lookLeft"] : NAMES, expected, LARGEST_ERROR],
+    { timeout: PATIENCE },
+  );
+}
+
+test("expressions of a VRM 1.0 avatar", LONG, async () => {
+  await hasAvatar(page, "Plain");
+  const known = await page.evaluate(() => Object.keys(window.telemime.expressions()));
+  for (const name of NAMES) assert.ok(known.includes(name), name);
+  for (face of FACES) await shows(face, true);
+});
+
+test("expressions of a VRM 0.x avatar", LONG, async () => {
+  await drop(page, await strangersVrm0(program, program.folder));
+  await hasAvatar(page, "stranger");
+  const known = await page.evaluate(() => Object.keys(window.telemime.expressions()));
+  for (const name of NAMES.filter((n) => n !== "surprised")) assert.ok(known.includes(name), name);
+  for (face of FACES) await shows(face, false);
+});
