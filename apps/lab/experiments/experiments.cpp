@@ -32,7 +32,7 @@ std::string file_name(const std::string& title) {
   return name.substr(0, name.find_last_not_of('_') + 1) + ".csv";
 }
 
-constexpr std::array<Experiment, 34> kExperiments = {{
+constexpr std::array<Experiment, 35> kExperiments = {{
     {"F2-22", "Size of the first simplex",
      "Which factor of the typical change between frames leaves the smallest residual F?", simplex_size},
     {"T3-1", "Time of the background subtractions",
@@ -95,6 +95,8 @@ constexpr std::array<Experiment, 34> kExperiments = {{
     {"ablation", "Each cue and heuristic left out", "What does each cue and heuristic contribute?", ablation},
     {"levers", "Each part of the program left out", "What is each part of the whole program good for?",
      levers},
+    {"learned", "Each learned part left out",
+     "What do networks, their cues and proposals add in a room as it is?", learned_parts},
 }};
 
 }  // namespace

@@ -100,6 +100,7 @@ Finding real_clips(Lab& lab);            ///< F4-33
 Finding overlap_times(Lab& lab);         ///< T4-1
 Finding ablation(Lab& lab);              ///< not in the thesis: each cue and heuristic left out
 Finding levers(Lab& lab);                ///< not in the thesis: each part of the program left out
+Finding learned_parts(Lab& lab);         ///< not in the thesis: what networks add, each part left out
 
 /// Processor time of one frame with this number of evaluations, half on F and half on D_C; medians over
 /// frames.
