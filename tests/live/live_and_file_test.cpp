@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <vector>
 
 #include "live/session_events.h"
 #include "telemime/capture/playback.h"
 #include "telemime/core/scratch_folder.h"
+#include "telemime/nets/models/table.h"
 #include "telemime/offline/track_file.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/readers/jsonl.h"
@@ -22,14 +26,15 @@ constexpr std::int64_t kFrames = 20;
 // The first frames of a file.
 class FirstFrames final : public Source {
  public:
-  explicit FirstFrames(std::unique_ptr<Source> file) : file_(std::move(file)) {}
+  explicit FirstFrames(std::unique_ptr<Source> file, std::int64_t count = kFrames)
+      : file_(std::move(file)), left_(count) {}
   const SourceInfo& info() const override { return file_->info(); }
   std::string complaint() const override { return file_->complaint(); }
   std::optional<Frame> next() override { return left_-- > 0 ? file_->next() : std::nullopt; }
 
  private:
   std::unique_ptr<Source> file_;
-  std::int64_t left_ = kFrames;
+  std::int64_t left_;
 };
 
 // A clock that jumps to any time that is waited for: no tracker is late, and no frame is dropped.
@@ -131,6 +136,47 @@ TEST(LiveAndFile, FilesAreEqualWithSameSmoothing) {
     const MotionFrame& same = file.frames.at(static_cast<std::size_t>(motion.frame));
     EXPECT_EQ(motion.state, same.state) << motion.frame;
     EXPECT_EQ(motion.pose.vector(), same.pose.vector()) << motion.frame;
+  }
+}
+
+// The default of `telemime live`: a room as it is, nobody steps out of the picture, no guide.
+TEST(LiveWithoutGuide, TheAvatarMovesWithinThreeSeconds) {
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full", "selfie_segmentation"};
+  if (const std::string missing = missing_models(TELEMIME_BUILD_MODELS, names); !missing.empty()) {
+    std::cout << missing << '\n';
+    GTEST_SKIP() << missing;
+  }
+  std::vector<std::filesystem::path> clips = {TELEMIME_SOURCE_DIR "/data/demo/video.mp4"};
+  const char* const variable = std::getenv("TELEMIME_DATA");
+  const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
+  for (const char* other : {"dev_practical/desk_talk/video.mp4", "real/webcam_hello/clip.mp4"}) {
+    if (std::filesystem::exists(data / other)) {
+      clips.push_back(data / other);
+    } else {
+      std::cout << "not tested, because it is not there: " << other << '\n';
+    }
+  }
+  for (const std::filesystem::path& clip : clips) {
+    SCOPED_TRACE(clip.string());
+    constexpr double kSoon = 3.0;  // s
+    TrackRequest request = demo();
+    request.input = clip.string();
+    request.background.clear();
+    request.config.image.models = TELEMIME_BUILD_MODELS;
+    ASSERT_TRUE(uses_networks(request.config));
+    std::unique_ptr<Source> file = open_source(request.input);
+    const auto frames = static_cast<std::int64_t>(kSoon * file->info().fps);
+    live_testing::SessionEvents events;
+    {
+      LiveSession session(request, false,
+                          pace(std::make_unique<FirstFrames>(std::move(file), frames), patient_clock()),
+                          events.hooks());
+      ASSERT_TRUE(events.wait([&] { return session.state().phase == LivePhase::ended; }));
+    }
+    EXPECT_EQ(events.persons, 1) << events.messages;
+    const auto moves = std::count_if(events.motion.begin(), events.motion.end(),
+                                     [](const MotionFrame& m) { return m.state == TrackState::tracking; });
+    EXPECT_GT(moves, frames / 3) << "at least a second of the first three";
   }
 }
 
