@@ -142,11 +142,10 @@ HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::
   return motion;
 }
 
-void turn_head(const FaceMotion& face, HumanoidMotion& motion) {
-  using enum HumanBone;
+NeckAndHead neck_and_head(const FaceMotion& face, const Eigen::Quaterniond& world_from_chest,
+                          const NeckAndHead& unseen) {
   const Eigen::Quaterniond world_from_camera(Eigen::Matrix3d(camera_from_body_at_rest().transpose()));
   const Eigen::Quaterniond held = world_from_camera * face.head * world_from_camera.conjugate();
-  const Eigen::Quaterniond chest_up = motion[hips] * motion[spine] * motion[HumanBone::chest];
   const auto upright = [](Eigen::Quaterniond q) {
     if (q.w() < 0.0) {
       q.coeffs() = -q.coeffs();
@@ -155,12 +154,19 @@ void turn_head(const FaceMotion& face, HumanoidMotion& motion) {
   };
   // The neck does not turn farther than this.
   constexpr double kFarthest = 1.4;  // rad
-  Eigen::AngleAxisd turn(upright(chest_up.conjugate() * held));
+  Eigen::AngleAxisd turn(upright(world_from_chest.conjugate() * held));
   turn.angle() = std::min(turn.angle(), kFarthest);
   const Eigen::Quaterniond half(Eigen::AngleAxisd(0.5 * turn.angle(), turn.axis()));
   const double seen = std::clamp(face.confidence, 0.0, 1.0);
-  motion.rotation[at(neck)] = upright(motion[neck].slerp(seen, half));
-  motion.rotation[at(HumanBone::head)] = upright(motion[HumanBone::head].slerp(seen, half));
+  return {upright(unseen.neck.slerp(seen, half)), upright(unseen.head.slerp(seen, half))};
+}
+
+void turn_head(const FaceMotion& face, HumanoidMotion& motion) {
+  using enum HumanBone;
+  const auto [turned_neck, turned_head] = neck_and_head(
+      face, motion[hips] * motion[spine] * motion[HumanBone::chest], {motion[neck], motion[HumanBone::head]});
+  motion.rotation[at(neck)] = turned_neck;
+  motion.rotation[at(HumanBone::head)] = turned_head;
 }
 
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,

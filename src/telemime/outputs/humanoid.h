@@ -68,8 +68,17 @@ HumanoidSkeleton humanoid_skeleton(const Body& body);
 /// frame) at which the hips are above those of the skeleton.
 HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::Vector3d& origin);
 
-/// Turns neck and head, each by half, to how the face holds the head, as far as the face is seen (its
-/// confidence).
+/// Rotations of the neck in the chest and of the head in the neck.
+struct NeckAndHead {
+  Eigen::Quaterniond neck, head;
+};
+
+/// Neck and head, each turned by half to how the face holds the head, as far as the face is seen (its
+/// confidence); `unseen` where it is not. The world is that of the skeleton.
+NeckAndHead neck_and_head(const FaceMotion& face, const Eigen::Quaterniond& world_from_chest,
+                          const NeckAndHead& unseen);
+
+/// The same for a motion.
 void turn_head(const FaceMotion& face, HumanoidMotion& motion);
 
 /// The joints of the bones by forward kinematics, m.

@@ -107,6 +107,25 @@ TEST(Bvh, ATPoseHasNoRotationInTheArms) {
   }
 }
 
+TEST(Bvh, HeadIsHeldAsTheFaceIs) {
+  const Body body = make_body(Shape{});
+  Pose pose;
+  pose[Angle::root_torsion] = 0.3;
+  FaceMotion face;
+  face.confidence = 1.0;
+  face.head =
+      Eigen::AngleAxisd(-0.8, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d nose = face.head * -Eigen::Vector3d::UnitZ();
+  BvhMotion motion = bvh_motion(body, pose);
+  turn_head(face, motion);
+  Eigen::Matrix3d head = Eigen::Matrix3d::Identity();
+  for (const BvhBone bone : {BvhBone::hips, BvhBone::spine, BvhBone::spine1, BvhBone::neck, BvhBone::head}) {
+    head = head * motion.parent_from_bone[static_cast<std::size_t>(bone)];
+  }
+  // The file's axes are the camera's with y and z turned round.
+  EXPECT_LT((head.col(2) - Eigen::Vector3d(nose.x(), -nose.y(), -nose.z())).norm(), 1e-6);
+}
+
 TEST(Bvh, OnlyTheHipsTranslateAndLegsStandStill) {
   const auto joints = bvh_skeleton(make_body(Shape{}));
   ASSERT_EQ(joints.size(), kBvhBoneCount);

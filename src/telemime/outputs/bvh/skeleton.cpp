@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "telemime/body/rotations.h"
+#include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/t_pose.h"
 
 namespace telemime {
@@ -163,6 +164,18 @@ BvhMotion bvh_motion(const Body& body, const Pose& pose) {
         t * fore.linear().transpose() * hand.linear() * t.transpose());
   }
   return motion;
+}
+
+void turn_head(const FaceMotion& face, BvhMotion& motion) {
+  const auto at = [&motion](BvhBone bone) -> Eigen::Matrix3d& {
+    return motion.parent_from_bone[static_cast<std::size_t>(bone)];
+  };
+  const Eigen::Matrix3d chest = at(BvhBone::hips) * at(BvhBone::spine) * at(BvhBone::spine1);
+  const NeckAndHead turned =
+      neck_and_head(face, Eigen::Quaterniond(chest),
+                    {Eigen::Quaterniond(at(BvhBone::neck)), Eigen::Quaterniond(at(BvhBone::head))});
+  at(BvhBone::neck) = turned.neck.toRotationMatrix();
+  at(BvhBone::head) = turned.head.toRotationMatrix();
 }
 
 }  // namespace telemime

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "telemime/body/body.h"
+#include "telemime/body/face_motion.h"
 
 namespace telemime {
 
@@ -64,5 +65,8 @@ struct BvhMotion {
 /// blade move the shoulder centre, which in this body model moves with the upper arm (body.h), to its exact
 /// place.
 BvhMotion bvh_motion(const Body& body, const Pose& pose);
+
+/// Turns neck and head to how the face holds the head (neck_and_head).
+void turn_head(const FaceMotion& face, BvhMotion& motion);
 
 }  // namespace telemime

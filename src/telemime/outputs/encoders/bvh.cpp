@@ -68,7 +68,11 @@ class BvhEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const BvhMotion motion = bvh_motion(body_, finite_(raw).pose);
+    const MotionFrame frame = finite_(raw);
+    BvhMotion motion = bvh_motion(body_, frame.pose);
+    if (frame.face) {
+      turn_head(*frame.face, motion);
+    }
     std::string text;
     for (const double value : motion.hips) {
       append_fixed(text, value, kDecimals);
