@@ -131,27 +131,29 @@ int computed_tensor(const NetworkGraph& graph, const std::string& name, const ch
 }
 
 // Backwards: an operator is needed if a later one reads what it computes. Returns the needed ones in order.
-std::vector<FlatTable> needed_operators(std::vector<FlatTable> operators, const NetworkGraph& graph) {
+std::vector<FlatTable> needed_operators(const std::vector<FlatTable>& operators, const NetworkGraph& graph) {
   std::vector<bool> needed(graph.tensors.size(), false);
   for (const int output : graph.outputs) {
     needed[output] = true;
   }
-  const auto first_kept =
-      std::stable_partition(operators.rbegin(), operators.rend(), [&](const FlatTable& from) {
-        const std::vector<std::int32_t> outputs = from.numbers<std::int32_t>(2);
-        const bool keep = std::any_of(outputs.begin(), outputs.end(), [&](std::int32_t output) {
-          return output < 0 || static_cast<std::size_t>(output) >= needed.size() ||
-                 (needed[output] && output != graph.input);
-        });
-        for (const std::int32_t input : keep ? from.numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
-          if (input >= 0 && static_cast<std::size_t>(input) < needed.size()) {
-            needed[input] = true;
-          }
-        }
-        return keep;
-      });
-  operators.erase(operators.begin(), first_kept.base());
-  return operators;
+  std::vector<FlatTable> kept;
+  for (auto from = operators.rbegin(); from != operators.rend(); ++from) {
+    const std::vector<std::int32_t> outputs = from->numbers<std::int32_t>(2);
+    const bool keep = std::any_of(outputs.begin(), outputs.end(), [&](std::int32_t output) {
+      return output < 0 || static_cast<std::size_t>(output) >= needed.size() ||
+             (needed[output] && output != graph.input);
+    });
+    for (const std::int32_t input : keep ? from->numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
+      if (input >= 0 && static_cast<std::size_t>(input) < needed.size()) {
+        needed[input] = true;
+      }
+    }
+    if (keep) {
+      kept.push_back(*from);
+    }
+  }
+  std::reverse(kept.begin(), kept.end());
+  return kept;
 }
 
 // Removes the nodes that became part of others, and the numbers of constants that no node reads.
