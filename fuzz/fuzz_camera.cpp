@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fuzz_target.h"
-#include "telemime/core/camera.h"
+#include "telemime/core/lens.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   // OpenCV reads by file name; one name for the whole run.
@@ -14,7 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       std::filesystem::temp_directory_path() / ("fuzz_camera_" + std::to_string(getpid()) + ".yaml");
   const auto read = [](std::string_view text) {
     std::ofstream(file, std::ios::binary) << text;
-    telemime::load_camera(file).scaled_to(320, 240);
+    const telemime::Lens lens = telemime::load_lens(file);
+    lens.camera.scaled_to(320, 240);
+    lens.mirrored().distorted({0.3, -0.2});
   };
   return telemime::fuzz_one(data, size, read, telemime::ErrorKind::config);
 }

@@ -77,13 +77,6 @@ std::optional<std::regex> number_pattern(const std::string& name) {
   return std::regex(escaped(found.prefix()) + "([0-9]+)" + escaped(found.suffix()));
 }
 
-/// The place of each file in the sequence, by its number where the names differ in nothing else.
-struct Numbering {
-  std::vector<std::int64_t> places;  ///< from 0
-  std::string missing;               ///< "3 to 5, 8" in the file names' numbers; empty: none
-  std::int64_t count = 0;            ///< of the missing ones
-};
-
 Numbering by_order(std::size_t files) {
   Numbering numbering;
   numbering.places.resize(files);
@@ -92,7 +85,7 @@ Numbering by_order(std::size_t files) {
 }
 
 /// `pattern` matches the names of the sequence, with the number as its only group.
-Numbering numbering_of(const std::vector<fs::path>& files, const std::regex& pattern) {
+Numbering by_number(const std::vector<fs::path>& files, const std::regex& pattern) {
   constexpr std::size_t digits_of_int64 = 18;
   constexpr std::int64_t most_missing = 10;  // per file; other numbers are times or names
   std::vector<std::int64_t> numbers;
@@ -138,10 +131,7 @@ class ImageSequence : public Source {
   ImageSequence(std::vector<fs::path> files, const std::string& input, InputKind kind,
                 const InputOptions& options)
       : files_(std::move(files)) {
-    const std::optional<std::regex> pattern = number_pattern(fs::path(input).filename().string());
-    numbering_ = numbering_of(files_, kind == InputKind::pattern && pattern
-                                          ? *pattern
-                                          : pattern_of(files_.front().filename().string()));
+    numbering_ = numbering_of(files_, input, kind);
     if (numbering_.count > 0) {
       constexpr std::size_t longest = 100;
       std::string which = numbering_.missing;
@@ -261,6 +251,15 @@ std::vector<fs::path> image_files(const std::string& input, InputKind kind) {
         "'shots/*.jpg' (quoted, and with wildcards in the file's name only).");
   }
   return files;
+}
+
+Numbering numbering_of(const std::vector<fs::path>& files, const std::string& input, InputKind kind) {
+  if (files.empty()) {
+    return {};
+  }
+  const std::optional<std::regex> pattern =
+      kind == InputKind::pattern ? number_pattern(fs::path(input).filename().string()) : std::nullopt;
+  return by_number(files, pattern ? *pattern : pattern_of(files.front().filename().string()));
 }
 
 std::unique_ptr<Source> open_image_sequence(const std::string& input, InputKind kind,
