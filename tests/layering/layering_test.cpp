@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 #include "rules.h"
 #include "telemime/core/scratch_folder.h"
@@ -43,6 +46,32 @@ TEST(ThisProject, HasNoLeftovers) {
   EXPECT_EQ(as_text(check_no_leftovers(this_project)), "");
 }
 
+TEST(ThisProject, NeedsNoExactVersion) {
+  EXPECT_EQ(as_text(check_versions(this_project)), "");
+}
+
+// As on a system that has other versions than those that are tested with.
+TEST(ThisProject, InstallsTheVersionsThatAreOffered) {
+  const ScratchFolder scratch;
+  const fs::path bin = scratch.path();
+  const auto program = [&](const std::string& name, const std::string& lines) {
+    std::ofstream(bin / name) << "#!/bin/sh\n" << lines;
+    fs::permissions(bin / name, fs::perms::owner_all);
+  };
+  program("dpkg-query", "exit 1\n");
+  program("sudo", "exec \"$@\"\n");
+  program("apt-get", "case \"$*\" in *=*) exit 100;; install*) echo \"$*\" > \"$APT_LOG\";; esac\n");
+  const std::string command = "PATH='" + bin.string() + "':\"$PATH\" APT_LOG='" + (bin / "log").string() +
+                              "' '" + (this_project / "scripts/deps.sh").string() + "' build > '" +
+                              (bin / "out").string() + "' 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::ifstream log(bin / "log");
+  const std::string taken(std::istreambuf_iterator<char>(log), {});
+  for (const char* const package : {"libeigen3-dev", "libopencv-core-dev", "libmeshoptimizer-dev"}) {
+    EXPECT_NE(taken.find(package), std::string::npos) << taken;
+  }
+}
+
 /// A correct project of three modules. Each test breaks one rule and expects its violation.
 class SmallProject : public ::testing::Test {
  protected:
@@ -70,7 +99,8 @@ class SmallProject : public ::testing::Test {
   /// All violations as one text.
   std::string violations() const {
     return as_text(check_includes(root_)) + as_text(check_architecture_table(root_)) +
-           as_text(check_sources(root_)) + as_text(check_names(root_)) + as_text(check_no_leftovers(root_));
+           as_text(check_sources(root_)) + as_text(check_names(root_)) + as_text(check_no_leftovers(root_)) +
+           as_text(check_versions(root_));
   }
   void expect_violation(const std::string& text) const {
     EXPECT_NE(violations().find(text), std::string::npos) << violations();
@@ -146,6 +176,15 @@ TEST_F(SmallProject, FindsALeftoverInAnyTextFile) {
   write(".ci/run", std::string("# FIX") + "ME(all) now\n");
   expect_violation("docs/plan.md:2: ");
   expect_violation(".ci/run:1: ");
+}
+
+TEST_F(SmallProject, FindsAnExactVersion) {
+  for (const char* const line :
+       {"find_package(Eigen3 3.4 EXACT)", "find_package(meshoptimizer 0.18 REQUIRED)",
+        "if(OpenCV_VERSION VERSION_EQUAL 4.6)"}) {
+    write("cmake/Extra.cmake", licence("#") + "find_package(hwy 1.0 REQUIRED)\n" + line + "\n");
+    expect_violation("cmake/Extra.cmake:3: newer versions must do");
+  }
 }
 
 TEST_F(SmallProject, IgnoresForeignFiles) {

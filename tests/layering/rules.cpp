@@ -279,6 +279,24 @@ Violations check_names(const fs::path& root) {
   return violations;
 }
 
+Violations check_versions(const fs::path& root) {
+  static const std::regex exact(
+      "find_package *\\(.*\\bEXACT\\b|\\bVERSION_EQUAL\\b|find_package *\\((meshoptimizer|utf8cpp) +[0-9]");
+  Violations violations;
+  for (const fs::path& file : project_files(root)) {
+    if (file.filename() != "CMakeLists.txt" && file.extension() != ".cmake") {
+      continue;
+    }
+    const std::vector<std::string> lines = lines_of(content_of(file));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (std::regex_search(lines[i], exact)) {
+        violations.push_back(place(root, file, i + 1) + "newer versions must do: " + lines[i]);
+      }
+    }
+  }
+  return violations;
+}
+
 Violations check_no_leftovers(const fs::path& root) {
   // Concatenated, so that this file does not contain them.
   static const std::regex leftover(std::string("\\b(TO") + "DO|FIX" + "ME)\\b");

@@ -33,6 +33,10 @@ Violations check_sources(const std::filesystem::path& root);
 /// would be broken without an error from the linker.
 Violations check_names(const std::filesystem::path& root);
 
+/// Checks that no CMake file asks for one exact version of a package: newer ones must do. The package files
+/// of meshoptimizer and utf8cpp call every version incompatible with the others, so none may be named.
+Violations check_versions(const std::filesystem::path& root);
+
 /// Checks that no text file has notes about unfinished work; they belong in an issue.
 Violations check_no_leftovers(const std::filesystem::path& root);
 

@@ -2,6 +2,7 @@
 // Faults of network cameras: a real Motion JPEG stream over HTTP, opened by its URL.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <opencv2/imgproc.hpp>
@@ -133,6 +134,28 @@ TEST_F(Stream, ReconnectsToSilentServer) {
   });
   ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
   EXPECT_TRUE(reported(Kind::gone, "no images"));
+}
+
+TEST_F(Stream, EachStallIsToldOnce) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  for (int stall = 1; stall <= 2; ++stall) {
+    news_.clear();
+    // Silent while the source connects three times more.
+    const int connections = server_.connections();
+    server_.fall_silent();
+    auto resumed = std::async(std::launch::async, [&] {
+      server_.wait_for_connection(connections + 3);
+      server_.show(six(), 100.0);
+    });
+    ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+    const auto told = [&](Kind kind) {
+      return std::count_if(news_.begin(), news_.end(), [&](const auto& n) { return n.kind == kind; });
+    };
+    EXPECT_EQ(told(Kind::gone), 1) << stall;
+    EXPECT_EQ(told(Kind::better), 1) << stall;
+    ASSERT_TRUE(read_until([](const Frame& f) { return level(f.image) > 0; })) << "images go on";
+  }
 }
 
 TEST_F(Stream, StopsAtOnceWithoutAnswer) {
