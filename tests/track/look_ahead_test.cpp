@@ -34,6 +34,22 @@ TEST(LookAhead, FitsTheShapeAndChoosesTheStart) {
   }
 }
 
+TEST(LookAhead, LastsForATimeNotForFrames) {
+  for (const auto& [fps, frames] : {std::pair(25.0, 4), std::pair(50.0, 6), std::pair(10.0, 3)}) {
+    Config config = quick_config();
+    config.calibration.look_ahead = 4;  // 1/25 s
+    config.calibration.refine.rounds = 0;
+    TrackingRun run = learned_run(config);
+    std::vector<Frame> timed = clip().person;
+    for (Frame& frame : timed) {
+      frame.time = static_cast<double>(frame.index) / fps;
+    }
+    support::ListSource source(timed);
+    const LookAhead ahead = look_ahead({.next = [&] { return source.next(); }}, run);
+    EXPECT_EQ(ahead.records.size(), static_cast<std::size_t>(frames)) << fps;
+  }
+}
+
 // A person whose face is never found and who is half hidden at first.
 TEST(LookAhead, UsesLaterOutlineWithoutAFace) {
   std::vector<Frame> frames = clip().person;

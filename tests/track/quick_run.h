@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "support/quick_config.h"
 #include "support/synthetic_clip.h"
 #include "telemime/tracker/track_frame.h"
@@ -33,6 +35,16 @@ inline TrackingRun learned_run(const Config& config = quick_config()) {
   TrackingRun run = quick_run(config);
   run.scene.features.learn_background(clip().background);
   return run;
+}
+
+/// What the frames show, tracked one after the other.
+inline std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& frames) {
+  TrackingRun run = learned_run(config);
+  std::vector<MotionFrame> motion;
+  for (const Frame& frame : frames) {
+    motion.push_back(track_frame(frame, run).estimate.motion);
+  }
+  return motion;
 }
 
 }  // namespace telemime

@@ -14,15 +14,6 @@
 namespace telemime {
 namespace {
 
-std::vector<MotionFrame> track(const Config& config, const std::vector<Frame>& frames) {
-  TrackingRun run = learned_run(config);
-  std::vector<MotionFrame> motion;
-  for (const Frame& frame : frames) {
-    motion.push_back(track_frame(frame, run).estimate.motion);
-  }
-  return motion;
-}
-
 // The person, an empty scene, and the person again, numbered consecutively.
 std::vector<Frame> coming_and_going(int away) {
   std::vector<Frame> frames = clip().person;
@@ -172,17 +163,6 @@ TEST(Tracker, OneBadFrameLosesNoPerson) {
     EXPECT_EQ(motion[1].state, TrackState::tracking) << method << ": one bad frame of half a second";
     EXPECT_EQ(motion[2].state, TrackState::lost) << method << ": two in a row";
   }
-}
-
-TEST(TimeStep, IsOneIfUsualOrUnknown) {
-  EXPECT_EQ(steps_between(0.0, 0.04), 1.0);
-  EXPECT_EQ(steps_between(1.0, 1.0415), 1.0);  // the clock of a camera
-  EXPECT_EQ(steps_between(7.0, 7.0), 1.0);
-  EXPECT_EQ(steps_between(7.0, 3.0), 1.0);
-  EXPECT_NEAR(steps_between(1.0, 1.2), 5.0, 1e-9);
-  EXPECT_NEAR(steps_between(1.0, 1.0 + 1.0 / 30.0), 25.0 / 30.0, 1e-9);
-  EXPECT_EQ(steps_between(0.0, 100.0), 8.0);
-  EXPECT_EQ(steps_between(0.0, 0.001), 0.2);
 }
 
 TEST(Tracker, SameSeedGivesSameMotion) {

@@ -29,6 +29,7 @@ constexpr double kEnoughBackground = 0.3;
 // A head region with less skin and hair than this, for more frames than these, is not the head.
 constexpr double kLeastSkin = 0.25;
 constexpr int kMostWithoutSkin = 4;
+constexpr double kPause = 1.0;  // s; no motion is followed across it
 
 /// Takes what a network does not take for the person, such as somebody else behind, out of the silhouette. It
 /// is unknown what it is: no cue counts it. Where the network sees only a part of the silhouette, it is not
@@ -236,6 +237,12 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
 FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   WorkingImages p = working_images(frame);
   FrameFeatures out;
+  // After a pause, the head and the silhouette may be anywhere.
+  if (last_time_ && frame.time - *last_time_ > kPause) {
+    head_.restart();
+    silhouette_.release();
+  }
+  last_time_ = frame.time;
 
   // Head: track the face; a head that the background explains is rejected. A covered lens shows none.
   status_.brightness = cv::mean(p.grey)[0];

@@ -100,8 +100,9 @@ class FeatureExtractor {
   cv::Mat motion_image_;             ///< image of the last camera motion check
   cv::Mat motion_mask_;              ///< background mask of that image
   int frames_since_motion_ = 0;
-  double camera_step_ = 0.0;     ///< motion of the camera in the last check, pixels at 160 columns
-  int frames_without_skin_ = 0;  ///< consecutive frames in which the head region had little skin or hair
+  std::optional<double> last_time_;  ///< of the last frame, s
+  double camera_step_ = 0.0;         ///< motion of the camera in the last check, pixels at 160 columns
+  int frames_without_skin_ = 0;      ///< consecutive frames in which the head region had little skin or hair
 };
 
 }  // namespace telemime

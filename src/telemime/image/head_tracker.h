@@ -61,6 +61,12 @@ class HeadTracker {
   /// Drops the track.
   void reset() { face_.reset(); }
 
+  /// Drops the track; the next update searches.
+  void restart() {
+    reset();
+    since_search_ = config_.search_every;
+  }
+
  private:
   void set_detection(const cv::Mat& grey, const cv::Rect2d& found, bool fresh);
   double track(const cv::Mat& grey);

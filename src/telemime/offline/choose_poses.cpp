@@ -98,26 +98,36 @@ WindowState::WindowState(const Config& config) : seeds(config.seed ^ 0x6f66666c6
 
 void choose_poses(const Tracker& tracker, const Model& model, bool last, WindowState& window,
                   RecordQueue& queue) {
-  const auto stretch = static_cast<std::size_t>(tracker.config.offline.stretch);
-  const auto whole = stretch + static_cast<std::size_t>(tracker.config.offline.overlap);
+  const TrajectoryConfig& config = tracker.config.offline;
   while (queue.chosen < queue.filled) {
     // The next tracked frames, up to a pause.
     const auto time = [&](std::size_t t) { return queue.records[queue.chosen + t].estimate.motion.time; };
+    // Whether the first `count` undecided records last for `units` (1/25 s), the last of them included.
+    constexpr double kSlack = 0.5;
+    constexpr std::size_t kMostKept = kMostWaiting * 4 / 5;  // of a fast input's frames that wait
+    const auto last_for = [&](std::size_t count, int units) {
+      return count > 0 && kUnitsPerSecond * (time(count - 1) - time(0)) > units - 1 - kSlack;
+    };
     if (window.before && !are_neighbours(window.before_time, time(0))) {
       window.before.reset();
     }
     std::size_t tracked = 0;
-    while (tracked < whole && queue.chosen + tracked < queue.filled &&
+    std::size_t stretch = 0;
+    const auto whole = [&] {
+      return last_for(tracked, config.stretch + config.overlap) || tracked == kMostWaiting;
+    };
+    while (!whole() && queue.chosen + tracked < queue.filled &&
            may_be_chosen(queue.records[queue.chosen + tracked]) &&
            (tracked == 0 || are_neighbours(time(tracked - 1), time(tracked)))) {
       ++tracked;
+      stretch += last_for(tracked - 1, config.stretch) || stretch == kMostKept ? 0 : 1;
     }
     const bool at_end = queue.chosen + tracked == queue.filled;
     if (tracked == 0) {
       window.before.reset();
       ++queue.chosen;
-    } else if (tracked == whole) {
-      choose_window(tracker, model, whole, stretch, window, queue);
+    } else if (whole()) {
+      choose_window(tracker, model, tracked, stretch, window, queue);
     } else if (last || !at_end) {
       choose_window(tracker, model, tracked, tracked, window, queue);
     } else {

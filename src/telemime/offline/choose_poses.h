@@ -17,7 +17,7 @@ struct WindowState {
 };
 
 /// Decides about poses with what comes after them, too (the setting `offline`): a second particle filter runs
-/// backward in time over each window of TrajectoryConfig::stretch and overlap frames, and best_trajectory()
+/// backward in time over each window of TrajectoryConfig::stretch and overlap, and best_trajectory()
 /// chooses among what both filters found. `last`: no frame of the same person follows, so that shorter
 /// windows are decided, too. Without Config::look_back every record passes unchanged. The same seed gives the
 /// same result for any number of threads.

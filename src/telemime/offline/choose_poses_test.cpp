@@ -40,6 +40,7 @@ class ChoosePoses : public ::testing::Test {
     FrameRecord record;
     MotionFrame& motion = record.estimate.motion;
     motion.frame = index;
+    motion.time = static_cast<double>(index) / kUnitsPerSecond;
     motion.pose = pose;
     motion.state = tracked ? TrackState::tracking : TrackState::lost;
     place_joints(scene.model.body, scene.camera, motion);
@@ -88,6 +89,20 @@ TEST_F(ChoosePoses, DecidesOnceAWindowIsWhole) {
   EXPECT_EQ(indices(), (std::vector<std::int64_t>{0, 1, 2, 3}));
   EXPECT_EQ(indices(true), (std::vector<std::int64_t>{4, 5}));
   EXPECT_TRUE(take(true).empty());
+}
+
+TEST_F(ChoosePoses, WindowsLastForATime) {
+  // Four units are kept and two more looked at, to half a unit, at 50 and at 12.5 frames per second.
+  for (const auto& [unit, whole, kept] : {std::tuple(0.5, 11, 7), std::tuple(2.0, 4, 3)}) {
+    window = WindowState(run.tracker.config);
+    for (std::int64_t i = 0; i < whole; ++i) {
+      FrameRecord next = record(i, true);
+      next.estimate.motion.time = unit * static_cast<double>(i) / kUnitsPerSecond;
+      push(std::move(next));
+      EXPECT_EQ(take().size(), i + 1 < whole ? 0U : static_cast<std::size_t>(kept)) << unit << " " << i;
+    }
+    take(true);
+  }
 }
 
 TEST_F(ChoosePoses, LostFramesDoNotWait) {

@@ -59,11 +59,12 @@ std::size_t fill_from_end(const Tracker& tracker, const TrackerState& state, Ran
            are_neighbours(records[t].estimate.motion.time, records[t + 1].estimate.motion.time);
   };
   for (std::size_t t = found; t-- > queue.filled && may_be_filled(records[t]) && goes_on(t);) {
-    const double steps = steps_between(records[t].estimate.motion.time, records[t + 1].estimate.motion.time);
-    followed.push_back(follow_back(tracker, state, records[t], steps, filter));
+    const double before = records[t].estimate.motion.time;
+    const double now = records[t + 1].estimate.motion.time;
+    followed.push_back(follow_back(tracker, state, records[t], steps_between(before, now), filter));
     const bool fits = followed.back().motion.region_score <= config.lost_region;
     good = fits ? followed.size() : good;
-    bad_for = fits ? 0.0 : bad_for + steps;
+    bad_for = fits ? 0.0 : bad_for + units_between(before, now);
     bad_frames = fits ? 0 : bad_frames + 1;
   }
   for (std::size_t i = 0; i < good; ++i) {
@@ -104,8 +105,7 @@ std::size_t fill_back(const Tracker& tracker, const TrackerState& state, Random&
   } else if (!may_be_filled(last)) {
     finish_filling(tracker, count, queue);  // nobody is followed back across it
   } else {
-    constexpr double kUnit = 1.0 / 25.0;
-    const double since = last.estimate.motion.time - kUnit * (longest - 0.01);
+    const double since = last.estimate.motion.time - kTimeUnit * (longest - 0.01);
     std::size_t late = queue.filled;
     while (late < count && queue.records[late].estimate.motion.time <= since) {
       ++late;

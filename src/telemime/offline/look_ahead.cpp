@@ -11,8 +11,9 @@
 namespace telemime {
 namespace {
 
-// Neighbouring frames look alike: every third one is enough to pick from.
-constexpr std::int64_t kStride = 3;
+// Neighbouring frames look alike: one in this time is enough to pick from.
+constexpr double kStride = 3.0;  // 1/25 s
+constexpr double kSlack = 0.5;   // 1/25 s, of sums of time
 // Fewer keyframes than this tell no more than the first frame alone.
 constexpr std::size_t kFewest = 3;
 
@@ -141,7 +142,11 @@ std::optional<FittedPerson> refined(const Config& config, const std::string& bac
 // The frame in which somebody is first tracked, and the tracked frames from there on.
 struct Scouting {
   Portrait first;
-  std::int64_t tracked = 0;
+  std::int64_t tracked = 0;     // frames
+  double tracked_for = 0.0;     // 1/25 s
+  double next_candidate = 0.0;  // 1/25 s of tracked_for
+
+  bool done(double look_ahead) const { return tracked_for > look_ahead - kSlack; }
 
   void add(const FrameRecord& record, const TrackingRun& run) {
     if (!run.state.person) {
@@ -154,11 +159,18 @@ struct Scouting {
                      .pose = motion.pose,
                      .visible_since = run.scene.head_since};
     }
-    if (is_tracked(record) && tracked++ % kStride == 0 && record.features.head) {
+    if (!is_tracked(record)) {
+      return;
+    }
+    const bool due = tracked_for > next_candidate - kSlack;
+    if (due && record.features.head) {
       first.candidates.push_back({.keyframe = {*record.estimate.prepared, motion.pose, motion.region_score},
                                   .frame = motion.frame,
                                   .head = *record.features.head});
     }
+    next_candidate = due ? tracked_for + kStride : next_candidate;
+    tracked_for += run.state.elapsed;
+    ++tracked;
   }
 };
 
@@ -187,7 +199,7 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
   Scouting scouting;
   // Snapshot of the state before the first record that is kept: where tracking starts again.
   TrackerState before = run.state;
-  while (scouting.tracked < run.tracker.config.calibration.look_ahead) {
+  while (!scouting.done(run.tracker.config.calibration.look_ahead) && result.records.size() < kMostWaiting) {
     const std::optional<Frame> frame = calls.next();
     if (!frame) {
       break;

@@ -38,7 +38,7 @@ struct LookAheadCalls {
   int longest_side = 0;  ///< of the pictures that records keep, pixels; 0: none are kept
 };
 
-/// Calibrates on the first good frame, tracks up to CalibrationConfig::look_ahead frames from there and fits
+/// Calibrates on the first good frame, tracks for CalibrationConfig::look_ahead from there and fits
 /// the person's shape to the most different of them (refine_shape; thesis 3.3 has one frame alone). Where a
 /// person was fitted, `run` stands again where they came into the picture, knows them, and LookAhead::records
 /// hold new estimates from there on. Image features are extracted once.

@@ -18,6 +18,10 @@ struct RecordQueue {
   std::size_t smoothed = 0;
 };
 
+/// Frames that wait together, at most: with a fast input the windows of time are shorter, not the memory
+/// larger.
+inline constexpr std::size_t kMostWaiting = 600;
+
 inline bool is_tracked(const FrameRecord& record) {
   return record.estimate.motion.state == TrackState::tracking;
 }

@@ -26,8 +26,7 @@ std::optional<MotionFrame> smoothed_front(const TwoWaySmoothing& smoothing, cons
   MotionFrame result = queue.records.front().estimate.motion;
   const double time = result.time;
   // Until the first frame at the end of the look-ahead.
-  constexpr double kUnit = 1.0 / 25.0;
-  const double until = time + kUnit * (smoothing.options.look_ahead - 0.01);
+  const double until = time + kTimeUnit * (smoothing.options.look_ahead - 0.01);
   const auto smoothed_end = queue.records.begin() + static_cast<std::ptrdiff_t>(queue.smoothed);
   const auto at_end = std::find_if(queue.records.begin(), smoothed_end, [until](const FrameRecord& record) {
     return record.estimate.motion.time >= until;

@@ -141,8 +141,8 @@ SettingTable settings_of(CalibrationConfig& c) {
              "Weight of average proportions in the fit to the first frame."),
       number("calibration.contour_weight", &c.shape.contour_weight, {0, 1e6}, "",
              "Weight of D_C beside F in all fits of the shape."),
-      number("calibration.look_ahead", &c.look_ahead, {0, 1000}, "frames",
-             "Part of a file from which the keyframes are chosen; 0: the shape is fitted to the first good "
+      number("calibration.look_ahead", &c.look_ahead, {0, 1000}, "1/25 s",
+             "Time in a file from which the keyframes are chosen; 0: the shape is fitted to the first good "
              "frame only."),
       number("calibration.keyframes", &c.refine.keyframes, {1, 100}, "frames",
              "Number of keyframes beside the first frame; the first alone counts if fewer than 3 are found."),

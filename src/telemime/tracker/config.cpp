@@ -95,8 +95,9 @@ SettingTable settings_of(TrackingConfig& c) {
               "Time of bad frames after which the person is lost."),
        number("tracking.retry_every", &c.retry_every, {1, 1000000}, "1/25 s",
               "Interval of the searches while the person is lost."),
-       number("tracking.calibration_patience", &c.calibration_patience, {0, 1000000}, "frames",
-              "Frames to wait for one from which the arms can be measured, before an average body is used."),
+       number(
+           "tracking.calibration_patience", &c.calibration_patience, {0, 1000000}, "1/25 s",
+           "Time to wait for a frame from which the arms can be measured, before an average body is used."),
        number("tracking.fill_back", &c.fill_back, {0, 1000}, "1/25 s",
               "Time while lost in a file that is tracked backward once the person is found."),
        number("tracking.velocity", &c.velocity, {0, 1}, "",

@@ -43,7 +43,7 @@ void calibrate_person(const FrameFeatures& features, const Tracker& tracker, Tra
   const Calibration fit = calibrate(*tracker.backend, *result.prepared, *features.head, tracker.limits,
                                     config.calibration, config.registration, state.random);
   result.motion.evaluations += fit.evaluations;
-  const bool patient = state.frames_waiting < config.tracking.calibration_patience;
+  const bool patient = state.waited < config.tracking.calibration_patience;
   const bool agrees = landmarks_agree(fit.score, features, tracker);
   if (!agrees && (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient))) {
     mark_lost("waiting for a better first frame: " + fit.refusal, tracker, state, result);
@@ -65,7 +65,7 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
   const std::int64_t frame = result.motion.frame;
   // Without a head there is nobody to search for.
   if (!features.head) {
-    state.frames_waiting = 0;
+    state.waited = 0.0;
     mark_lost("nobody is found: the head must be in the image", tracker, state, result);
     return;
   }
@@ -110,7 +110,7 @@ void check_fit(const FrameFeatures& features, const Score& score, const Tracker&
   const bool bad = (result.motion.region_score > config.lost_region || !features.head) &&
                    !landmarks_agree(score, features, tracker);
   state.bad_frames = bad ? state.bad_frames + 1 : 0;
-  state.bad_for = bad ? state.bad_for + state.steps : 0.0;
+  state.bad_for = bad ? state.bad_for + state.elapsed : 0.0;
   // At a few frames per second one bad frame lasts as long as the patience.
   if (state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience)) {
     mark_lost("the body no longer fits the image", tracker, state, result);

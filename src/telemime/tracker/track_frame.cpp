@@ -15,12 +15,11 @@
 namespace telemime {
 namespace {
 
-constexpr int kFacelessFrames = 25;  // with a head but no face, until the outline of the head is used
+constexpr double kFaceless = 25.0;   // 1/25 s with a head but no face, until the outline of the head is used
 constexpr double kExact = 0.05;      // of a step: time stamps of cameras are not more exact
 constexpr double kLeastSteps = 0.2;  // between two frames
 constexpr double kMostSteps = 8.0;   // after a longer gap the motion model says nothing
 constexpr double kNearest = 0.01;    // m, of a joint that is projected
-constexpr double kRate = 25.0;       // frames per second of the motion model
 
 // Learns the person's colours from a frame that shows their face. Returns whether colours are known now.
 bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
@@ -76,15 +75,23 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
   return face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
 }
 
-void advance_time(double time, TrackerState& state) {
+// After a pause the last pose says nothing: the person is searched for as after a loss, in this frame.
+void advance_time(double time, const Tracker& tracker, TrackerState& state, FrameEstimate& result) {
+  state.elapsed = std::min(units_between(state.time, time), kMostSteps);
   state.steps_before = state.steps;
   state.steps = steps_between(state.time, time);
+  if (time - state.time > kLongestGap) {
+    if (state.phase == Phase::tracking) {
+      mark_lost("the input has a pause", tracker, state, result);
+    }
+    state.steps_until_search = 0.0;
+  }
   state.time = time;
 }
 
 bool search_is_due(std::int64_t frame, TrackerState& state) {
-  ++state.frames_waiting;
-  state.steps_until_search -= state.steps;
+  state.waited += state.elapsed;
+  state.steps_until_search -= state.elapsed;
   return state.steps_until_search <= 0.0 || (state.known_start && frame == state.known_start->frame);
 }
 
@@ -141,8 +148,10 @@ ColourRequest colour_request(const TrackerState& state) {
   if (state.calibrated()) {
     return ColourRequest::keep;
   }
-  const bool faceless = state.phase == Phase::waiting && state.frames_waiting > 0 &&
-                        state.frames_waiting % kFacelessFrames == 0;
+  // Once in each such time.
+  const double before = state.waited - state.elapsed;
+  const bool faceless = state.phase == Phase::waiting && state.waited >= kFaceless &&
+                        std::floor(state.waited / kFaceless) > std::floor(before / kFaceless);
   return faceless ? ColourRequest::learn_faceless : ColourRequest::learn;
 }
 
@@ -183,7 +192,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
                        double effort) {
   Stopwatch watch;
   FrameEstimate result = begin_estimate(features, state);
-  advance_time(features.time, state);
+  advance_time(features.time, tracker, state, result);
   if (features.has_colour_model || features.landmarks) {
     // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
     result.prepared = prepare(features, tracker.working_camera);
@@ -221,9 +230,13 @@ FrameRecord track_frame(const Frame& frame, TrackingRun& run) {
   return record;
 }
 
+double units_between(double before, double now) {
+  const double units = kUnitsPerSecond * (now - before);
+  return std::abs(units - 1.0) < kExact || !(units > 0.0) ? 1.0 : units;
+}
+
 double steps_between(double before, double now) {
-  const double steps = kRate * (now - before);
-  return std::abs(steps - 1.0) < kExact || !(steps > 0.0) ? 1.0 : std::clamp(steps, kLeastSteps, kMostSteps);
+  return std::clamp(units_between(before, now), kLeastSteps, kMostSteps);
 }
 
 void place_joints(const Body& body, const Camera& camera, MotionFrame& motion) {

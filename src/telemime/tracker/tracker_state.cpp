@@ -62,7 +62,7 @@ void forget_person(TrackingRun& run) {
   state.heading = 0.0;
   state.bad_frames = 0;
   state.bad_for = 0.0;
-  state.frames_waiting = 0;
+  state.waited = 0.0;
   state.steps_until_search = 0.0;
 }
 

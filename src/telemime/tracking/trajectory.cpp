@@ -48,10 +48,10 @@ std::vector<Pose> poses_of(const std::vector<ScoredPose>& scored) {
 
 SettingTable settings_of(TrajectoryConfig& c) {
   return {
-      {number("trajectory.stretch", &c.stretch, {1, 10000}, "frames",
-              "Frames that are decided together (offline)."),
-       number("trajectory.overlap", &c.overlap, {0, 1000}, "frames",
-              "Frames after these that are taken into account."),
+      {number("trajectory.stretch", &c.stretch, {1, 10000}, "1/25 s",
+              "Time that is decided together (offline)."),
+       number("trajectory.overlap", &c.overlap, {0, 1000}, "1/25 s",
+              "Time after it that is taken into account."),
        number("trajectory.arms", &c.arms, {1, 100}, "",
               "Arms of each side that are combined with each other in each frame."),
        number("trajectory.kept", &c.kept, {1, 1000}, "",
