@@ -138,6 +138,29 @@ TEST(Program, SaysThatTheLensIsCovered) {
       fails_with(track(folder / "black.avi", folder), kExitTracking, {"black", "nobody was tracked"}));
 }
 
+TEST(Program, SaysOnceWhatIsWrongWithAnInput) {
+  const Folder folder;
+  const cv::Mat grey(90, 120, CV_8UC3, cv::Scalar::all(120));
+  for (const char* const name : {"gaps/a1.png", "gaps/a2.png", "gaps/a5.png", "broken/a1.png",
+                                 "broken/a3.png", "sizes/a1.png", "sizes/a2.png"}) {
+    fs::create_directory(fs::path(folder / name).parent_path());
+    cv::imwrite(folder / name, grey);
+  }
+  write_bytes(folder / "broken/a2.png", "no image");
+  cv::imwrite(folder / "sizes/a3.png", grey.colRange(0, 60));
+  write_grey_video(folder / "-cut.avi", 40, 90);
+  fs::resize_file(folder / "-cut.avi", fs::file_size(folder / "-cut.avi") / 2);
+  for (const auto& [input, complaint] :
+       {std::pair("gaps", "(3 to 4)"), std::pair("broken", "a2.png"), std::pair("sizes", "60x90"),
+        std::pair("-cut.avi", "header states 40")}) {
+    const Ended ended = track(folder / input, folder);
+    EXPECT_EQ(ended.code, kExitTracking) << ended.words;
+    const std::size_t at = ended.words.find(complaint);
+    EXPECT_NE(at, std::string::npos) << input << ": " << ended.words;
+    EXPECT_EQ(ended.words.find(complaint, at + 1), std::string::npos) << input << ": " << ended.words;
+  }
+}
+
 TEST(Program, TruncatedVideoIsUsedAsFarAsItGoes) {
   const Folder folder;
   write_grey_video(folder / "cut.avi", 40, 90);

@@ -138,9 +138,8 @@ class ImageSequence : public Source {
       if (which.size() > longest) {
         which = which.substr(0, which.rfind(',', longest)) + " ...";
       }
-      notes_.add(std::to_string(numbering_.count) +
-                 " numbers are missing between the first and the last image (" + which +
-                 "); time goes on across them");
+      notes_.add(std::to_string(numbering_.count) + (numbering_.count == 1 ? " number is" : " numbers are") +
+                 " missing between the first and the last image (" + which + "); time goes on across them");
     }
     first_ = next_image();
     if (first_.empty()) {
@@ -164,7 +163,9 @@ class ImageSequence : public Source {
     Notes all = notes_;
     if (unreadable_ > 0) {
       all.add(std::to_string(unreadable_) + " of " + std::to_string(files_.size()) +
-              " images cannot be decoded and were skipped, first " + first_unreadable_);
+              (unreadable_ == 1 ? " images cannot be decoded and was skipped: "
+                                : " images cannot be decoded and were skipped, first ") +
+              first_unreadable_);
     }
     return all.text();
   }
