@@ -14,6 +14,21 @@ namespace {
 
 /// Energy under an empty mixture.
 constexpr float kNever = 1e4F;
+constexpr float kLeastWeight = 1e-3F;      // of a Gaussian: its logarithm stays finite
+constexpr float kLeastVariance = 1e-6F;    // of l: the slope of an even colour stays finite
+constexpr std::size_t kFewestColours = 8;  // samples of a Gaussian of three colours
+constexpr float kFromMedian = 1.48F;       // standard deviation over the median absolute deviation
+constexpr float kLeastSpread = 0.02F;      // of each channel at the start: more than rounding
+constexpr int kTrims = 4;                  // rounds of trimming
+constexpr float kTrimmed = 8.0F;       // squared deviations: 95 % of a Gaussian of three channels is nearer
+constexpr float kOfTails = 1.2F;       // covariance over that of what is nearer
+constexpr float kColourNoise = 1e-4F;  // added variance of each channel: an even colour has noise, too
+// Groups of k-means: another begins where samples are this far from all others; 95 of 100 distances are
+// smaller, for the farthest sample is an outlier.
+constexpr float kGroupsApart = 0.15F;
+constexpr std::size_t kPercentile = 95;
+constexpr int kGroupRounds = 6;             // of k-means for each number of groups
+constexpr std::size_t kSmallestGroup = 25;  // a group has at least one in this many samples
 
 /// A Gaussian prepared for evaluation.
 struct Prepared {
@@ -26,7 +41,7 @@ std::vector<Prepared> prepare(const ColourMixture& mixture) {
   std::vector<Prepared> out;
   for (const ColourGaussian& g : mixture) {
     out.push_back({g.mean, g.covariance.inverse(),
-                   std::log(g.covariance.determinant()) - 2 * std::log(std::max(g.weight, 1e-3F))});
+                   std::log(g.covariance.determinant()) - 2 * std::log(std::max(g.weight, kLeastWeight))});
   }
   return out;
 }
@@ -45,7 +60,7 @@ Eigen::Vector3f median_of(std::span<const Eigen::Vector3f> samples) {
 Eigen::Matrix3f widened(const Eigen::Matrix3f& covariance, const ColourTolerance& tolerance) {
   // A larger spread means that the samples are of two colours (a face with its beard).
   constexpr float kMostVariance = 0.3F * 0.3F;
-  const float variance_l = covariance(2, 2) + 1e-6F;
+  const float variance_l = covariance(2, 2) + kLeastVariance;
   const Eigen::Vector2f with_l = covariance.block<2, 1>(0, 2);
   const Eigen::Vector2f slope = (with_l / variance_l).cwiseMax(-tolerance.slope).cwiseMin(tolerance.slope);
   // The covariance of the chroma without slope * l; positive definite for any slope.
@@ -81,7 +96,7 @@ Moments moments_of(std::span<const Eigen::Vector3f> samples) {
 }
 
 void require_samples(std::size_t count) {
-  if (count < 8) {
+  if (count < kFewestColours) {
     throw Error(ErrorKind::usage,
                 "a colour model needs at least 8 sample pixels, but there are " + std::to_string(count));
   }
@@ -99,26 +114,23 @@ ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const Colour
   std::vector<Eigen::Vector3f> deviations(samples.size());
   std::transform(samples.begin(), samples.end(), deviations.begin(),
                  [&](const auto& s) { return Eigen::Vector3f((s - centre).cwiseAbs()); });
-  // The factor 1.48 converts it to a standard deviation.
-  const Eigen::Vector3f spread = (1.48F * median_of(deviations)).cwiseMax(0.02F);
+  const Eigen::Vector3f spread = (kFromMedian * median_of(deviations)).cwiseMax(kLeastSpread);
   Eigen::Matrix3f covariance = spread.cwiseAbs2().asDiagonal();
   // Fit to the samples near the centre, repeatedly.
-  constexpr int kTrims = 4;
   for (int i = 0; i < kTrims; ++i) {
     const Eigen::Matrix3f inverse = covariance.inverse();
     std::vector<Eigen::Vector3f> kept;
     for (const auto& s : samples) {
-      if ((s - centre).dot(inverse * (s - centre)) < 8.0F) {
+      if ((s - centre).dot(inverse * (s - centre)) < kTrimmed) {
         kept.push_back(s);
       }
     }
-    if (kept.size() < 8) {
+    if (kept.size() < kFewestColours) {
       break;
     }
     const Moments m = moments_of(kept);
     centre = m.mean;
-    // The factor 1.2 compensates for the tails that were trimmed.
-    covariance = 1.2F * m.covariance + 1e-4F * Eigen::Matrix3f::Identity();
+    covariance = kOfTails * m.covariance + kColourNoise * Eigen::Matrix3f::Identity();
   }
   return {centre, widened(covariance, tolerance), 1.0F};
 }
@@ -143,20 +155,19 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
       groups[nearest(s)].push_back(s);
     }
   };
-  // Add centres where samples are far from all others. The start is the 95th percentile of the distances: the
-  // farthest sample is an outlier.
+  // Add centres where samples are far from all others.
   while (static_cast<int>(centres.size()) < most) {
     std::vector<std::pair<float, std::size_t>> far;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       far.emplace_back(distance2(samples[i], centres[nearest(samples[i])]), i);
     }
-    const auto rank = far.begin() + static_cast<std::ptrdiff_t>(far.size() * 95 / 100);
+    const auto rank = far.begin() + static_cast<std::ptrdiff_t>(far.size() * kPercentile / 100);
     std::nth_element(far.begin(), rank, far.end());
-    if (rank->first < 0.15F * 0.15F) {
+    if (rank->first < kGroupsApart * kGroupsApart) {
       break;
     }
     centres.push_back(samples[rank->second]);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < kGroupRounds; ++i) {
       regroup();
       for (std::size_t g = 0; g < groups.size(); ++g) {
         if (!groups[g].empty()) {
@@ -169,7 +180,7 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
   regroup();
   ColourMixture mixture;
   for (const auto& group : groups) {
-    if (group.size() < 8 || group.size() * 25 < samples.size()) {
+    if (group.size() < kFewestColours || group.size() * kSmallestGroup < samples.size()) {
       continue;
     }
     // Trimming removes the mixed pixels between two stripes.

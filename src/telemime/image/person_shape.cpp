@@ -9,21 +9,42 @@
 namespace telemime {
 namespace {
 
+// Bounds of the places, in half widths and half heights of the head from its centre. They follow from human
+// proportions: a head is about 1/7.5 of the height, shoulders are about three heads wide.
+constexpr double kFaceWidth = 0.6;    // squared: the ellipse of the face without hair
+constexpr double kFaceHeight = 0.7;   // squared
+constexpr double kChestAside = 1.3;   // the middle of the chest
+constexpr double kChestTop = 1.9;     // below the collar
+constexpr double kThroatAside = 0.6;  // the neck, from the middle of the face down
+constexpr double kHeadRound = 1.25;   // squared radius of the head with hair
+constexpr double kTorsoAside = 2.6;   // shoulders
+constexpr double kTorsoTop = 1.6;
+constexpr double kTorsoBottom = 7.0;  // hips
+constexpr double kArmUp = 3.5;        // an arm above the head
+constexpr double kArmAside = 9.0;     // an arm to the side
+// Prior of each place, 1: surely the person, -1: surely not.
+constexpr float kCorePrior = 1.0F;
+constexpr float kLikelyPrior = 0.4F;
+constexpr float kOpenPrior = -0.2F;
+constexpr float kFarPrior = -1.0F;
+constexpr double kCutWidth = 160.0;  // px: a graph cut takes as long as it has pixels
+constexpr int kHalfCut = 127;        // of 255
+
 /// Position relative to the body: core is the head and the middle of the chest, likely are the shoulders and
 /// the rest of the torso, open is where arms can be, far is out of reach.
 enum class Place { core, likely, open, far };
 
-/// The place of a point given in half widths (x) and half heights (y) of the head from its centre. The bounds
-/// follow from human proportions: a head is about 1/7.5 of the height, shoulders are about three heads wide.
+/// The place of a point given in half widths (x) and half heights (y) of the head from its centre.
 Place place_of(double x, double y) {
   const double aside = std::abs(x);
-  if (x * x / 0.6 + y * y / 0.7 < 1 || (aside < 1.3 && y > 1.9) || (aside < 0.6 && y > 0)) {
+  if (x * x / kFaceWidth + y * y / kFaceHeight < 1 || (aside < kChestAside && y > kChestTop) ||
+      (aside < kThroatAside && y > 0)) {
     return Place::core;
   }
-  if (x * x + y * y < 1.25 || (y > 1.6 && aside < 2.6 && y < 7)) {
+  if (x * x + y * y < kHeadRound || (y > kTorsoTop && aside < kTorsoAside && y < kTorsoBottom)) {
     return Place::likely;
   }
-  if (y < -3.5 || aside > 9) {
+  if (y < -kArmUp || aside > kArmAside) {
     return Place::far;
   }
   return Place::open;
@@ -45,7 +66,7 @@ class FixedSeed {
 }  // namespace
 
 cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
-  const double scale = std::min(1.0, 160.0 / bgr.cols);
+  const double scale = std::min(1.0, kCutWidth / bgr.cols);
   cv::Mat small;
   cv::resize(bgr, small, cv::Size(), scale, scale, cv::INTER_AREA);
   // Initial mask from the position of the head.
@@ -79,7 +100,7 @@ cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
   cv::grabCut(small, mask, cv::Rect(), background_colours, person_colours, kRounds, cv::GC_INIT_WITH_MASK);
   cv::Mat person = (mask & 1) * 255;
   cv::resize(person, person, bgr.size(), 0, 0, cv::INTER_LINEAR);
-  return person > 127;
+  return person > kHalfCut;
 }
 
 cv::Mat body_prior(const cv::Size& size, const HeadRegion& head) {
@@ -90,16 +111,16 @@ cv::Mat body_prior(const cv::Size& size, const HeadRegion& head) {
     for (int c = 0; c < size.width; ++c) {
       switch (place_of((c - head.centre.x()) / head.radii.x(), y)) {
         case Place::core:
-          p[c] = 1.0F;
+          p[c] = kCorePrior;
           break;
         case Place::likely:
-          p[c] = 0.4F;
+          p[c] = kLikelyPrior;
           break;
         case Place::open:
-          p[c] = -0.2F;
+          p[c] = kOpenPrior;
           break;
         case Place::far:
-          p[c] = -1.0F;
+          p[c] = kFarPrior;
           break;
       }
     }

@@ -12,6 +12,42 @@
 namespace telemime {
 namespace {
 
+// Values of the ellipse of the head (1 on its outline, squared radius): within the first, pixels are voted
+// for the person; face and hair are sure within the second and likely up to the third, where ears and curls
+// are.
+constexpr float kVotedHead = 0.9F;
+constexpr float kSureHead = 0.8F;
+constexpr float kNearHead = 1.45F;
+// Half heights of the head below its centre: where the chin hides clothes, and where the neck begins.
+constexpr float kAboveChin = 0.6F;
+constexpr float kAboveNeck = 0.85F;
+constexpr double kVoteDeviation = 0.8;  // px, of the Gaussian weights of the 3x3 vote
+// Without a head, a part of this many times the least size is the person.
+constexpr int kLargePart = 10;
+// Where a trunk may be, in half widths and half heights of the head from its centre: shoulders are three
+// heads wide, hips four heads below.
+constexpr float kTrunkAside = 2.5F;
+constexpr float kTrunkDown = 8.0F;
+// Holes of up to this many times the size that is always filled may be shadows, or the person's colours.
+constexpr int kLargestHole = 30;
+constexpr int kLargestShadow = 3;  // the same with a background that is sure
+// Tenths of a hole, and of what surrounds an island, that must agree: clearly more than half.
+constexpr int kOwnTenths = 7;
+constexpr int kShadedTenths = 6;
+constexpr int kAroundTenths = 7;
+// The neck in half widths and half heights of the head from its centre: from above the chin to the collar,
+// hardly wider than the head; the shade under the chin is narrower.
+constexpr float kCollarAside = 1.05F;
+constexpr float kNeckTop = 0.5F;
+constexpr float kNeckBottom = 1.75F;
+constexpr float kShadeAside = 0.7F;
+// Sizes over that of the smallest part: holes and islands are as small as half of it, folds four times as
+// large.
+constexpr double kHoleSize = 0.5;
+constexpr double kScrapSize = 4.0;
+constexpr double kIslandSize = 0.5;
+constexpr float kNearCamera = 0.9F;  // sine of the angle of the reach: a hand may be anywhere in the image
+
 /// The pixels where the colours of the person explain the image better than the background, after a vote.
 cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& votes,
                       const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
@@ -21,13 +57,13 @@ cv::Mat silhouette_of(const BackgroundEnergy& background, const ColourVotes& vot
     for (int r = 0; r < margin.rows; ++r) {
       auto* m = margin.ptr<float>(r);
       for (int c = 0; c < margin.cols; ++c) {
-        m[c] += ellipse.at(r, c) < 0.9F ? config.head_bonus : 0.0F;
+        m[c] += ellipse.at(r, c) < kVotedHead ? config.head_bonus : 0.0F;
       }
     }
   }
   cv::max(margin, -config.vote_limit, margin);
   cv::min(margin, config.vote_limit, margin);
-  cv::GaussianBlur(margin, margin, cv::Size(3, 3), 0.8, 0.8, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(margin, margin, cv::Size(3, 3), kVoteDeviation, kVoteDeviation, cv::BORDER_REPLICATE);
   cv::Mat silhouette;
   cv::compare(margin, 0, silhouette, cv::CMP_GT);
   return silhouette;
@@ -41,7 +77,7 @@ void remove_foreign_components(cv::Mat& silhouette, const ColourVotes& votes,
   const double least = config.least_part * static_cast<double>(silhouette.total());
   const ConnectedComponents pieces(silhouette, Connectivity::eight);
   const auto is_person = [&](const Component& piece) {
-    if (!head && piece.area > 10 * least) {
+    if (!head && piece.area > kLargePart * least) {
       return true;
     }
     if (head) {
@@ -67,7 +103,7 @@ void remove_foreign_components(cv::Mat& silhouette, const ColourVotes& votes,
     const int in_body = pieces.count(piece, [&](int r, int c) {
       const float aside = std::abs(static_cast<float>(c) - e.x) / e.rx;
       const float down = (static_cast<float>(r) - e.y) / e.ry;
-      return aside < 2.5F && down > 1 && down < 8;
+      return aside < kTrunkAside && down > 1 && down < kTrunkDown;
     });
     return in_body * 3 > piece.area;
   };
@@ -78,9 +114,9 @@ void remove_foreign_components(cv::Mat& silhouette, const ColourVotes& votes,
   }
 }
 
-/// Fills holes of the silhouette. Holes of up to `most` pixels are always filled; larger ones, up to 30
-/// times, only if most of their pixels would have to be a shadow or, with a doubtful background, have colours
-/// of the person. Other holes show the background between arm and body.
+/// Fills holes of the silhouette. Holes of up to `most` pixels are always filled; larger ones, up to
+/// kLargestHole times, only if most of their pixels would have to be a shadow or, with a doubtful background,
+/// have colours of the person. Other holes show the background between arm and body.
 void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const cv::Mat& colour, double most) {
   cv::Mat outside;
   cv::bitwise_not(silhouette, outside);
@@ -89,15 +125,16 @@ void fill_holes(cv::Mat& silhouette, const BackgroundEnergy& background, const c
     if (hole.area <= most) {
       return true;
     }
-    if (hole.area > 30 * most) {
+    if (hole.area > kLargestHole * most) {
       return false;
     }
     const auto own = [&](int r, int c) { return colour.at<unsigned char>(r, c) != kOther; };
-    if (background.doubtful && holes.count(hole, own) * 10 > hole.area * 7) {
+    if (background.doubtful && holes.count(hole, own) * 10 > hole.area * kOwnTenths) {
       return true;
     }
     const auto shaded = [&](int r, int c) { return background.shaded.at<unsigned char>(r, c) != 0; };
-    return (background.doubtful || hole.area <= 3 * most) && holes.count(hole, shaded) * 10 > hole.area * 6;
+    return (background.doubtful || hole.area <= kLargestShadow * most) &&
+           holes.count(hole, shaded) * 10 > hole.area * kShadedTenths;
   };
   for (const Component& hole : holes.all()) {
     if (is_filled(hole)) {
@@ -126,19 +163,20 @@ void relabel_unknown_scraps(ColourVotes& votes, const cv::Mat& silhouette, doubl
 /// the chin down to the clothes.
 void label_neck(cv::Mat& labels, const Ellipse& ellipse) {
   const auto code = [](Label l) { return static_cast<unsigned char>(l); };
-  const int first = std::max(0, static_cast<int>(ellipse.x - 1.05F * ellipse.rx));
-  const int last = std::min(labels.cols - 1, static_cast<int>(ellipse.x + 1.05F * ellipse.rx));
-  const int bottom = std::min(labels.rows - 1, static_cast<int>(ellipse.y + 1.75F * ellipse.ry));
+  const int first = std::max(0, static_cast<int>(ellipse.x - kCollarAside * ellipse.rx));
+  const int last = std::min(labels.cols - 1, static_cast<int>(ellipse.x + kCollarAside * ellipse.rx));
+  const int bottom = std::min(labels.rows - 1, static_cast<int>(ellipse.y + kNeckBottom * ellipse.ry));
   for (int c = first; c <= last; ++c) {
-    int r = std::max(0, static_cast<int>(ellipse.y + 0.5F * ellipse.ry));
+    int r = std::max(0, static_cast<int>(ellipse.y + kNeckTop * ellipse.ry));
     for (; r <= bottom; ++r) {
       auto& l = labels.at<unsigned char>(r, c);
       const bool below = ellipse.at(r, c) > 1;
       if (below && (l == code(Label::clothes) || l == code(Label::background))) {
         break;
       }
-      if (l == code(Label::arms) || (below && l == code(Label::ignore) &&
-                                     std::abs(static_cast<float>(c) - ellipse.x) < 0.7F * ellipse.rx)) {
+      if (l == code(Label::arms) ||
+          (below && l == code(Label::ignore) &&
+           std::abs(static_cast<float>(c) - ellipse.x) < kShadeAside * ellipse.rx)) {
         l = code(Label::head);
       }
     }
@@ -164,7 +202,7 @@ void relabel_islands(cv::Mat& labels, Label island, Label surroundings, double m
     ring &= ~self;
     const int around = cv::countNonZero(ring);
     const int matching = cv::countNonZero((labels(box) == static_cast<unsigned char>(surroundings)) & ring);
-    if (matching * 10 > around * 7) {
+    if (matching * 10 > around * kAroundTenths) {
       islands.paint(component, static_cast<unsigned char>(surroundings), labels);
     }
   }
@@ -181,7 +219,7 @@ void ignore_out_of_reach(cv::Mat& labels, const Ellipse& head, const Segmentatio
   constexpr float kReach = 1.15F;     // m: neck and shoulder 0.3, arm and hand 0.7, and a margin
   const float focal_length = config.focal_length * static_cast<float>(labels.cols);
   const float sine = kReach * head.ry / (kHalfHead * focal_length);
-  if (sine > 0.9F) {
+  if (sine > kNearCamera) {
     return;
   }
   const float reach = kReach / kHalfHead * head.ry / std::sqrt(1.0F - sine * sine);
@@ -220,8 +258,8 @@ cv::Mat label(const cv::Mat& silhouette, const ColourVotes& votes, const std::op
       if (ellipse) {
         const float t = ellipse->at(r, c);
         const float dy = (static_cast<float>(r) - ellipse->y) / ellipse->ry;
-        const bool face = t < 0.8F || (t < 1 && (dy < 0.6F || colour[c] != kClothes));
-        const bool near = t < 1.45F && dy < 0.85F && (colour[c] == kSkin || colour[c] == kHair);
+        const bool face = t < kSureHead || (t < 1 && (dy < kAboveChin || colour[c] != kClothes));
+        const bool near = t < kNearHead && dy < kAboveNeck && (colour[c] == kSkin || colour[c] == kHair);
         if (face || near) {
           chosen = Label::head;
         } else if (chosen == Label::clothes && dy > kHips) {
@@ -266,13 +304,13 @@ Segmentation segment(const LogColour& image, const BackgroundEnergy& background,
   out.silhouette = silhouette_of(background, votes, head, config);
   remove_foreign_components(out.silhouette, votes, head, colours.known(), config);
   fill_holes(out.silhouette, background, votes.colour,
-             config.least_part * static_cast<double>(out.silhouette.total()) * 0.5);
+             config.least_part * static_cast<double>(out.silhouette.total()) * kHoleSize);
   relabel_unknown_scraps(votes, out.silhouette,
-                         4 * config.least_part * static_cast<double>(out.silhouette.total()));
+                         kScrapSize * config.least_part * static_cast<double>(out.silhouette.total()));
   // Labels.
   cv::compare(votes.colour, static_cast<int>(kSkin), out.skin, cv::CMP_EQ);
   out.labels = label(out.silhouette, votes, head, colours.known(), config);
-  const double island = 0.5 * config.least_part * static_cast<double>(out.silhouette.total());
+  const double island = kIslandSize * config.least_part * static_cast<double>(out.silhouette.total());
   relabel_islands(out.labels, Label::clothes, Label::arms, 2 * island);
   relabel_islands(out.labels, Label::arms, Label::clothes, island);
   return out;
