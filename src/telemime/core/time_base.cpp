@@ -26,6 +26,7 @@ constexpr std::array kUsualRates = {5.0,
                                     100.0,
                                     120.0,
                                     240.0};
+constexpr double kLeastStep = 1e-6;       // s; no camera is as fast
 constexpr double kPause = 0.5;            // s; no step of a usual rate
 constexpr double kLongestPause = 3600.0;  // s
 constexpr double kLastPause = 60.0;       // s; a longer one that no further frame confirms is none
@@ -44,8 +45,9 @@ double rounded_rate(double rate) {
 std::optional<double> rate_of(const std::vector<double>& stamps) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1] && stamps[i] - stamps[i - 1] < kLongestPause) {
-      steps.push_back(stamps[i] - stamps[i - 1]);
+    const double step = stamps[i] - stamps[i - 1];
+    if (step > kLeastStep && step < kLongestPause) {
+      steps.push_back(step);
     }
   }
   if (steps.size() < 2) {

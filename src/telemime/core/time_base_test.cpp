@@ -26,6 +26,8 @@ TEST(RateOf, RegularStampsGiveTheirRate) {
   EXPECT_FALSE(rate_of({}));
   EXPECT_FALSE(rate_of({0.0, 0.04}));
   EXPECT_FALSE(rate_of({0.0, 0.0, 0.0, 0.0}));
+  EXPECT_FALSE(rate_of({0.0, 1e-320, 2e-320, 3e-320})) << "no rate is infinite";
+  EXPECT_FALSE(rate_of({-1e300, 0.0, 1e300, 1.7e308}));
 }
 
 TEST(RateOf, RoundingToMillisecondsDoesNotMatter) {
