@@ -55,14 +55,14 @@ std::array<Eigen::Matrix3d, 3> bends(std::size_t finger, const double* a) {
 
 using FingerPoints = Eigen::Matrix<double, 3, 3>;  // columns: the points after the base
 
-FingerPoints finger_points(const HandShape& shape, std::size_t finger, const double* angles) {
+FingerPoints finger_points(const HandSizes& sizes, std::size_t finger, const double* angles) {
   const auto joints = bends(finger, angles);
   Eigen::Matrix3d axes = base_axes(finger);
-  Eigen::Vector3d at = shape.base[finger];
+  Eigen::Vector3d at = sizes.base[finger];
   FingerPoints points;
   for (int i = 0; i < 3; ++i) {
     axes *= joints[static_cast<std::size_t>(i)];
-    at -= shape.bone[finger][static_cast<std::size_t>(i)] * axes.col(1);
+    at -= sizes.bone[finger][static_cast<std::size_t>(i)] * axes.col(1);
     points.col(i) = at;
   }
   return points;
@@ -98,13 +98,13 @@ void angles_of_directions(const FingerPoints& target, const Eigen::Vector3d& bas
 }
 
 // Gauss-Newton with a little damping: each step within the limits, kept if it fits better.
-double refine_finger(const HandShape& shape, const FingerPoints& target, std::size_t finger, double* a) {
+double refine_finger(const HandSizes& sizes, const FingerPoints& target, std::size_t finger, double* a) {
   constexpr int kSteps = 4;
   constexpr double kDelta = 1e-4;
   constexpr double kDamping = 1e-3;
   const auto n = static_cast<Eigen::Index>(angle_count(finger));
   const AngleRange* const limits = &hand_limits()[kFirstAngle[finger]];
-  FingerPoints error = target - finger_points(shape, finger, a);
+  FingerPoints error = target - finger_points(sizes, finger, a);
   for (int step = 0; step < kSteps; ++step) {
     Eigen::MatrixXd jacobian(9, n);
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -112,7 +112,7 @@ double refine_finger(const HandShape& shape, const FingerPoints& target, std::si
       std::copy_n(a, n, moved.begin());
       moved[static_cast<std::size_t>(k)] += kDelta;
       const FingerPoints change = target - error;
-      const FingerPoints slope = (finger_points(shape, finger, moved.data()) - change) / kDelta;
+      const FingerPoints slope = (finger_points(sizes, finger, moved.data()) - change) / kDelta;
       jacobian.col(k) = slope.reshaped();
     }
     Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
@@ -122,7 +122,7 @@ double refine_finger(const HandShape& shape, const FingerPoints& target, std::si
     for (Eigen::Index k = 0; k < n; ++k) {
       next[static_cast<std::size_t>(k)] = within(a[k] + change[k], limits[k]);
     }
-    const FingerPoints better = target - finger_points(shape, finger, next.data());
+    const FingerPoints better = target - finger_points(sizes, finger, next.data());
     if (!(better.squaredNorm() < error.squaredNorm())) {
       break;
     }
@@ -134,7 +134,7 @@ double refine_finger(const HandShape& shape, const FingerPoints& target, std::si
 
 constexpr double kHandToPalm = 1.0 / 0.446;  // hand length over palm length, Buchholz et al.
 
-HandShape average_proportions() {
+HandSizes average_proportions() {
   // Knuckles beside the middle one, as shares of the palm: the distance from the wrist is that of the paper,
   // and about a finger's width lies between them.
   constexpr std::array<double, kFingerCount> kSide = {0.0, 0.25, 0.0, -0.23, -0.45};
@@ -144,16 +144,16 @@ HandShape average_proportions() {
                                                                        {0.266, 0.170, 0.108},
                                                                        {0.244, 0.165, 0.107},
                                                                        {0.204, 0.117, 0.093}}};
-  HandShape shape;
+  HandSizes sizes;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     const double reach = kHandToPalm * kReach[f];
-    shape.base[f] = {0.0, -std::sqrt(reach * reach - kSide[f] * kSide[f]), kSide[f]};
+    sizes.base[f] = {0.0, -std::sqrt(reach * reach - kSide[f] * kSide[f]), kSide[f]};
     for (std::size_t i = 0; i < 3; ++i) {
-      shape.bone[f][i] = kHandToPalm * kBones[f][i];
+      sizes.bone[f][i] = kHandToPalm * kBones[f][i];
     }
   }
-  shape.base[kThumb] = {-0.1, -0.2, 0.27};
-  return shape;
+  sizes.base[kThumb] = {-0.1, -0.2, 0.27};
+  return sizes;
 }
 
 }  // namespace
@@ -208,12 +208,12 @@ WristAngles wrist_angles(const Eigen::Matrix3d& forearm_from_hand) {
           .flexion = std::clamp(std::atan2(r(1, 0), r(1, 1)), -kFlexion, kFlexion)};
 }
 
-HandShape average_hand(double stature) {
-  static const HandShape proportions = average_proportions();
+HandSizes average_hand(double stature) {
+  static const HandSizes proportions = average_proportions();
   constexpr double kPalm = 0.0472;  // wrist centre to the third metacarpal head, of the stature
-  HandShape shape = proportions;
-  shape.palm = kPalm * stature;
-  return shape;
+  HandSizes sizes = proportions;
+  sizes.palm = kPalm * stature;
+  return sizes;
 }
 
 std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> finger_rotations(const HandAngles& angles,
@@ -229,16 +229,16 @@ std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> finger_rotations(const 
   return rotations;
 }
 
-HandPoints hand_points(const HandShape& shape, const HandAngles& angles, Side side,
+HandPoints hand_points(const HandSizes& sizes, const HandAngles& angles, Side side,
                        const Eigen::Isometry3d& frame_from_hand) {
   const auto place = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
-    return frame_from_hand * Eigen::Vector3d(shape.palm * mirrored_if(side, p));
+    return frame_from_hand * Eigen::Vector3d(sizes.palm * mirrored_if(side, p));
   };
   HandPoints points;
   points[0] = frame_from_hand.translation();
   for (std::size_t f = 0; f < kFingerCount; ++f) {
-    points[hand_joint(f, 0)] = place(shape.base[f]);
-    const FingerPoints finger = finger_points(shape, f, &angles[kFirstAngle[f]]);
+    points[hand_joint(f, 0)] = place(sizes.base[f]);
+    const FingerPoints finger = finger_points(sizes, f, &angles[kFirstAngle[f]]);
     for (std::size_t i = 0; i < 3; ++i) {
       points[hand_joint(f, i + 1)] = place(finger.col(static_cast<Eigen::Index>(i)));
     }
@@ -246,7 +246,7 @@ HandPoints hand_points(const HandShape& shape, const HandAngles& angles, Side si
   return points;
 }
 
-std::optional<HandFit> fit_hand(const HandShape& shape, const HandPoints& points, Side side) {
+std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side) {
   constexpr double kSmallest = 1e-9;
   // The palm: wrist and four knuckles, in shares of the palm's length.
   constexpr std::array<std::size_t, 5> kPalm = {0, 5, 9, 13, 17};
@@ -254,7 +254,7 @@ std::optional<HandFit> fit_hand(const HandShape& shape, const HandPoints& points
   Eigen::Matrix<double, 3, 5> to;
   for (std::size_t i = 0; i < kPalm.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    from.col(column) = i == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : shape.base[i];
+    from.col(column) = i == 0 ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : sizes.base[i];
     to.col(column) = mirrored_if(side, points[kPalm[i]]);
   }
   for (const Eigen::Vector3d& p : points) {
@@ -273,7 +273,7 @@ std::optional<HandFit> fit_hand(const HandShape& shape, const HandPoints& points
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::Matrix3d rotation = svd.matrixU() * sign * svd.matrixV().transpose();
-  // The fingers, from where the shape has their bases.
+  // The fingers, from where the sizes has their bases.
   HandFit fit;
   double squares = 0.0;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
@@ -281,40 +281,40 @@ std::optional<HandFit> fit_hand(const HandShape& shape, const HandPoints& points
     const Eigen::Vector3d base = mirrored_if(side, points[hand_joint(f, 0)]);
     for (std::size_t i = 0; i < 3; ++i) {
       target.col(static_cast<Eigen::Index>(i)) =
-          shape.base[f] +
+          sizes.base[f] +
           rotation.transpose() * (mirrored_if(side, points[hand_joint(f, i + 1)]) - base) / scale;
     }
     double* const angles = &fit.angles[kFirstAngle[f]];
-    angles_of_directions(target, shape.base[f], f, angles);
-    squares += refine_finger(shape, target, f, angles);
+    angles_of_directions(target, sizes.base[f], f, angles);
+    squares += refine_finger(sizes, target, f, angles);
   }
   fit.frame_from_hand = mirrored_if(side, rotation);
-  fit.scale = scale / shape.palm;
+  fit.scale = scale / sizes.palm;
   fit.error =
-      shape.palm * std::sqrt((squares + (to / scale - rotation * from).squaredNorm()) / kHandJointCount);
+      sizes.palm * std::sqrt((squares + (to / scale - rotation * from).squaredNorm()) / kHandJointCount);
   return fit;
 }
 
-HandShape measured_shape(const HandPoints& points, const HandFit& fit, Side side) {
-  static const HandShape average = average_hand(1.0);
+HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side) {
+  static const HandSizes average = average_hand(1.0);
   constexpr double kMost = 1.0 / 3.0;
-  HandShape shape = average;
+  HandSizes sizes = average;
   const auto hand = [&](std::size_t i) -> Eigen::Vector3d {
     return mirrored_if(side, Eigen::Vector3d(fit.frame_from_hand.transpose() * (points[i] - points[0])));
   };
   const double palm = (points[hand_joint(2, 0)] - points[0]).norm();
   if (!(palm > 0.0)) {
-    return shape;
+    return sizes;
   }
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     const Eigen::Vector3d off = hand(hand_joint(f, 0)) / palm - average.base[f];
-    shape.base[f] += off * std::min(1.0, kMost * average.base[f].norm() / std::max(1e-12, off.norm()));
+    sizes.base[f] += off * std::min(1.0, kMost * average.base[f].norm() / std::max(1e-12, off.norm()));
     for (std::size_t i = 0; i < 3; ++i) {
       const double length = (hand(hand_joint(f, i + 1)) - hand(hand_joint(f, i))).norm() / palm;
-      shape.bone[f][i] *= std::clamp(length / average.bone[f][i], 1.0 - kMost, 1.0 + kMost);
+      sizes.bone[f][i] *= std::clamp(length / average.bone[f][i], 1.0 - kMost, 1.0 + kMost);
     }
   }
-  return shape;
+  return sizes;
 }
 
 }  // namespace telemime

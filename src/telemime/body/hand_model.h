@@ -20,6 +20,11 @@ inline constexpr std::array<std::string_view, kHandJointCount> kHandJointNames =
     "index_dip", "index_tip", "middle_mcp", "middle_pip", "middle_dip", "middle_tip", "ring_mcp",
     "ring_pip",  "ring_dip",  "ring_tip",   "little_mcp", "little_pip", "little_dip", "little_tip"};
 using HandPoints = std::array<Eigen::Vector3d, kHandJointCount>;
+inline HandPoints points_at_origin() {
+  HandPoints points;
+  points.fill(Eigen::Vector3d::Zero());
+  return points;
+}
 
 /// Thumb, index, middle, ring and little finger, in the order of the joints.
 inline constexpr std::size_t kFingerCount = 5;
@@ -61,7 +66,7 @@ WristAngles wrist_angles(const Eigen::Matrix3d& forearm_from_hand);
 /// Sizes of a person's hand, constant for one person. Lengths but `palm` are shares of the palm, places are
 /// those of a left hand in its frame: the wrist at the origin, the fingers of the flat hand along -y, the
 /// palm facing -x, the thumb on the side of +z.
-struct HandShape {
+struct HandSizes {
   double palm = 0.086;                                   ///< wrist to middle knuckle, m
   std::array<Eigen::Vector3d, kFingerCount> base;        ///< of each finger
   std::array<std::array<double, 3>, kFingerCount> bone;  ///< lengths from the base to the tip
@@ -69,7 +74,7 @@ struct HandShape {
 
 /// Average proportions (Buchholz, Armstrong & Goldstein, Ergonomics 35, 1992) for this stature (m). The
 /// palm's length is that of de Leva (1996), the mean of women and men.
-HandShape average_hand(double stature);
+HandSizes average_hand(double stature);
 
 /// Rotations of the three bones of each finger, parent from bone, in the axes of the flat hand: identity for
 /// 0.
@@ -78,24 +83,24 @@ std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> finger_rotations(const 
 
 /// Forward kinematics: m, in the frame of `frame_from_hand`. A right hand is the mirror image (x = 0) of a
 /// left.
-HandPoints hand_points(const HandShape& shape, const HandAngles& angles, Side side,
+HandPoints hand_points(const HandSizes& sizes, const HandAngles& angles, Side side,
                        const Eigen::Isometry3d& frame_from_hand);
 
 /// The hand that fits 21 points best.
 struct HandFit {
   Eigen::Matrix3d frame_from_hand;
   HandAngles angles;
-  double scale = 1.0;  ///< of the points per m of the shape
-  double error = 0.0;  ///< root mean square distance from the points, m of the shape
+  double scale = 1.0;  ///< of the points per m of the sizes
+  double error = 0.0;  ///< root mean square distance from the points, m of the sizes
 };
 
 /// Fits the model to points in any unit: the palm in closed form (Kabsch 1976), each finger by its directions
 /// and a few steps of Gauss-Newton within the limits. Empty if the points are not finite or are no larger
 /// than a point.
-std::optional<HandFit> fit_hand(const HandShape& shape, const HandPoints& points, Side side);
+std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side);
 
-/// What 21 points say of a hand's sizes, given their fit; with shape.palm. In shares of the palm, each within
+/// What 21 points say of a hand's sizes, given their fit; with sizes.palm. In shares of the palm, each within
 /// a third of the average.
-HandShape measured_shape(const HandPoints& points, const HandFit& fit, Side side);
+HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side);
 
 }  // namespace telemime

@@ -41,15 +41,15 @@ TEST(HandModel, FitFindsTheAnglesOfItsPoints) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     for (const Side side : {Side::left, Side::right}) {
-      const HandShape shape = average_hand(random.uniform(1.5, 2.0));
+      const HandSizes sizes = average_hand(random.uniform(1.5, 2.0));
       const HandAngles angles = random_angles(random);
       const Eigen::Isometry3d place = random_place(random);
-      HandPoints points = hand_points(shape, angles, side, place);
+      HandPoints points = hand_points(sizes, angles, side, place);
       const double unit = random.uniform(0.1, 1000.0);
       for (Eigen::Vector3d& p : points) {
         p *= unit;
       }
-      const auto fit = fit_hand(shape, points, side);
+      const auto fit = fit_hand(sizes, points, side);
       ASSERT_TRUE(fit);
       EXPECT_LT(fit->error, 1e-4);
       EXPECT_NEAR(fit->scale, unit, 1e-6 * unit);
@@ -66,18 +66,18 @@ TEST(HandModel, NoisyPointsStayNearTheHand) {
   double squares = 0.0;
   constexpr int kTurns = 100;
   for (int i = 0; i < kTurns; ++i) {
-    const HandShape shape = average_hand(1.72);
+    const HandSizes sizes = average_hand(1.72);
     const Eigen::Isometry3d place = random_place(random);
-    const HandPoints truth = hand_points(shape, random_angles(random), Side::right, place);
+    const HandPoints truth = hand_points(sizes, random_angles(random), Side::right, place);
     HandPoints points = truth;
     for (Eigen::Vector3d& p : points) {
       p += 0.004 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     }
-    const auto fit = fit_hand(shape, points, Side::right);
+    const auto fit = fit_hand(sizes, points, Side::right);
     ASSERT_TRUE(fit && within_limits(fit->angles));
     Eigen::Isometry3d placed = place;
     placed.linear() = fit->frame_from_hand;
-    const HandPoints found = hand_points(shape, fit->angles, Side::right, placed);
+    const HandPoints found = hand_points(sizes, fit->angles, Side::right, placed);
     for (std::size_t j = 0; j < kHandJointCount; ++j) {
       squares += (found[j] - truth[j]).squaredNorm() / kHandJointCount;
     }
@@ -101,8 +101,8 @@ TEST(HandModel, AnyGarbageGivesAnglesWithinLimits) {
       EXPECT_TRUE(!fit || (within_limits(fit->angles) && fit->frame_from_hand.allFinite() &&
                            std::isfinite(fit->error) && fit->scale > 0.0));
       if (fit) {
-        const HandShape shape = measured_shape(points, *fit, side);
-        EXPECT_TRUE(hand_points(shape, fit->angles, side, Eigen::Isometry3d::Identity())[20].allFinite());
+        const HandSizes sizes = measured_sizes(points, *fit, side);
+        EXPECT_TRUE(hand_points(sizes, fit->angles, side, Eigen::Isometry3d::Identity())[20].allFinite());
       }
     }
   }
@@ -117,9 +117,9 @@ TEST(HandModel, AnyGarbageGivesAnglesWithinLimits) {
 TEST(HandModel, RightHandMirrorsLeftHand) {
   Random random(4);
   const HandAngles angles = random_angles(random);
-  const HandShape shape = average_hand(1.72);
-  const HandPoints left = hand_points(shape, angles, Side::left, Eigen::Isometry3d::Identity());
-  HandPoints right = hand_points(shape, angles, Side::right, Eigen::Isometry3d::Identity());
+  const HandSizes sizes = average_hand(1.72);
+  const HandPoints left = hand_points(sizes, angles, Side::left, Eigen::Isometry3d::Identity());
+  HandPoints right = hand_points(sizes, angles, Side::right, Eigen::Isometry3d::Identity());
   for (std::size_t j = 0; j < kHandJointCount; ++j) {
     EXPECT_LT((left[j] - Eigen::Vector3d(-right[j].x(), right[j].y(), right[j].z())).norm(), 1e-12);
     right[j].x() += 1e-3 * random.normal();
@@ -128,17 +128,17 @@ TEST(HandModel, RightHandMirrorsLeftHand) {
   for (Eigen::Vector3d& p : mirror) {
     p.x() = -p.x();
   }
-  EXPECT_EQ(fit_hand(shape, right, Side::right)->angles, fit_hand(shape, mirror, Side::left)->angles);
+  EXPECT_EQ(fit_hand(sizes, right, Side::right)->angles, fit_hand(sizes, mirror, Side::left)->angles);
 }
 
 TEST(HandModel, FingersBendTowardThePalm) {
-  const HandShape shape = average_hand(1.72);
+  const HandSizes sizes = average_hand(1.72);
   HandAngles fist{};
   for (std::size_t a = 4; a < kHandAngleCount; ++a) {
     fist[a] = (a - 4) % 3 == 1 ? 0.0 : std::numbers::pi / 2.0;
   }
-  const HandPoints flat = hand_points(shape, {}, Side::left, Eigen::Isometry3d::Identity());
-  const HandPoints bent = hand_points(shape, fist, Side::left, Eigen::Isometry3d::Identity());
+  const HandPoints flat = hand_points(sizes, {}, Side::left, Eigen::Isometry3d::Identity());
+  const HandPoints bent = hand_points(sizes, fist, Side::left, Eigen::Isometry3d::Identity());
   EXPECT_NEAR(flat[12].x(), 0.0, 1e-12);
   EXPECT_LT(flat[12].y(), -0.15) << "a flat hand is longer than 15 cm";
   EXPECT_GT(flat[4].z(), 0.05) << "the thumb is on the side of +z";
@@ -148,18 +148,18 @@ TEST(HandModel, FingersBendTowardThePalm) {
 
 TEST(HandModel, MeasuredShapeIsThatOfThePoints) {
   Random random(5);
-  HandShape shape = average_hand(1.72);
+  HandSizes sizes = average_hand(1.72);
   for (std::size_t f = 0; f < kFingerCount; ++f) {
-    for (double& bone : shape.bone[f]) {
+    for (double& bone : sizes.bone[f]) {
       bone *= random.uniform(0.85, 1.15);
     }
   }
-  const HandPoints points = hand_points(shape, resting_hand(), Side::right, random_place(random));
-  const HandShape found = measured_shape(points, *fit_hand(shape, points, Side::right), Side::right);
+  const HandPoints points = hand_points(sizes, resting_hand(), Side::right, random_place(random));
+  const HandSizes found = measured_sizes(points, *fit_hand(sizes, points, Side::right), Side::right);
   for (std::size_t f = 0; f < kFingerCount; ++f) {
-    EXPECT_LT((found.base[f] - shape.base[f]).norm(), 1e-6);
+    EXPECT_LT((found.base[f] - sizes.base[f]).norm(), 1e-6);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(found.bone[f][i], shape.bone[f][i], 1e-6);
+      EXPECT_NEAR(found.bone[f][i], sizes.bone[f][i], 1e-6);
     }
   }
 }

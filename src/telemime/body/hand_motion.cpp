@@ -27,7 +27,7 @@ void place_hands(const Kinematics& kinematics, HandMotions& hands) {
     Eigen::Isometry3d camera_from_hand = Eigen::Isometry3d::Identity();
     camera_from_hand.linear() = forearm * wrist_rotation(hand.wrist);
     camera_from_hand.translation() = kinematics.joints[arm.wrist];
-    hand.joints = hand_points(hand.shape, hand.angles, side, camera_from_hand);
+    hand.joints = hand_points(hand.sizes, hand.angles, side, camera_from_hand);
   }
 }
 

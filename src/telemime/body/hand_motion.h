@@ -12,7 +12,7 @@ namespace telemime {
 /// A hand in one frame. What was seen of it is attached at the wrist of the body, whose pose it does not
 /// change.
 struct HandMotion {
-  HandShape shape = average_hand(1.72);
+  HandSizes sizes = average_hand(1.72);
   HandAngles angles = resting_hand();
   /// camera_from_hand as it was seen; empty: as the body's hand.
   std::optional<Eigen::Quaterniond> seen;
@@ -20,8 +20,8 @@ struct HandMotion {
   double spread = 0.0;      ///< standard deviation of a joint relative to the wrist, m
 
   // Set by place_hands().
-  WristAngles wrist;
-  HandPoints joints{};  ///< m, camera frame
+  WristAngles wrist{};
+  HandPoints joints = points_at_origin();  ///< m, camera frame
 };
 using HandMotions = std::array<HandMotion, 2>;  ///< by Side
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "telemime/body/face_motion.h"
+#include "telemime/body/hand_motion.h"
 #include "telemime/body/pose.h"
 #include "telemime/body/skeleton.h"
 #include "telemime/core/camera.h"
@@ -35,6 +36,7 @@ struct MotionFrame {
   Pose pose;                                          ///< when lost: the last known pose, or the rest pose
   JointPositions joints;                              ///< m, camera frame
   std::array<Eigen::Vector2d, kJointCount> pixels{};  ///< of the INPUT image, integer = pixel centre
+  std::optional<HandMotions> hands;                   ///< empty: hands are not tracked
   std::optional<FaceMotion> face;                     ///< empty: no face was looked for or none is seen
   std::optional<PoseSpread> spread;                   ///< empty for methods that keep a single pose
   double region_score = 0.0;                          ///< F, in [0, 1]

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "telemime/nets/face_landmarks.h"
+#include "telemime/nets/hand_landmarks.h"
 #include "telemime/nets/pose_landmarks.h"
 
 namespace telemime {
@@ -30,6 +32,12 @@ struct HeadRegion {
       false;  ///< true: by the face detector in this frame; false: by tracking or from the outline
 };
 
+/// What the networks see of a hand in one frame.
+struct SeenHand {
+  bool looked = false;                 ///< it was searched; hands may take turns
+  std::optional<HandLandmarks> found;  ///< in pixels of the working image
+};
+
 /// What is extracted from one frame: all that the likelihood and the search see of the image. The planes have
 /// the size of the working image, h x w.
 struct FrameFeatures {
@@ -43,6 +51,10 @@ struct FrameFeatures {
   /// The person's face, in pixels of the frame's own image; empty: faces are not looked for, or none is seen.
   std::optional<FaceLandmarks> face;
 
+  /// The hands where the person's left and right hand should be; whose they are is for the search side to
+  /// decide. Empty: hands are not tracked.
+  std::optional<std::array<SeenHand, 2>> hands;
+
   /// The rest is filled in by extract() (tracker/track_frame.h).
   std::int64_t frame = 0;             ///< index of the frame
   double time = 0.0;                  ///< of the frame, s
@@ -52,8 +64,9 @@ struct FrameFeatures {
   std::string note;                   ///< why the person's colours are not known
   std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
   double ms = 0.0;                    ///< time that the image side took
-  double networks_ms = 0.0;           ///< part of it that the networks took
+  double networks_ms = 0.0;           ///< part of it that the networks of the body took
   double face_ms = 0.0;               ///< and the face
+  double hands_ms = 0.0;              ///< and the hands
 };
 
 }  // namespace telemime

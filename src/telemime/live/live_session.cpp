@@ -224,6 +224,7 @@ struct LiveSession::State {
     slot->record.features = extract(*frame, colours, run->scene);
     slot->times.seen = clock.now();
     slot->times.networks_ms = slot->record.features.networks_ms;
+    run->scene.hands_in_turn = request.keep_pace && falls_behind(slot->times, extracted);
     exchange.publish();
     return true;
   }
@@ -313,7 +314,7 @@ struct LiveSession::State {
   double last_stamp;                       // of the image side: Frame::taken of the last frame
   std::optional<MotionFrame> last_motion;  // of the search side, handed out
   Pace pace;                               // of the search side
-  FrameTimes followed;                     // of the last frame on the search side
+  FrameTimes extracted, followed;          // of the last frame on the image and on the search side
   double last_taken = 0.0;                 // of the same frame
   std::unique_ptr<Smoother> smoother;      // of the search side
   MessageDeduplicator reported;            // of the search thread

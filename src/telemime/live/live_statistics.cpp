@@ -44,6 +44,13 @@ double InputRate::believable(double stated) const {
   return rate < 0.5 * stated || rate > 1.1 * stated ? rate : stated;
 }
 
+bool falls_behind(const FrameTimes& now, FrameTimes& before) {
+  const auto frames = static_cast<double>(now.index - before.index);
+  const bool late = frames > 0.0 && now.seen - now.begun > (now.taken - before.taken) / frames;
+  before = now;
+  return late;
+}
+
 double usable_stamp(double taken, double last, double now) {
   constexpr double kOldest = 10.0;                             // s: no frame waits so long
   const bool usable = taken <= now && now - taken <= kOldest;  // neither of a NaN

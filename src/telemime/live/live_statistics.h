@@ -31,6 +31,10 @@ struct StageTimes {
   double total_p95 = 0.0;
 };
 
+/// Whether the image side took longer for a frame than the camera takes between two: then hands take turns.
+/// `before` is the last frame and becomes this one.
+bool falls_behind(const FrameTimes& now, FrameTimes& before);
+
 struct LiveRates {
   double input = 0.0;    ///< frames per second that the camera delivered
   double tracked = 0.0;  ///< frames per second that were tracked

@@ -131,5 +131,15 @@ TEST(InputRate, AnInterruptionDoesNotCount) {
   EXPECT_EQ(rate.believable(30.0), 30.0);
 }
 
+TEST(LiveStatistics, ImageSideFallsBehindTheCamera) {
+  FrameTimes before{.index = 3, .taken = 1.0, .begun = 1.0, .seen = 1.02};
+  EXPECT_FALSE(falls_behind({.index = 4, .taken = 1.04, .begun = 1.04, .seen = 1.07}, before));
+  EXPECT_EQ(before.index, 4);
+  EXPECT_TRUE(falls_behind({.index = 6, .taken = 1.12, .begun = 1.12, .seen = 1.17}, before))
+      << "50 of 40 ms";
+  EXPECT_FALSE(falls_behind({.index = 6, .taken = 1.12, .begun = 1.12, .seen = 1.17}, before))
+      << "no new frame";
+}
+
 }  // namespace
 }  // namespace telemime

@@ -17,6 +17,13 @@ constexpr double kLeastPresence = 0.5;
 
 enum Output : std::size_t { kLandmarks, kPresence, kHandedness, kWorld };
 
+PictureRegion square_of(const Eigen::Vector2d& centre, double side, const Eigen::Vector2d& up) {
+  return {.centre = centre,
+          .width = side,
+          .height = side,
+          .angle = 0.5 * std::numbers::pi - std::atan2(-up.y(), up.x())};
+}
+
 // A generous square from three points of the pose: the hand lies beyond the wrist, about the knuckles.
 PictureRegion rough_region(const PoseLandmarks& pose, HandSide side) {
   const bool left = side == HandSide::left;
@@ -31,10 +38,7 @@ PictureRegion rough_region(const PoseLandmarks& pose, HandSide side) {
   constexpr double kShift = 0.1;  // of the side, away from the wrist
   const Eigen::Vector2d axis = knuckles - wrist;
   const double side_length = 2.0 * axis.norm() * kMargin;
-  PictureRegion region{.centre = knuckles,
-                       .width = side_length,
-                       .height = side_length,
-                       .angle = 0.5 * std::numbers::pi - std::atan2(-axis.y(), axis.x())};
+  PictureRegion region = square_of(knuckles, side_length, axis);
   region.centre = region.pixel({0.5, 0.5 - kShift});
   return region;
 }
@@ -48,21 +52,48 @@ HandNetworks load_hand_networks(const std::filesystem::path& models, HandModel m
               models, model == HandModel::lite ? "hand_landmark_lite" : "hand_landmark_full", outputs)};
 }
 
-std::optional<HandLandmarks> find_hand(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
-                                       HandNetworks& networks) {
+std::optional<PictureRegion> hand_region(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
+                                         HandNetworks& networks) {
+  constexpr double kSmallest = 8.0;  // pixels
   // The cropper gives the hand's middle and a point below it, at half a side's distance.
   const PictureRegion rough = rough_region(pose, side);
+  if (!(rough.width >= kSmallest)) {
+    return std::nullopt;
+  }
   const InputFormat cropper_format{.size = {kCropperInput, kCropperInput}};
   const auto corners = networks.cropper.run(network_input(picture, rough, cropper_format))[0];
   const Eigen::Vector2d middle = rough.pixel(Eigen::Vector2d(corners[0], corners[1]) / kCropperInput);
   const Eigen::Vector2d below = rough.pixel(Eigen::Vector2d(corners[2], corners[3]) / kCropperInput);
-  const Eigen::Vector2d up = middle - below;
-  const double length = 2.0 * up.norm();
+  const PictureRegion region = square_of(middle, 2.0 * (middle - below).norm(), middle - below);
+  return region.width >= kSmallest ? std::optional(region) : std::nullopt;
+}
+
+PictureRegion next_region(const HandLandmarks& hand) {
+  // The palm, thumb and middle joints, whose extent changes little when the hand closes.
+  constexpr std::array<std::size_t, 12> kSteady = {0, 1, 2, 3, 5, 6, 9, 10, 13, 14, 17, 18};
+  constexpr double kMargin = 2.0;
+  constexpr double kShift = 0.1;  // of the side, toward the fingers
+  const auto pixel = [&](std::size_t i) { return hand.points[i].pixel; };
+  const Eigen::Vector2d up = 0.5 * pixel(10) + 0.25 * (pixel(6) + pixel(14)) - pixel(0);
+  const Eigen::Vector2d axis =
+      up.norm() > 0.0 ? Eigen::Vector2d(up.normalized()) : Eigen::Vector2d(0.0, -1.0);
+  const Eigen::Vector2d across(-axis.y(), axis.x());
+  Eigen::Array2d low = Eigen::Array2d::Constant(INFINITY);
+  Eigen::Array2d high = -low;
+  for (const std::size_t i : kSteady) {
+    const Eigen::Array2d own(pixel(i).dot(axis), pixel(i).dot(across));
+    low = low.min(own);
+    high = high.max(own);
+  }
+  const Eigen::Array2d middle = 0.5 * (low + high);
+  const double side = kMargin * (high - low).maxCoeff();
+  return square_of((middle[0] + kShift * side) * axis + middle[1] * across, side, axis);
+}
+
+std::optional<HandLandmarks> hand_in(const cv::Mat& picture, const PictureRegion& region,
+                                     HandNetworks& networks) {
   HandLandmarks hand;
-  hand.region = {.centre = middle,
-                 .width = length,
-                 .height = length,
-                 .angle = 0.5 * std::numbers::pi - std::atan2(-up.y(), up.x())};
+  hand.region = region;
 
   const InputFormat format{.size = {kLandmarkerInput, kLandmarkerInput}};
   const auto outputs = networks.landmarker.run(network_input(picture, hand.region, format));
@@ -81,6 +112,12 @@ std::optional<HandLandmarks> find_hand(const cv::Mat& picture, const PoseLandmar
     point.world.z() = world[2];
   }
   return hand;
+}
+
+std::optional<HandLandmarks> find_hand(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
+                                       HandNetworks& networks) {
+  const auto region = hand_region(picture, pose, side, networks);
+  return region ? hand_in(picture, *region, networks) : std::nullopt;
 }
 
 }  // namespace telemime

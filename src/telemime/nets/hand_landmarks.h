@@ -45,8 +45,19 @@ enum class HandModel { lite, full };
 /// Reads hand_recrop and hand_landmark_lite or _full. Throws Error(config) if one is missing.
 HandNetworks load_hand_networks(const std::filesystem::path& models, HandModel model = HandModel::full);
 
-/// The points of one hand of the person in a BGR picture (CV_8UC3). The pose says where the hand is; no palm
-/// detector is needed. Empty if the networks see no hand there.
+/// Where the pose says that a hand is: a square about it, turned so that the fingers point up in it. Empty if
+/// the hand would be smaller than a few pixels. BGR picture (CV_8UC3); no palm detector is needed.
+std::optional<PictureRegion> hand_region(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
+                                         HandNetworks& networks);
+
+/// The same from a hand that was seen in the frame before.
+PictureRegion next_region(const HandLandmarks& hand);
+
+/// The points of a hand in this region of a BGR picture (CV_8UC3); empty if the network sees no hand there.
+std::optional<HandLandmarks> hand_in(const cv::Mat& picture, const PictureRegion& region,
+                                     HandNetworks& networks);
+
+/// The points of one hand of the person where the pose says that it is.
 std::optional<HandLandmarks> find_hand(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
                                        HandNetworks& networks);
 

@@ -87,6 +87,26 @@ void draw_face(cv::Mat& canvas, const OverlayView& view, double unit) {
   }
 }
 
+// The fingers of hands that are seen.
+void draw_hands(cv::Mat& canvas, const MotionFrame& motion, const Camera& camera, double unit) {
+  constexpr double kNearest = 0.01;  // m
+  const int thick = std::max(1, static_cast<int>(std::lround(unit)));
+  for (std::size_t side = 0; motion.hands && side < 2; ++side) {
+    const HandMotion& hand = (*motion.hands)[side];
+    const auto at = [&](std::size_t joint) {
+      Eigen::Vector3d p = hand.joints[joint];
+      p.z() = std::max(p.z(), kNearest);
+      const Eigen::Vector2d pixel = camera.project(p);
+      return fixed(pixel.x(), pixel.y());
+    };
+    for (std::size_t joint = 1; hand.visibility > 0.0 && joint < kHandJointCount; ++joint) {
+      const std::size_t parent = joint % 4 == 1 ? 0 : joint - 1;
+      cv::line(canvas, at(parent), at(joint), cv::Scalar(0, 0, 0), thick + 2, cv::LINE_AA, kFractionBits);
+      cv::line(canvas, at(parent), at(joint), side == 0 ? kLeft : kRight, thick, cv::LINE_AA, kFractionBits);
+    }
+  }
+}
+
 void draw_contour(cv::Mat& canvas, const OverlayView& view, const Camera& camera) {
   Rendering rendering;
   std::vector<Eigen::Vector2f> contour;
@@ -164,6 +184,7 @@ cv::Mat draw_overlay(const cv::Mat& image, const OverlayView& view) {
     const Camera camera = view.camera.scaled_to(image.cols, image.rows);
     draw_contour(picture, view, camera);
     draw_skeleton(picture, view, camera, unit);
+    draw_hands(picture, *view.motion, camera, unit);
     cv::Mat top = panel.rowRange(0, top_rows);
     draw_top_view(top, *view.motion, unit);
   }

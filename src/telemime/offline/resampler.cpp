@@ -23,6 +23,19 @@ Pose blend(const Pose& a, const Pose& b, double share) {
   return pose_of(mixed, a);
 }
 
+HandMotions blend(const HandMotions& a, const HandMotions& b, double share) {
+  HandMotions mixed = share < 0.5 ? a : b;
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t i = 0; i < kHandAngleCount; ++i) {
+      mixed[side].angles[i] = a[side].angles[i] + share * (b[side].angles[i] - a[side].angles[i]);
+    }
+    if (a[side].seen && b[side].seen) {
+      mixed[side].seen = a[side].seen->slerp(share, *b[side].seen);
+    }
+  }
+  return mixed;
+}
+
 }  // namespace
 
 MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, double time) const {
@@ -32,7 +45,11 @@ MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, doubl
     return b;
   }
   if (gap <= longest_gap_ && a.state == TrackState::tracking && b.state == TrackState::tracking) {
-    return with_pose(share < 0.5 ? a : b, blend(a.pose, b.pose, share), body_, camera_);
+    MotionFrame mixed = share < 0.5 ? a : b;
+    if (a.hands && b.hands) {
+      mixed.hands = blend(*a.hands, *b.hands, share);
+    }
+    return with_pose(mixed, blend(a.pose, b.pose, share), body_, camera_);
   }
   MotionFrame held = a;
   if (gap > longest_gap_) {

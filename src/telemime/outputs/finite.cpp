@@ -27,6 +27,17 @@ bool face_is_finite(const FaceMotion& face) {
                      [](double value) { return std::isfinite(value); });
 }
 
+bool hands_are_finite(const HandMotions& hands) {
+  return std::all_of(hands.begin(), hands.end(), [](const HandMotion& hand) {
+    const auto finite = [](double a) { return std::isfinite(a); };
+    return finite(hand.visibility) && finite(hand.spread) && finite(hand.wrist.twisting) &&
+           finite(hand.wrist.pivot) && finite(hand.wrist.flexion) &&
+           std::all_of(hand.angles.begin(), hand.angles.end(), finite) &&
+           std::all_of(hand.joints.begin(), hand.joints.end(),
+                       [](const Eigen::Vector3d& p) { return p.allFinite(); });
+  });
+}
+
 double finite_or(double value, double otherwise) {
   return std::isfinite(value) ? value : otherwise;
 }
@@ -48,6 +59,10 @@ MotionFrame FiniteFrames::operator()(const MotionFrame& frame) {
     clean.pose = last_.pose;
     clean.joints = last_.joints;
     clean.pixels = last_.pixels;
+    clean.hands = last_.hands;
+  }
+  if (clean.hands && !hands_are_finite(*clean.hands)) {
+    clean.hands = last_.hands;
   }
   for (std::size_t j = 0; j < kJointCount; ++j) {
     if (!clean.pixels[j].allFinite()) {

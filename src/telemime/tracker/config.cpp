@@ -132,6 +132,7 @@ SettingTable settings_of(Config& c) {
              "Threads of the particle filter; 0: one for each processor."),
       text("cues", c.cue_names, {},
            "What the image is compared by, separated by commas: " + cue_list() + "."),
+      flag("hands", c.hands, "Track the fingers, where networks find the person."),
       text("backend", c.backend, back_end_choices(), "Implementation that evaluates poses."),
       text("limits", c.limits, {}, "Joint limits: anatomical, reference (of the thesis) or a JSON file."),
   };
@@ -160,6 +161,12 @@ bool uses_networks(const Config& config) {
 bool uses_face(const Config& config) {
   const std::vector<std::string> names = {"face_detection_short_range", "face_landmark_with_attention"};
   return config.face && uses_networks(config) &&
+         missing_models(find_models(config.image.models), names).empty();
+}
+
+bool uses_hands(const Config& config) {
+  const std::vector<std::string> names = {"hand_recrop", "hand_landmark_full"};
+  return config.hands && uses_networks(config) &&
          missing_models(find_models(config.image.models), names).empty();
 }
 

@@ -31,7 +31,7 @@ struct TrackingConfig {
   double velocity = 0.5;
 };
 
-/// The whole configuration. A setting whose name has no dot is one of the fourteen public ones, which are
+/// The whole configuration. A setting whose name has no dot is one of the fifteen public ones, which are
 /// options of the program, too; all others are for experts.
 struct Config {
   std::string quality = "balanced";
@@ -51,6 +51,7 @@ struct Config {
   TrajectoryConfig offline;
   bool face = true;
   std::string cue_names = "regions,contours,landmarks,bones";
+  bool hands = true;
   CueTable cues;  ///< what the image is compared by; set by add_cue(), not by a file
 
   /// The working image has 320x240 pixels, or as many in the shape of the input (fitted_to).
@@ -70,6 +71,10 @@ bool uses_networks(const Config& config);
 
 /// Whether the person's face is tracked: networks find the person, and those of faces are installed.
 bool uses_face(const Config& config);
+
+/// Whether the hands of the person are tracked: the networks find the person, and those of hands are
+/// installed.
+bool uses_hands(const Config& config);
 
 /// Does `tracking.method` use the particle filter?
 bool uses_filter(const Config& config);

@@ -8,6 +8,7 @@
 
 #include "telemime/body/rotations.h"
 #include "telemime/tracker/face_smoother.h"
+#include "telemime/tracker/hand_smoother.h"
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {
@@ -69,7 +70,8 @@ class NoSmoother final : public Smoother {
 /// What all filters share: when to restart, and how a smoothed pose becomes a frame.
 class RotationSmoother : public Smoother {
  public:
-  RotationSmoother(const Body& body, const Camera& camera) : body_(body), camera_(camera) {}
+  RotationSmoother(const Body& body, const Camera& camera, const HandSmoothing& hands)
+      : body_(body), camera_(camera), hands_(hands) {}
 
   MotionFrame operator()(const MotionFrame& frame) final {
     MotionFrame result = steadied_body(frame);
@@ -97,13 +99,19 @@ class RotationSmoother : public Smoother {
       update(measured, noise_of(frame, camera_), step);
     } else {
       start(measured);
+      hands_.restart();
     }
     last_time_ = frame.time;
-    return with_pose(frame, pose_of(smooth_, frame.pose), body_, camera_);
+    MotionFrame result = with_pose(frame, pose_of(smooth_, frame.pose), body_, camera_);
+    if (frame.hands) {
+      result.hands = hands_(*frame.hands, forward_kinematics(body_, result.pose), step);
+    }
+    return result;
   }
 
   Body body_;
   Camera camera_;
+  HandSmoother hands_;
   std::optional<double> last_time_;
   FaceSmoother face_;
 };
@@ -112,7 +120,8 @@ class RotationSmoother : public Smoother {
 class RecursiveSmoother final : public RotationSmoother {
  public:
   RecursiveSmoother(const Body& body, const Camera& camera, double coefficient)
-      : RotationSmoother(body, camera), present_(1.0 - coefficient) {}
+      : RotationSmoother(body, camera, {.one_euro = {}, .share = 1.0 - coefficient}),
+        present_(1.0 - coefficient) {}
 
  private:
   void start(const JointRotations& measured) override { smooth_ = measured; }
@@ -132,9 +141,10 @@ class RecursiveSmoother final : public RotationSmoother {
 
 class OneEuroSmoother final : public RotationSmoother {
  public:
-  OneEuroSmoother(const Body& body, const Camera& camera, const OneEuroOptions& angles,
-                  const OneEuroOptions& root)
-      : RotationSmoother(body, camera), angles_(angles), root_(root) {}
+  OneEuroSmoother(const Body& body, const Camera& camera, const SmoothingOptions& options)
+      : RotationSmoother(body, camera, {.one_euro = options.hands, .share = {}}),
+        angles_(options.angles),
+        root_(options.root) {}
 
  private:
   void start(const JointRotations& measured) override {
@@ -198,13 +208,18 @@ SettingTable settings_of(SmoothingOptions& o) {
                        "Share of the past in the recursive filter (equation 4.30).")};
   table.append(one_euro_settings(o.angles, "smoother.angles", "rad/s"));
   table.append(one_euro_settings(o.root, "smoother.root", "m/s"));
+  table.append(one_euro_settings(o.hands, "smoother.hands", "rad/s"));
   return table;
 }
 
 MotionFrame with_pose(const MotionFrame& frame, const Pose& pose, const Body& body, const Camera& camera) {
   MotionFrame result = frame;
   result.pose = pose;
-  result.joints = forward_kinematics(body, pose).joints;
+  const Kinematics kinematics = forward_kinematics(body, pose);
+  result.joints = kinematics.joints;
+  if (result.hands) {
+    place_hands(kinematics, *result.hands);
+  }
   for (std::size_t j = 0; j < kJointCount; ++j) {
     const Eigen::Vector3d& before = frame.joints.at[j];
     const Eigen::Vector3d& after = result.joints.at[j];
@@ -225,7 +240,7 @@ std::unique_ptr<Smoother> make_smoother(const SmoothingOptions& options, const B
   if (options.name == "recursive") {
     return std::make_unique<RecursiveSmoother>(body, camera, options.recursive_coefficient);
   }
-  return std::make_unique<OneEuroSmoother>(body, camera, options.angles, options.root);
+  return std::make_unique<OneEuroSmoother>(body, camera, options);
 }
 
 }  // namespace telemime

@@ -18,6 +18,7 @@ struct SmoothingOptions {
   double recursive_coefficient = 0.6;
   OneEuroOptions angles = {1.0, 4.0, 1.0};
   OneEuroOptions root = {1.0, 10.0, 1.0};
+  OneEuroOptions hands = {1.5, 1.5, 1.0};
   int look_ahead = 12;
 };
 
@@ -31,11 +32,11 @@ inline constexpr double kTimeUnit = 1.0 / kUnitsPerSecond;  ///< s
 inline constexpr double kLongestGap = 1.0;
 
 /// Steadies a stream of frames; the One-Euro filter smooths an arm outside the image more. Rotations are
-/// smoothed, not angles, so that nothing happens where angles jump; the joints follow by forward kinematics
-/// and the pixels by what the joints move in the image. A lost frame, or one that is not finite, passes
-/// unchanged and ends the memory; so does a time that does not advance or that advances more than
-/// kLongestGap. The face is steadied in lost frames, too. Smoothed angles may leave the joint limits by
-/// little.
+/// smoothed, not angles (those of fingers excepted), so that nothing happens where angles jump; the joints
+/// follow by forward kinematics and the pixels by what the joints move in the image. A lost frame, or one
+/// that is not finite, passes unchanged and ends the memory; so does a time that does not advance or that
+/// advances more than kLongestGap. The face is steadied in lost frames, too. Smoothed angles may leave the
+/// joint limits by little.
 class Smoother {
  public:
   Smoother() = default;

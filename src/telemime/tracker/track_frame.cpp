@@ -58,6 +58,9 @@ FrameEstimate begin_estimate(const FrameFeatures& features, const TrackerState& 
   if (features.face_ms > 0.0) {
     result.motion.stage_ms.emplace_back("face", features.face_ms);
   }
+  if (features.hands) {
+    result.motion.stage_ms.emplace_back("hands", features.hands_ms);
+  }
   result.note = features.note;
   return result;
 }
@@ -135,6 +138,17 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
   return found.score;
 }
 
+// The hands at the wrists of the pose that was found; at rest while nobody is tracked.
+HandMotions hands_of(const FrameFeatures& features, const Tracker& tracker, TrackerState& state) {
+  const bool tracking = state.phase == Phase::tracking;
+  return observe_hands(tracking ? *features.hands : std::array<SeenHand, 2>{},
+                       {.body = state.model.body,
+                        .kinematics = forward_kinematics(state.model.body, state.pose),
+                        .camera = tracker.working_camera,
+                        .time = features.time},
+                       state.hands);
+}
+
 // The best pose of each mode of the posterior, for the passes over a whole file.
 std::vector<Pose> modes_of(const Tracker& tracker, const TrackerState& state) {
   return state.filter.started()
@@ -182,6 +196,16 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
     features.face = scene.face.find(frame.image, *features.landmarks, features.labels.size());
     features.face_ms = face.lap();
   }
+  // The hands of the person (docs/hands.md).
+  if (scene.hands.has_networks()) {
+    Stopwatch hands;
+    features.hands.emplace();
+    if (features.landmarks) {
+      features.hands = scene.hands.find(frame.image, *features.landmarks, features.labels.size(), frame.time,
+                                        scene.hands_in_turn);
+    }
+    features.hands_ms = hands.lap();
+  }
   features.frame = frame.index;
   features.time = frame.time;
   features.ms = watch.lap();
@@ -219,6 +243,9 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   result.motion.pose = state.pose;
   place_joints(state.model.body, tracker.camera, result.motion);
   result.motion.face = face_of(features, tracker.camera, state);
+  if (features.hands) {
+    result.motion.hands = hands_of(features, tracker, state);
+  }
   result.motion.stage_ms.emplace_back("search", watch.lap());
   return result;
 }
@@ -240,7 +267,11 @@ double steps_between(double before, double now) {
 }
 
 void place_joints(const Body& body, const Camera& camera, MotionFrame& motion) {
-  motion.joints = forward_kinematics(body, motion.pose).joints;
+  const Kinematics kinematics = forward_kinematics(body, motion.pose);
+  motion.joints = kinematics.joints;
+  if (motion.hands) {
+    place_hands(kinematics, *motion.hands);
+  }
   for (std::size_t i = 0; i < kJointCount; ++i) {
     Eigen::Vector3d p = motion.joints.at[i];
     p.z() = std::max(p.z(), kNearest);

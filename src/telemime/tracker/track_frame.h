@@ -60,7 +60,7 @@ double units_between(double before, double now);
 /// The same as the motion model takes it: at least 0.2 and at most 8.
 double steps_between(double before, double now);
 
-/// Sets joints and pixels of a frame from its pose.
+/// Sets joints and pixels of a frame from its pose, and places its hands.
 void place_joints(const Body& body, const Camera& camera, MotionFrame& motion);
 
 /// Covariances of the joints about the estimate of a filter that follows `state.person`, in this frame.

@@ -17,9 +17,12 @@ Config fitted_to(Config config, const Camera& camera) {
 
 TrackingRun make_tracking_run(const Config& config, const Camera& camera) {
   Config fitted = fitted_to(config, camera);
-  SceneState scene{.features = FeatureExtractor(fitted.image), .face = {}};
+  SceneState scene{.features = FeatureExtractor(fitted.image), .face = {}, .hands = {}};
   if (uses_face(fitted)) {
     scene.face = FaceFinder(find_models(fitted.image.models));
+  }
+  if (uses_hands(fitted)) {
+    scene.hands = HandFinder(find_models(fitted.image.models));
   }
   const bool has_filter = uses_filter(fitted);
   Tracker tracker{.config = fitted,
@@ -57,6 +60,7 @@ void forget_person(TrackingRun& run) {
   state.phase = Phase::waiting;
   state.person.reset();
   state.neutral_face = {};
+  state.hands = {};
   state.known_start.reset();
   state.filter.particles.clear();
   state.heading = 0.0;

@@ -12,7 +12,9 @@
 #include "telemime/core/random.h"
 #include "telemime/image/face_finder.h"
 #include "telemime/image/features.h"
+#include "telemime/image/hand_finder.h"
 #include "telemime/tracker/config.h"
+#include "telemime/tracker/hands.h"
 #include "telemime/tracking/particle_filter.h"
 
 namespace telemime {
@@ -54,6 +56,7 @@ struct TrackerState {
   FilterState filter;                     ///< particles; empty while nobody is tracked or the method has none
   double heading = 0.0;                   ///< torsion of the root that the filter's last step predicted, rad
   Random random{1};                       ///< for every draw outside the filter
+  HandState hands;                        ///< of the person
 
   NeutralFace neutral_face;  ///< of the person
 
@@ -80,10 +83,12 @@ struct Tracker {
   std::unique_ptr<ParticleFilter> filter;  ///< null for the method two-step
 };
 
-/// What `extract` carries from frame to frame: the scene, the person's colours, the head.
+/// What `extract` carries from frame to frame: the scene, the person's colours, the head, the hands.
 struct SceneState {
   FeatureExtractor features;
-  FaceFinder face;  ///< without networks where faces are not tracked
+  FaceFinder face;             ///< without networks where faces are not tracked
+  HandFinder hands{};          ///< without networks where hands are not tracked
+  bool hands_in_turn = false;  ///< one hand in a frame, when time is short
   /// The first frame from which on a head was visible, with the colours that are known now.
   std::int64_t head_since = 0;
   bool relearn_colours = false;  ///< the known colours may be somebody else's

@@ -30,6 +30,20 @@ class CsvEncoder final : public Encoder {
     for (const auto name : kJointNames) {
       line.append(",").append(name).append("_u_px,").append(name).append("_v_px");
     }
+    for (const char* const hand : {",l_hand_", ",r_hand_"}) {
+      line.append(hand).append("visibility").append(hand).append("spread_mm");
+      for (const char* const name : {"wrist_twisting", "wrist_pivot", "wrist_flexion"}) {
+        line.append(hand).append(name).append("_deg");
+      }
+      for (const auto name : kHandAngleNames) {
+        line.append(hand).append(name).append("_deg");
+      }
+      for (const auto name : kHandJointNames) {
+        for (const char* const axis : {"_x_mm", "_y_mm", "_z_mm"}) {
+          line.append(hand).append(name).append(axis);
+        }
+      }
+    }
     line += ",F,D_C,evaluations,face_confidence,head_qx,head_qy,head_qz,head_qw,gaze_left_deg,gaze_up_deg";
     for (const auto name : kExpressionNames) {
       line.append(",").append(name);
@@ -53,6 +67,7 @@ class CsvEncoder final : public Encoder {
       append_cell(line, pixel.x(), 3);
       append_cell(line, pixel.y(), 3);
     }
+    append_hands(line, frame);
     append_cell(line, frame.region_score, 6);
     append_cell(line, frame.contour_score, 6);
     line.append(",").append(std::to_string(frame.evaluations));
@@ -77,6 +92,28 @@ class CsvEncoder final : public Encoder {
   static void append_place(std::string& line, const Eigen::Vector3d& place) {
     for (const double value : place) {
       append_cell(line, value * kMillimetresPerMetre, 2);
+    }
+  }
+
+  // Empty cells where hands are not tracked.
+  static void append_hands(std::string& line, const MotionFrame& frame) {
+    constexpr std::size_t kCells = 2 + 3 + kHandAngleCount + 3 * kHandJointCount;
+    if (!frame.hands) {
+      line.append(2 * kCells, ',');
+      return;
+    }
+    for (const HandMotion& hand : *frame.hands) {
+      append_cell(line, hand.visibility, 3);
+      append_cell(line, hand.spread * kMillimetresPerMetre, 2);
+      for (const double angle : {hand.wrist.twisting, hand.wrist.pivot, hand.wrist.flexion}) {
+        append_cell(line, angle * kDegreesPerRadian, 4);
+      }
+      for (const double angle : hand.angles) {
+        append_cell(line, angle * kDegreesPerRadian, 2);
+      }
+      for (const Eigen::Vector3d& joint : hand.joints) {
+        append_place(line, joint);
+      }
     }
   }
 

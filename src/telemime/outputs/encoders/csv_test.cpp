@@ -31,6 +31,8 @@ TEST(Csv, EveryRowHasEveryColumnAndTheRightNumbers) {
   frames[2].state = TrackState::lost;
   Random random(1);
   frames[1].face = testing_motion::random_face(random);
+  frames[3].hands.emplace();
+  (*frames[3].hands)[1].joints[8] = {0.1, 0.2, 0.5};
   const auto rows = table(testing_motion::encode_all(*make_csv_encoder(), header, frames));
   ASSERT_EQ(rows.size(), 5U);
   const auto cell = [&rows](std::size_t row, const std::string& column) {
@@ -48,6 +50,9 @@ TEST(Csv, EveryRowHasEveryColumnAndTheRightNumbers) {
     EXPECT_NEAR(std::stod(cell(f + 1, "root_y_mm")), 450.0, 0.01);
   }
   EXPECT_EQ(cell(3, "state"), "lost");
+  EXPECT_EQ(cell(3, "r_hand_index_tip_z_mm"), "") << "hands were not tracked";
+  EXPECT_NEAR(std::stod(cell(4, "r_hand_index_tip_z_mm")), 500.0, 0.01);
+  EXPECT_NEAR(std::stod(cell(4, "l_hand_index_pip_deg")), 30.0, 0.01) << "at rest";
   EXPECT_EQ(cell(4, "evaluations"), "700");
   EXPECT_NEAR(std::stod(cell(2, "jawOpen")), (*frames[1].face)[Expression::jaw_open], 1e-3);
   EXPECT_EQ(cell(1, "face_confidence"), "0.000");

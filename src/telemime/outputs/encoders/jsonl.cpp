@@ -111,6 +111,22 @@ Json face_json(const FaceMotion& face) {
           {"expressions", expressions}};
 }
 
+Json hand_json(const HandMotion& hand) {
+  Json angles = Json::array();
+  for (const double angle : hand.angles) {
+    angles.push_back(rounded(angle * kDegreesPerRadian, 2));
+  }
+  Json joints = Json::array();
+  for (const Eigen::Vector3d& joint : hand.joints) {
+    joints.push_back(millimetres(joint));
+  }
+  return {{"visibility", rounded(hand.visibility, 3)},
+          {"spread", millimetres(hand.spread)},
+          {"wrist", {degrees(hand.wrist.twisting), degrees(hand.wrist.pivot), degrees(hand.wrist.flexion)}},
+          {"angles", angles},
+          {"joints", joints}};
+}
+
 /// One line of text; bytes that are not UTF-8 (a file name in a configuration) become replacement characters.
 std::string line(const Json& object) {
   return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -132,6 +148,8 @@ class JsonlEncoder final : public Encoder {
                  {"camera", camera_json(header.camera)},
                  {"joints", kJointNames},
                  {"angles", kAngleNames},
+                 {"hand_joints", kHandJointNames},
+                 {"hand_angles", kHandAngleNames},
                  {"shape", shape_json(header.body.shape)},
                  {"body", body_json(header.body)},
                  {"limits", limits_json(header.limits)},
@@ -170,6 +188,9 @@ class JsonlEncoder final : public Encoder {
                    {"ms", ms}};
     if (frame.face) {
       object["face"] = face_json(*frame.face);
+    }
+    if (frame.hands) {
+      object["hands"] = {{"left", hand_json((*frame.hands)[0])}, {"right", hand_json((*frame.hands)[1])}};
     }
     if (frame.spread) {
       object["spread"] = spread_json(*frame.spread);

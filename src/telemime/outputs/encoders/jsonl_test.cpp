@@ -124,6 +124,50 @@ TEST(Jsonl, BytesThatAreNotTextDoNotStopARun) {
   EXPECT_EQ(parse_pose_jsonl(make_jsonl_encoder()->begin(header), "test").frames.size(), 0U);
 }
 
+TEST(Jsonl, ReadsBackTheHandsThatItWrote) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 2);
+  frames[1].hands.emplace();
+  HandMotion& hand = (*frames[1].hands)[1];
+  hand.visibility = 0.75;
+  hand.spread = 0.0123;
+  hand.angles[5] = 0.2;
+  hand.seen =
+      Eigen::Quaterniond(forward_kinematics(header.body, frames[1].pose)[Segment::r_forearm].linear() *
+                         wrist_rotation({0.3, -0.1, 0.5}));
+  place_hands(forward_kinematics(header.body, frames[1].pose), *frames[1].hands);
+  const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
+  EXPECT_FALSE(file.frames.at(0).hands);
+  ASSERT_TRUE(file.frames.at(1).hands);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const HandMotion& read = (*file.frames[1].hands)[side];
+    const HandMotion& wrote = (*frames[1].hands)[side];
+    EXPECT_NEAR(read.visibility, wrote.visibility, 1e-3);
+    EXPECT_NEAR(read.spread, wrote.spread, 1e-5);
+    EXPECT_NEAR(read.wrist.twisting, wrote.wrist.twisting, 1e-5);
+    EXPECT_NEAR(read.wrist.flexion, wrote.wrist.flexion, 1e-5);
+    for (std::size_t a = 0; a < kHandAngleCount; ++a) {
+      EXPECT_NEAR(read.angles[a], wrote.angles[a], 1e-4);
+    }
+    for (std::size_t j = 0; j < kHandJointCount; ++j) {
+      EXPECT_LT((read.joints[j] - wrote.joints[j]).norm(), 1e-5);
+    }
+  }
+}
+
+TEST(Jsonl, HandsThatAreNotFiniteAreThoseOfTheFrameBefore) {
+  const StreamHeader header = testing_motion::header();
+  auto frames = testing_motion::gesture(header, 2);
+  for (MotionFrame& frame : frames) {
+    frame.hands.emplace();
+  }
+  (*frames[0].hands)[0].angles[3] = 0.5;
+  (*frames[1].hands)[0].joints[7].x() = std::numeric_limits<double>::quiet_NaN();
+  const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
+  EXPECT_NEAR((*file.frames.at(1).hands)[0].angles[3], 0.5, 1e-4);
+  EXPECT_EQ(file.frames.at(1).state, TrackState::tracking);
+}
+
 // Something else for each joint, symmetric.
 PoseSpread some_spread() {
   PoseSpread spread;

@@ -106,6 +106,29 @@ FaceMotion read_face(const JsonField& object) {
   return face;
 }
 
+// Sizes and what was seen of the palm are not in the file; the joints are.
+HandMotion read_hand(const JsonField& object) {
+  HandMotion hand;
+  hand.visibility = object["visibility"].number();
+  hand.spread = object["spread"].number() / kMillimetresPerMetre;
+  const auto [twisting, pivot, flexion] = object["wrist"].numbers<3>();
+  hand.wrist = {.twisting = twisting / kDegreesPerRadian,
+                .pivot = pivot / kDegreesPerRadian,
+                .flexion = flexion / kDegreesPerRadian};
+  hand.angles = object["angles"].numbers<kHandAngleCount>();
+  for (double& angle : hand.angles) {
+    angle /= kDegreesPerRadian;
+  }
+  const JsonField joints = object["joints"];
+  if (joints.size() != kHandJointCount) {
+    joints.fail("must have " + std::to_string(kHandJointCount) + " points");
+  }
+  for (std::size_t j = 0; j < kHandJointCount; ++j) {
+    hand.joints[j] = metres(joints[j]);
+  }
+  return hand;
+}
+
 MotionFrame read_frame(const JsonField& line, const Camera& camera) {
   MotionFrame frame;
   frame.frame = line["frame"].integer(0, INT64_MAX);
@@ -144,6 +167,9 @@ MotionFrame read_frame(const JsonField& line, const Camera& camera) {
   }
   if (line.has("face")) {
     frame.face = read_face(line["face"]);
+  }
+  if (line.has("hands")) {
+    frame.hands = {read_hand(line["hands"]["left"]), read_hand(line["hands"]["right"])};
   }
   if (line.has("spread")) {
     frame.spread = read_spread(line["spread"]);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/hand_finder.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "telemime/image/person_finder.h"
+
+namespace telemime {
+namespace {
+
+const PoseLandmark& wrist_of(const PoseLandmarks& pose, HandSide side) {
+  return pose.points[side == HandSide::left ? PoseLandmarkIndex::left_wrist : PoseLandmarkIndex::right_wrist];
+}
+
+double palm_of(const HandLandmarks& hand) {
+  return (hand.points[9].pixel - hand.points[0].pixel).norm();
+}
+
+// How little a finding is that hand: far from its wrist, as a share of the region, and with the looks of the
+// other.
+double doubt(const HandLandmarks& hand, const PoseLandmarks& pose, HandSide side) {
+  constexpr double kOtherHand = 0.2;
+  const double away = (hand.points[0].pixel - wrist_of(pose, side).pixel).norm() / hand.region.width;
+  return away + kOtherHand * (side == HandSide::right ? 1.0 - hand.is_right : hand.is_right);
+}
+
+}  // namespace
+
+HandLandmarks scaled_to(HandLandmarks hand, cv::Size from, cv::Size to) {
+  const Eigen::Vector2d scale(static_cast<double>(to.width) / from.width,
+                              static_cast<double>(to.height) / from.height);
+  const auto moved = [&](const Eigen::Vector2d& pixel) -> Eigen::Vector2d {
+    return (pixel.array() + 0.5) * scale.array() - 0.5;
+  };
+  for (HandLandmark& p : hand.points) {
+    p.pixel = moved(p.pixel);
+    p.depth *= scale.x();
+  }
+  hand.region.centre = moved(hand.region.centre);
+  hand.region.width *= scale.x();
+  hand.region.height *= scale.y();
+  return hand;
+}
+
+bool are_same_hand(const HandLandmarks& a, const HandLandmarks& b) {
+  constexpr double kNear = 0.5;  // of a palm, on average of the points
+  double sum = 0.0;
+  for (std::size_t i = 0; i < HandLandmarks::kCount; ++i) {
+    sum += (a.points[i].pixel - b.points[i].pixel).norm() / HandLandmarks::kCount;
+  }
+  return sum < kNear * std::max(palm_of(a), palm_of(b));
+}
+
+HandFinder::HandFinder(const std::filesystem::path& models)
+    : networks_(std::make_shared<HandNetworks>(load_hand_networks(models))) {}
+
+std::optional<HandLandmarks> HandFinder::look(const cv::Mat& picture, const PoseLandmarks& pose,
+                                              HandSide side, double time) {
+  constexpr double kRemembered = 0.25;  // s
+  constexpr double kAway = 0.6;         // of the region's width, between the wrist and that of the pose
+  const PoseLandmark& wrist = wrist_of(pose, side);
+  // Where it was, as long as the body has it there, too.
+  const auto& followed = followed_[static_cast<std::size_t>(side)];
+  if (followed && time > followed->time && time - followed->time < kRemembered) {
+    auto hand = hand_in(picture, next_region(followed->hand), *networks_);
+    if (hand && (hand->points[0].pixel - wrist.pixel).norm() < kAway * hand->region.width) {
+      return hand;
+    }
+  }
+  constexpr double kInPicture = 0.5;
+  return wrist.presence > kInPicture ? find_hand(picture, pose, side, *networks_) : std::nullopt;
+}
+
+std::array<SeenHand, 2> HandFinder::find(const cv::Mat& picture, const PoseLandmarks& pose, cv::Size working,
+                                         double time, bool in_turn) {
+  std::array<SeenHand, 2> hands;
+  if (!networks_) {
+    return hands;
+  }
+  PoseLandmarks unmasked = pose;
+  unmasked.mask = cv::Mat();
+  const PoseLandmarks in_picture = scaled_to(std::move(unmasked), working, picture.size());
+  turn_ = 1 - turn_;
+  for (const HandSide side : {HandSide::left, HandSide::right}) {
+    const auto i = static_cast<std::size_t>(side);
+    if (!in_turn || i == turn_) {
+      hands[i] = {.looked = true, .found = look(picture, in_picture, side, time)};
+    }
+  }
+  // Two findings of one hand: the better one stays.
+  if (hands[0].found && hands[1].found && are_same_hand(*hands[0].found, *hands[1].found)) {
+    const bool left = doubt(*hands[0].found, in_picture, HandSide::left) <
+                      doubt(*hands[1].found, in_picture, HandSide::right);
+    hands[left ? 1 : 0].found.reset();
+    followed_[left ? 1 : 0].reset();
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (hands[i].found) {
+      followed_[i] = {.hand = *hands[i].found, .time = time};
+      hands[i].found = scaled_to(std::move(*hands[i].found), picture.size(), working);
+    }
+  }
+  return hands;
+}
+
+}  // namespace telemime

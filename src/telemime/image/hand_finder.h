@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "telemime/image/frame_features.h"
+#include "telemime/nets/hand_landmarks.h"
+
+namespace telemime {
+
+/// The same hand in the pixels of the picture at another size.
+HandLandmarks scaled_to(HandLandmarks hand, cv::Size from, cv::Size to);
+
+/// Whether two findings, in pixels of one picture, are the same hand.
+bool are_same_hand(const HandLandmarks& a, const HandLandmarks& b);
+
+/// Finds the two hands of a person and follows them from frame to frame: where each was in the last frame, or
+/// where the pose of the body has it. Copies share the networks: two of them must not be used at the same
+/// time.
+class HandFinder {
+ public:
+  /// Without networks: it never looks.
+  HandFinder() = default;
+  /// Reads the networks from this folder (find_models). Throws Error(config).
+  explicit HandFinder(const std::filesystem::path& models);
+
+  bool has_networks() const { return networks_ != nullptr; }
+
+  /// The hands in the next picture (CV_8UC3, BGR). `pose` and the result are in pixels of an image of size
+  /// `working` that shows the same. `time` is that of the picture, s. With `in_turn` it looks for one hand
+  /// only.
+  std::array<SeenHand, 2> find(const cv::Mat& picture, const PoseLandmarks& pose, cv::Size working,
+                               double time, bool in_turn = false);
+
+ private:
+  std::optional<HandLandmarks> look(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
+                                    double time);
+
+  struct Followed {
+    HandLandmarks hand;  ///< in pixels of the picture
+    double time = 0.0;
+  };
+  std::shared_ptr<HandNetworks> networks_;
+  std::array<std::optional<Followed>, 2> followed_;
+  std::size_t turn_ = 0;  ///< the hand that was looked for last
+};
+
+}  // namespace telemime

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/hand_smoother.h"
+
+#include <algorithm>
+
+#include "telemime/tracker/joint_rotations.h"
+
+namespace telemime {
+namespace {
+
+constexpr double kRestCutoff = 0.9;  // Hz: 94 % of the way to rest in half a second
+constexpr double kRise = 6.0;        // Hz, of the visibility of a hand that comes into sight
+constexpr double kUnseen = 0.02;     // visibility below which a hand is at rest
+constexpr std::array<std::size_t, kFingerCount + 1> kFirst = {0, 4, 7, 10, 13, 16};
+
+}  // namespace
+
+void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& target, double step,
+                          State& state, HandMotion& smooth) const {
+  const bool seen = measured.visibility > 0.0;
+  // Fingers, each with its own speed.
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    Eigen::Vector3d change;
+    for (std::size_t a = 0; a < 3; ++a) {
+      change[static_cast<Eigen::Index>(a)] =
+          measured.angles[kFirst[f] + a] - state.last.angles[kFirst[f] + a];
+    }
+    const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro);
+    const double share = !seen ? low_pass_share(kRestCutoff, step) : smoothing_.share.value_or(by_speed);
+    for (std::size_t a = kFirst[f]; a < kFirst[f + 1]; ++a) {
+      smooth.angles[a] += share * (measured.angles[a] - smooth.angles[a]);
+    }
+  }
+  // The palm.
+  const Eigen::Quaterniond before = state.last.seen.value_or(target);
+  const double by_speed = state.palm_speed(turn_between(before, target), step, smoothing_.one_euro);
+  const double share = !seen ? low_pass_share(kRestCutoff, step) : smoothing_.share.value_or(by_speed);
+  state.palm = state.palm.slerp(share, target).normalized();
+  const double rate = measured.visibility > smooth.visibility ? kRise : kRestCutoff;
+  smooth.visibility += low_pass_share(rate, step) * (measured.visibility - smooth.visibility);
+  smooth.visibility = seen || smooth.visibility > kUnseen ? smooth.visibility : 0.0;
+  smooth.spread += low_pass_share(rate, step) * (measured.spread - smooth.spread);
+}
+
+HandMotions HandSmoother::operator()(const HandMotions& measured, const Kinematics& body, double step) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Segment segment = side == 0 ? Segment::l_hand : Segment::r_hand;
+    const Eigen::Quaterniond target =
+        measured[side].seen.value_or(Eigen::Quaterniond(body[segment].linear()));
+    if (started_) {
+      follow(measured[side], target, step, state_[side], smooth_[side]);
+    } else {
+      smooth_[side] = measured[side];
+      state_[side] = {};
+      state_[side].palm = target;
+    }
+    state_[side].last = measured[side];
+    smooth_[side].sizes = measured[side].sizes;
+    smooth_[side].seen.reset();
+    if (smooth_[side].visibility > 0.0) {
+      smooth_[side].seen = state_[side].palm;
+    }
+  }
+  started_ = true;
+  HandMotions result = smooth_;
+  place_hands(body, result);
+  return result;
+}
+
+}  // namespace telemime

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/hands.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace telemime {
+namespace {
+
+constexpr std::array<Joint, 2> kWrists = {Joint::l_wrist, Joint::r_wrist};
+constexpr double kFarthest = 0.2;  // m, of a hand's wrist from that of its arm
+constexpr double kNearest = 0.05;  // m, of a wrist from the camera
+constexpr double kHeld = 0.1;      // s, that a hand keeps its form when it is not seen
+constexpr double kWorst = 0.03;    // m, of the points from the model: what fits worse is no hand
+
+// m between a finding and an arm's wrist, across the line of sight; more if it looks like the other hand.
+double distance_to_arm(const HandLandmarks& hand, Side side, const HandScene& scene) {
+  constexpr double kOtherHand = 0.05;
+  Eigen::Vector3d wrist = scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]];
+  wrist.z() = std::max(wrist.z(), kNearest);
+  const double pixels = (scene.camera.project(wrist) - hand.points[0].pixel).norm();
+  return pixels * wrist.z() / scene.camera.fx +
+         kOtherHand * (side == Side::right ? 1.0 - hand.is_right : hand.is_right);
+}
+
+// Sizes are means of all frames, the average hand counting as some of them; after enough frames they stay.
+void learn_sizes(const HandScene& scene, const HandPoints& points, const HandFit& fit, Side side,
+                 HandState& state) {
+  constexpr double kAverage = 25.0;  // frames
+  constexpr double kEnough = 250.0;
+  constexpr double kMost = 0.25;  // that a palm differs from the average, as a logarithm
+  if (state.frames >= kEnough) {
+    return;
+  }
+  state.frames += 1.0;
+  const double share = 1.0 / (kAverage + state.frames);
+  const double average = average_hand(scene.body.shape.stature).palm;
+  const HandSizes measured = measured_sizes(points, fit, side);
+  HandSizes& sizes = *state.sizes;
+  const double palm = std::log(fit.scale * sizes.palm / average);
+  const double learned = std::log(sizes.palm / average);
+  sizes.palm = average * std::exp(learned + share * (std::clamp(palm, -kMost, kMost) - learned));
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    sizes.base[f] += share * (measured.base[f] - sizes.base[f]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      sizes.bone[f][i] += share * (measured.bone[f][i] - sizes.bone[f][i]);
+    }
+  }
+}
+
+// The model on a finding; empty if it is no hand.
+std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const HandScene& scene,
+                                 HandState& state) {
+  constexpr double kGood = 0.8;     // presence from which on sizes are learned
+  constexpr double kNoise = 0.008;  // m
+  const double depth =
+      std::max(kNearest, scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]].z());
+  const HandPoints points = metric_points(hand, scene.camera, depth);
+  const auto fit = fit_hand(*state.sizes, points, side);
+  const double error = fit ? fit->error : kWorst;
+  if (!fit || !(error < kWorst)) {
+    return std::nullopt;
+  }
+  if (hand.presence > kGood) {
+    learn_sizes(scene, points, *fit, side, state);
+  }
+  const double off = error / kWorst;
+  HandMotion motion;
+  motion.sizes = *state.sizes;
+  motion.angles = fit->angles;
+  motion.seen = Eigen::Quaterniond(fit->frame_from_hand).normalized();
+  motion.visibility = std::clamp(hand.presence * (1.0 - off * off), 0.0, 1.0);
+  motion.spread = std::hypot(kNoise, error);
+  return motion;
+}
+
+}  // namespace
+
+std::array<const HandLandmarks*, 2> hands_of_arms(const std::array<SeenHand, 2>& seen,
+                                                  const HandScene& scene) {
+  // What it costs to give finding f to side s; none costs as much as one that is too far away.
+  const auto cost = [&](std::size_t f, std::size_t s) {
+    return seen[f].found ? std::min(kFarthest, distance_to_arm(*seen[f].found, static_cast<Side>(s), scene))
+                         : kFarthest;
+  };
+  const bool swapped = cost(0, 1) + cost(1, 0) < cost(0, 0) + cost(1, 1);
+  std::array<const HandLandmarks*, 2> result{};
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::size_t f = swapped ? 1 - s : s;
+    result[s] = cost(f, s) < kFarthest ? &*seen[f].found : nullptr;
+  }
+  return result;
+}
+
+HandPoints metric_points(const HandLandmarks& hand, const Camera& camera, double depth) {
+  // The network's points about the wrist, which it sees along the wrist's ray.
+  const Eigen::Vector3d wrist = camera.ray(hand.points[0].pixel);
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), wrist).toRotationMatrix();
+  HandPoints world;
+  for (std::size_t i = 0; i < kHandJointCount; ++i) {
+    world[i] = turn * (hand.points[i].world - hand.points[0].world);
+  }
+  const auto extent = [](const HandPoints& points) {
+    Eigen::Matrix<double, 2, kHandJointCount> across;
+    for (std::size_t i = 0; i < kHandJointCount; ++i) {
+      across.col(static_cast<Eigen::Index>(i)) = points[i].head<2>();
+    }
+    return (across.colwise() - across.rowwise().mean()).norm();
+  };
+  // On their rays, first all as far away as the wrist; then as much nearer or farther as the network has
+  // them, stretched to the size that they have in the picture.
+  constexpr double kNearestShare = 0.5;
+  const double size = extent(world);
+  HandPoints points;
+  double stretch = 0.0;
+  for (int turns = 0; turns < 3; ++turns) {
+    for (std::size_t i = 0; i < kHandJointCount; ++i) {
+      const double along = std::max(kNearestShare * depth, depth + stretch * world[i].z());
+      points[i] = camera.ray(hand.points[i].pixel) * along - wrist * depth;
+    }
+    stretch = size > 0.0 ? extent(points) / size : 0.0;
+  }
+  return points;
+}
+
+HandMotions observe_hands(const std::array<SeenHand, 2>& seen, const HandScene& scene, HandState& state) {
+  if (!state.sizes) {
+    state.sizes = average_hand(scene.body.shape.stature);
+  }
+  const auto mine = hands_of_arms(seen, scene);
+  HandMotions hands;
+  for (const Side side : {Side::left, Side::right}) {
+    const auto s = static_cast<std::size_t>(side);
+    auto& last = state.last[s];
+    if (const auto found = mine[s] != nullptr ? fitted(*mine[s], side, scene, state) : std::nullopt) {
+      last = HandState::Last{.motion = *found, .time = scene.time};
+    }
+    // Each hand at least every other frame, where they take turns.
+    if (last && (scene.time < last->time || scene.time - last->time > kHeld)) {
+      last.reset();
+    }
+    hands[s] = last ? last->motion : HandMotion{};
+    hands[s].sizes = *state.sizes;
+  }
+  place_hands(scene.kinematics, hands);
+  return hands;
+}
+
+}  // namespace telemime
