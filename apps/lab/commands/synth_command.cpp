@@ -89,6 +89,7 @@ void add_synth_command(CLI::App& app) {
       ->add_option("--distance", scene.distance, "of the person, m; 0: as the gesture is staged, about 1.4")
       ->capture_default_str();
   command->add_flag("--look-around", scene.look_around, "the head turns to either side and nods");
+  command->add_flag("--fingers", scene.fingers, "the fingers move; truth.json has their joints");
   command->add_flag("--walk-in", scene.walk_in,
                     "the person walks in and out of an empty scene (120 frames or more)");
   command->add_flag("--no-small{false}", sequence.small_videos, "without the lossless 160-pixel copies");

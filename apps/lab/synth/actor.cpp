@@ -99,7 +99,9 @@ ActorKinematics actor_kinematics(const ActorBuild& build, const ActorPose& pose)
     k.joints[wrist] = k.joints[elbow] + build.forearm * (turn * arm.fore.normalized());
     k.joints[hand] = k.joints[wrist] + build.hand * (turn * axes.col(1));
     k.camera_from_hand[side] = turn * axes;
-    k.curl[side] = arm.curl;
+    for (std::size_t finger = 0; finger < k.curl[side].size(); ++finger) {
+      k.curl[side][finger] = std::clamp(arm.curl + arm.curl_by_finger[finger], 0.0, 1.0);
+    }
   }
   return k;
 }

@@ -30,6 +30,9 @@ struct ActorBuild {
 /// An average build scaled to a height ratio (1 is about 1.72 m), with this girth.
 ActorBuild scaled_build(double height, double girth);
 
+/// How much index, middle, ring and little finger and the thumb are bent: 0 straight ... 1 as in a fist.
+using FingerCurls = std::array<double, 5>;
+
 /// Directions are in the chest's frame: x OUTWARD (away from the midline on either side), y up, z forward.
 struct ActorArm {
   Eigen::Vector3d upper{0.46, -0.88, 0.08};  ///< shoulder to elbow, any length but 0
@@ -37,6 +40,7 @@ struct ActorArm {
   double pronation = 1.0;  ///< rad; 0: thumb on the side to which the elbow bends, + palm turned away from it
   double extension = 0.0;  ///< rad; + bends the hand toward its back
   double curl = 0.3;       ///< 0 flat hand ... 1 fist
+  FingerCurls curl_by_finger{};  ///< added to `curl`
 };
 
 /// What the synthetic person does at one moment.
@@ -58,7 +62,7 @@ struct ActorKinematics {
   /// Origin: wrist; x toward the thumb, y along the fingers, z out of the back of the hand. Left-handed for
   /// one side (both hands share one shape), therefore matrices.
   std::array<Eigen::Matrix3d, 2> camera_from_hand;
-  std::array<double, 2> curl{};  ///< of the fingers, by Side
+  std::array<FingerCurls, 2> curl{};  ///< by Side
   JointPositions joints;
 };
 

@@ -71,8 +71,10 @@ struct HandShape {
 inline constexpr float kHandKnuckle = 0.092f;
 inline constexpr float kHandReach = 0.115f;  ///< m from (0, 0.085, 0): no part of the hand lies farther
 
-/// curl: 0 flat ... 1 fist.
-HandShape hand_shape(double curl);
+HandShape hand_shape(const FingerCurls& curl);
+
+/// The 21 joints of a hand (telemime/body/hand_model.h), in its frame.
+std::array<Eigen::Vector3f, 21> hand_joints(const HandShape& hand);
 
 /// Distance (m) to the surface of the hand.
 float distance(const HandShape& hand, const Eigen::Vector3f& p);

@@ -15,7 +15,7 @@ struct FingerRest {
 
 }  // namespace
 
-HandShape hand_shape(double curl) {
+HandShape hand_shape(const FingerCurls& curl) {
   // Lengths after the hand of an adult of average size; the fingers shrink toward the tips.
   const std::array<FingerRest, 4> rest = {{
       {{0.014f, 0.012f, 0.0f}, {0.028f, 0.090f, 0.001f}, {0.040f, 0.024f, 0.018f}, 0.0088f, 0.13f},
@@ -24,8 +24,8 @@ HandShape hand_shape(double curl) {
       {{-0.013f, 0.012f, 0.0f}, {-0.028f, 0.080f, -0.001f}, {0.032f, 0.020f, 0.017f}, 0.0076f, -0.20f},
   }};
   HandShape hand;
-  const auto bend = static_cast<float>(curl);
   for (std::size_t i = 0; i < rest.size(); ++i) {
+    const auto bend = static_cast<float>(curl[i]);
     const FingerRest& f = rest[i];
     hand.palm[i] = round_cone(f.wrist_end, f.knuckle, 0.0165f, 0.0118f);
     Vector3f at = f.knuckle;
@@ -43,6 +43,7 @@ HandShape hand_shape(double curl) {
       at = next;
     }
   }
+  const auto bend = static_cast<float>(curl[4]);
   hand.palm[4] = round_cone({0.014f, 0.018f, -0.006f}, {0.032f, 0.048f, -0.010f}, 0.0160f, 0.0125f);
   const Vector3f base(0.034f, 0.050f, -0.010f);
   const Vector3f middle = base + Vector3f(0.022f - 0.010f * bend, 0.024f, -0.008f - 0.014f * bend);
@@ -50,6 +51,22 @@ HandShape hand_shape(double curl) {
   hand.thumb[0] = round_cone(base, middle, 0.0115f, 0.0102f);
   hand.thumb[1] = round_cone(middle, tip, 0.0100f, 0.0080f);
   return hand;
+}
+
+std::array<Vector3f, 21> hand_joints(const HandShape& hand) {
+  std::array<Vector3f, 21> joints;
+  joints[0].setZero();
+  joints[1] = hand.palm[4].a;
+  joints[2] = hand.thumb[0].a;
+  joints[3] = hand.thumb[1].a;
+  joints[4] = hand.thumb[1].a + hand.thumb[1].ba;
+  for (std::size_t f = 0; f < hand.fingers.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      joints[5 + 4 * f + i] = hand.fingers[f][i].a;
+    }
+    joints[8 + 4 * f] = hand.fingers[f][2].a + hand.fingers[f][2].ba;
+  }
+  return joints;
 }
 
 float distance(const HandShape& hand, const Vector3f& p) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/synth/sequence.h"
+#include "telemime/body/hand_model.h"
 #include "telemime/core/errors.h"
 
 namespace telemime {
@@ -15,6 +16,7 @@ namespace {
 // Random streams of the seed: draws from one never shift those from another.
 constexpr std::uint64_t kLookStream = 1;
 constexpr std::uint64_t kBackdropStream = 2;
+constexpr std::uint64_t kFingerStream = 3;
 // The background clip's noise must not repeat that of the frames.
 constexpr std::uint64_t kBackgroundFrames = 1'000'000;
 
@@ -147,6 +149,41 @@ Scene make_scene(const SceneOptions& options) {
   return scene;
 }
 
+namespace {
+
+// Each finger bends and stretches by a sine of its own; now and then all are nearly straight or bent.
+void move_fingers(double time, std::uint64_t seed, ActorPose& pose) {
+  Random random(seed, kFingerStream);
+  for (ActorArm& arm : pose.arms) {
+    const double together = std::sin(random.uniform(0.9, 1.4) * time + random.uniform(0.0, 6.28));
+    for (double& curl : arm.curl_by_finger) {
+      const double own = std::sin(random.uniform(1.5, 3.0) * time + random.uniform(0.0, 6.28));
+      curl = 0.42 + 0.3 * together + 0.2 * own - arm.curl;
+    }
+  }
+}
+
+// The joints of both hands in every frame, mm.
+nlohmann::ordered_json hands_truth(const Scene& scene) {
+  nlohmann::ordered_json hands{{"joints", kHandJointNames}};
+  const double scale = scene.look.build.hand / kHandKnuckle;
+  for (int frame = 0; frame < scene.options.frames; ++frame) {
+    const ActorKinematics k = scene_kinematics(scene, frame);
+    for (std::size_t side = 0; side < 2; ++side) {
+      nlohmann::ordered_json points;
+      for (const Eigen::Vector3f& joint : hand_joints(hand_shape(k.curl[side]))) {
+        const Eigen::Vector3d mm = 1000.0 * (k.joints[side == 0 ? Joint::l_wrist : Joint::r_wrist] +
+                                             k.camera_from_hand[side] * joint.cast<double>() * scale);
+        points.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
+      }
+      hands[side == 0 ? "left" : "right"].push_back(std::move(points));
+    }
+  }
+  return hands;
+}
+
+}  // namespace
+
 ActorKinematics scene_kinematics(const Scene& scene, int frame) {
   const SceneOptions& options = scene.options;
   // Walking in ends where the gesture starts.
@@ -162,6 +199,9 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
     const double t = moment / kGestureFps;
     pose.look += 0.61 * std::sin(2.1 * t);
     pose.nod += 0.26 * std::sin(1.3 * t + 0.5);
+  }
+  if (options.fingers) {
+    move_fingers(moment / kGestureFps, options.seed, pose);
   }
   if (options.walk_in) {
     walk(options, frame, pose);
@@ -230,6 +270,9 @@ std::string truth_json(const Scene& scene) {
     if (scene.options.walk_in) {
       truth["visible"].push_back(person_is_visible(scene, frame));
     }
+  }
+  if (scene.options.fingers) {
+    truth["hands"] = hands_truth(scene);
   }
   return truth.dump();
 }

@@ -34,6 +34,7 @@ struct SceneOptions {
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
   /// again.
   bool walk_in = false;
+  bool fingers = false;      ///< each finger bends and stretches in its own time; the truth has them
   bool look_around = false;  ///< the head turns by 35 degrees to either side and nods by 15
 };
 

@@ -255,6 +255,7 @@ Evaluation evaluate(const std::vector<MotionFrame>& frames, const Camera& input,
   result.lag = lag_behind(centred(tracks.estimate), centred(tracks.truth));
   result.bones = bone_lengths(tracks.estimate);
   result.truth_bones = bone_lengths(tracks.truth);
+  result.hands = measure_hands(frames, truth);
   result.times = stage_times(frames);
   return result;
 }

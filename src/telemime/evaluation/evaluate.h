@@ -9,6 +9,7 @@
 
 #include "telemime/body/motion_frame.h"
 #include "telemime/evaluation/frame_errors.h"
+#include "telemime/evaluation/hand_errors.h"
 #include "telemime/evaluation/motion_measures.h"
 #include "telemime/evaluation/truth.h"
 
@@ -79,7 +80,8 @@ struct Evaluation {
   std::optional<Lag> lag;
   std::array<std::optional<BoneLength>, kBoneNames.size()> bones{};
   std::array<std::optional<BoneLength>, kBoneNames.size()> truth_bones{};
-  std::vector<StageTime> times;  ///< over all frames of the pose file, in order of first appearance
+  std::optional<HandReport> hands;  ///< nothing when the truth or the pose file has none
+  std::vector<StageTime> times;     ///< over all frames of the pose file, in order of first appearance
 };
 
 /// Compares `frames` (numbers increasing), whose pixels belong to `input`, with the truth. Throws

@@ -59,6 +59,14 @@ Json bones_json(const Evaluation& evaluation) {
   return bones;
 }
 
+Json hands_json(const std::optional<HandReport>& hands) {
+  return hands ? Json{{"in_image", hands->hands},
+                      {"seen", rounded(hands->seen, 6)},
+                      {"palm_aligned_mm", millimetres(hands->palm_aligned)},
+                      {"palm_aligned_p95_mm", millimetres(hands->palm_aligned_p95)}}
+               : Json(nullptr);
+}
+
 }  // namespace
 
 Json evaluation_json(const Evaluation& evaluation) {
@@ -101,6 +109,7 @@ Json evaluation_json(const Evaluation& evaluation) {
         {"ms", lag ? Json(rounded(lag->frames * 1000.0 / evaluation.fps, 2)) : Json(nullptr)},
         {"correlation", lag ? Json(rounded(lag->correlation, 4)) : Json(nullptr)}}},
       {"bones", bones_json(evaluation)},
+      {"hands", hands_json(evaluation.hands)},
       {"stages", times},
   };
 }

@@ -141,6 +141,18 @@ void motion_rows(std::string& table, const Evaluation& evaluation) {
   }
 }
 
+void hand_rows(std::string& table, const Evaluation& evaluation) {
+  if (!evaluation.hands) {
+    return;
+  }
+  table += "\nfingers, palm aligned\n";
+  row(table, "hands in the image",
+      {std::to_string(evaluation.hands->hands), "   seen " + percent(evaluation.hands->seen)});
+  row(table, "3-D, seen hands, mm",
+      {millimetres(evaluation.hands->palm_aligned),
+       "   95th percentile " + millimetres(evaluation.hands->palm_aligned_p95)});
+}
+
 }  // namespace
 
 std::string evaluation_table(const Evaluation& evaluation) {
@@ -161,6 +173,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
   state_rows(table, evaluation);
   spread_rows(table, evaluation);
   motion_rows(table, evaluation);
+  hand_rows(table, evaluation);
   if (!evaluation.times.empty()) {
     table += "\ntime, ms\n";
     row(table, "", {"median", "95 %"});

@@ -59,6 +59,20 @@ TruthJoints read_joints(const JsonField& positions, const std::optional<JsonFiel
   return joints;
 }
 
+// The hands of one frame; null where they are not known.
+std::optional<HandPoints> read_hand(const JsonField& points) {
+  if (points.value().is_null()) {
+    return std::nullopt;
+  }
+  check_size(points, kHandJointCount, "joint of a hand");
+  HandPoints hand;
+  for (std::size_t j = 0; j < kHandJointCount; ++j) {
+    const auto [x, y, z] = points[j].numbers<3>();
+    hand[j] = Eigen::Vector3d(x, y, z) / kMillimetresPerMetre;
+  }
+  return hand;
+}
+
 void read_range(const JsonField& root, Truth& truth) {
   truth.last_scored = truth.frames.size() - 1;
   if (!root.has("best_frames")) {
@@ -96,6 +110,15 @@ Truth parse_truth(std::string_view text, const std::string& name) {
   for (std::size_t f = 0; f < positions.size(); ++f) {
     truth.frames.push_back(
         read_joints(positions[f], valid ? std::optional((*valid)[f]) : std::nullopt, columns));
+  }
+  if (root.has("hands")) {
+    const JsonField left = root["hands"]["left"];
+    const JsonField right = root["hands"]["right"];
+    check_size(left, positions.size(), "frame");
+    check_size(right, positions.size(), "frame");
+    for (std::size_t f = 0; f < positions.size(); ++f) {
+      truth.hands.push_back({read_hand(left[f]), read_hand(right[f])});
+    }
   }
   if (root.has("visible")) {
     const JsonField visible = root["visible"];

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "telemime/body/hand_model.h"
 #include "telemime/body/skeleton.h"
 #include "telemime/core/camera.h"
 
@@ -23,8 +24,10 @@ struct Truth {
   Camera camera;  ///< of the image that 2-D errors are measured in
   double fps = 25.0;
   std::vector<TruthJoints> frames;  ///< by frame number
-  std::vector<bool> visible;        ///< by frame: is there a person to track? empty: in every frame
-  std::size_t first_scored = 0;     ///< frames outside [first, last] are not scored
+  /// By frame, or empty: the joints of both hands by Side, m, camera frame.
+  std::vector<std::array<std::optional<HandPoints>, 2>> hands;
+  std::vector<bool> visible;     ///< by frame: is there a person to track? empty: in every frame
+  std::size_t first_scored = 0;  ///< frames outside [first, last] are not scored
   std::size_t last_scored = 0;
   bool scale_known = true;  ///< false: lengths are right up to one unknown factor
 
