@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
-#include "telemime/body/body.h"
-#include "telemime/body/face_motion.h"
+#include "telemime/body/motion_frame.h"
 
 namespace telemime {
 
@@ -45,6 +45,23 @@ inline constexpr std::array<std::string_view, kHumanBoneCount> kHumanBoneNames =
 inline constexpr std::array<int, kHumanBoneCount> kHumanBoneParent = {-1, 0,  1,  2, 3,  2,  5, 6,  7, 2,
                                                                       9,  10, 11, 0, 13, 14, 0, 16, 17};
 
+/// The finger bones: of the left hand, then of the right one; of each finger from the base to the tip, in the
+/// order of the joints of a hand (body/hand_model.h). Names of VRM 1.0.
+inline constexpr std::size_t kFingerBoneCount = 30;
+inline constexpr std::array<std::string_view, kFingerBoneCount> kFingerBoneNames = {
+    "leftThumbMetacarpal",     "leftThumbProximal",      "leftThumbDistal",         "leftIndexProximal",
+    "leftIndexIntermediate",   "leftIndexDistal",        "leftMiddleProximal",      "leftMiddleIntermediate",
+    "leftMiddleDistal",        "leftRingProximal",       "leftRingIntermediate",    "leftRingDistal",
+    "leftLittleProximal",      "leftLittleIntermediate", "leftLittleDistal",        "rightThumbMetacarpal",
+    "rightThumbProximal",      "rightThumbDistal",       "rightIndexProximal",      "rightIndexIntermediate",
+    "rightIndexDistal",        "rightMiddleProximal",    "rightMiddleIntermediate", "rightMiddleDistal",
+    "rightRingProximal",       "rightRingIntermediate",  "rightRingDistal",         "rightLittleProximal",
+    "rightLittleIntermediate", "rightLittleDistal"};
+using FingerRotations = std::array<Eigen::Quaterniond, kFingerBoneCount>;
+
+/// From the parent's joint to that of each finger bone in the T-pose, m, for a person of this stature.
+std::array<Eigen::Vector3d, kFingerBoneCount> finger_bone_offsets(double stature);
+
 /// A body in the T-pose of VRM 1.0: facing +z, x to its own left, y up, soles at y = 0, arms along x, palms
 /// down; m. At rest all bones have the axes of the world.
 struct HumanoidSkeleton {
@@ -57,6 +74,7 @@ struct HumanoidSkeleton {
 struct HumanoidMotion {
   Eigen::Vector3d hips;                                      ///< m, in the frame of the skeleton's world
   std::array<Eigen::Quaterniond, kHumanBoneCount> rotation;  ///< parent from bone, w >= 0; identity at rest
+  std::optional<FingerRotations> fingers;                    ///< the same; empty where hands are not tracked
   const Eigen::Quaterniond& operator[](HumanBone b) const { return rotation[static_cast<std::size_t>(b)]; }
 };
 
@@ -80,6 +98,9 @@ NeckAndHead neck_and_head(const FaceMotion& face, const Eigen::Quaterniond& worl
 
 /// The same for a motion.
 void turn_head(const FaceMotion& face, HumanoidMotion& motion);
+
+/// The same of a frame, with its hands.
+HumanoidMotion humanoid_motion(const Body& body, const MotionFrame& frame, const Eigen::Vector3d& origin);
 
 /// The joints of the bones by forward kinematics, m.
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,

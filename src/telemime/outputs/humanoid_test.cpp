@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "telemime/body/rotations.h"
+#include "telemime/outputs/t_pose.h"
 #include "telemime/outputs/testing_motion.h"
 
 namespace telemime {
@@ -157,6 +158,44 @@ TEST(Humanoid, HeadIsHeldAsTheFaceIs) {
     } else {
       // The world's axes are the camera's with y and z turned round.
       EXPECT_LT((forward - Eigen::Vector3d(nose.x(), -nose.y(), -nose.z())).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(Humanoid, FingersFollowTheHandModel) {
+  const Body body = make_body(Shape{});
+  Random random(12);
+  MotionFrame frame;
+  frame.pose = testing_motion::random_pose(anatomical_limits(), random);
+  frame.hands.emplace();
+  const Kinematics k = forward_kinematics(body, frame.pose);
+  for (HandMotion& hand : *frame.hands) {
+    hand.sizes = average_hand(body.shape.stature);
+    for (std::size_t a = 0; a < kHandAngleCount; ++a) {
+      hand.angles[a] = random.uniform(hand_limits()[a].min, hand_limits()[a].max);
+    }
+  }
+  place_hands(k, *frame.hands);
+  const HumanoidMotion motion = humanoid_motion(body, frame, frame.pose.root);
+  const auto offsets = finger_bone_offsets(body.shape.stature);
+  ASSERT_TRUE(motion.fingers);
+  // Forward kinematics of the bones: the joints in the frame of the hand's bone.
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eigen::Matrix3d t = t_pose_from_rest(static_cast<Side>(side));
+    const Eigen::Isometry3d from_camera =
+        forward_kinematics(
+            body, with_wrists(frame.pose, *frame.hands))[side == 0 ? Segment::l_hand : Segment::r_hand]
+            .inverse();
+    for (std::size_t f = 0; f < kFingerCount; ++f) {
+      Eigen::Vector3d at = Eigen::Vector3d::Zero();
+      Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t bone = 15 * side + 3 * f + i;
+        at += turn * offsets[bone];
+        turn = turn * (*motion.fingers)[bone];
+        const Eigen::Vector3d joint = t * (from_camera * (*frame.hands)[side].joints[hand_joint(f, i)]);
+        EXPECT_LT((at - joint).norm(), 1e-9) << kFingerBoneNames[bone];
+      }
     }
   }
 }

@@ -60,6 +60,9 @@ MotionFrame mirrored(const MotionFrame& frame, const Camera& camera) {
   if (m.face) {
     m.face = mirrored(*m.face);
   }
+  if (m.hands) {
+    m.hands = mirrored(*frame.hands);
+  }
   if (m.spread) {
     const Eigen::DiagonalMatrix<double, 3> mirror(-1.0, 1.0, 1.0);
     for (Eigen::Matrix3d& covariance : m.spread->covariance) {

@@ -27,7 +27,7 @@ class PersonMotion {
     if (!origin_) {
       origin_ = frame.pose.root;
     }
-    HumanoidMotion motion = humanoid_motion(body_, frame.pose, *origin_);
+    HumanoidMotion motion = humanoid_motion(body_, frame, *origin_);
     if (frame.face) {
       turn_head(*frame.face, motion);
     }

@@ -119,6 +119,9 @@ std::string PoseMessages::pose(const MotionFrame& raw, double stamp) {
         bones[std::string(kHumanBoneNames[b])] = quaternion_json(motion->rotation[b]);
       }
     }
+    for (std::size_t b = 0; motion->fingers && b < kFingerBoneCount; ++b) {
+      bones[std::string(kFingerBoneNames[b])] = quaternion_json((*motion->fingers)[b]);
+    }
     message["bones"] = std::move(bones);
     add_joints(frame, message);
     if (frame.spread) {

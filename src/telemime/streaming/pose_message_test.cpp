@@ -54,6 +54,18 @@ TEST_F(PoseMessage, WhatWasPassedOverCountsAsTheFirstFrame) {
   EXPECT_NE(PoseMessages(header_).pose(second, 0.0), told.pose(second, 0.0));
 }
 
+TEST_F(PoseMessage, APoseHasTheFingersOfTrackedHands) {
+  Random random(7);
+  MotionFrame frame = frame_of(testing_motion::random_pose(header_.limits, random));
+  frame.hands.emplace();
+  (*frame.hands)[1].angles[4] = 1.0;
+  place_hands(forward_kinematics(header_.body, frame.pose), *frame.hands);
+  const json pose = json::parse(PoseMessages(header_).pose(frame, 0.0));
+  EXPECT_EQ(pose["bones"].size(), 13U + kFingerBoneCount);
+  const Eigen::Quaterniond index = quaternion(pose["bones"]["rightIndexProximal"]);
+  EXPECT_NEAR(Eigen::AngleAxisd(index).angle(), 1.0, 0.01);
+}
+
 TEST_F(PoseMessage, APoseHasTheRotationsJointsAndPixels) {
   Random random(6);
   PoseMessages messages(header_);

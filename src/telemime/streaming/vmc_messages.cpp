@@ -78,9 +78,16 @@ Message place_message(const char* path, const std::string& name, const Place& pl
   return message;
 }
 
-/// Unity's HumanBodyBones are VRM's names with a capital letter.
-std::string unity_name(std::size_t bone) {
-  std::string name(kHumanBoneNames[bone]);
+/// Unity's HumanBodyBones are VRM's names with a capital letter, but for the thumbs.
+std::string unity_name(std::string_view vrm) {
+  std::string name(vrm);
+  for (const auto& [from, to] :
+       {std::pair("ThumbProximal", "ThumbIntermediate"), std::pair("ThumbMetacarpal", "ThumbProximal")}) {
+    if (name.ends_with(from)) {
+      name.replace(name.find("Thumb"), std::string::npos, to);
+      break;
+    }
+  }
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return name;
 }
@@ -104,7 +111,18 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
     if (bone == HumanBone::hips) {
       position = options.root_moves ? rest : motion.hips;
     }
-    messages.push_back(place_message("/VMC/Ext/Bone/Pos", unity_name(b), {position, motion.rotation[b]}));
+    messages.push_back(
+        place_message("/VMC/Ext/Bone/Pos", unity_name(kHumanBoneNames[b]), {position, motion.rotation[b]}));
+  }
+}
+
+void add_fingers(const HumanoidSkeleton& skeleton, const FingerRotations& fingers,
+                 std::vector<Message>& messages) {
+  // The crown is as high as the person is tall.
+  const auto offsets = finger_bone_offsets(skeleton.end[static_cast<std::size_t>(HumanBone::head)].y());
+  for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
+    messages.push_back(
+        place_message("/VMC/Ext/Bone/Pos", unity_name(kFingerBoneNames[b]), {offsets[b], fingers[b]}));
   }
 }
 
@@ -190,6 +208,9 @@ std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const H
   const std::size_t common = messages.size();
   if (motion != nullptr) {
     add_places(skeleton, *motion, options, messages);
+    if (motion->fingers) {
+      add_fingers(options.all_positions ? skeleton : average_skeleton(), *motion->fingers, messages);
+    }
   }
   if (motion != nullptr && face != nullptr) {
     add_expressions(*face, options.expressions, messages);

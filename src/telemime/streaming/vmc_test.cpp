@@ -124,6 +124,36 @@ TEST_F(Vmc, RotationsAndPositionsAreThoseThatWereSent) {
   EXPECT_EQ(sender->status().dropped, 0);
 }
 
+TEST_F(Vmc, FingersHaveTheNamesAndRotationsOfUnity) {
+  MotionFrame frame = frame_of(random_pose(), 0);
+  frame.hands.emplace();
+  for (HandMotion& hand : *frame.hands) {
+    for (std::size_t a = 0; a < kHandAngleCount; ++a) {
+      hand.angles[a] = random_.uniform(hand_limits()[a].min, hand_limits()[a].max);
+    }
+  }
+  place_hands(forward_kinematics(header_.body, frame.pose), *frame.hands);
+  const HumanoidMotion motion = humanoid_motion(header_.body, frame, frame.pose.root);
+  Marionette got;
+  for (const std::string& datagram : vmc_datagrams(skeleton_, &motion, nullptr, 0.0, {})) {
+    for (const OscMessage& message : testing_osc::parse_osc(datagram)) {
+      got.take(message);
+    }
+  }
+  EXPECT_EQ(got.bones.size(), kBones + kFingerBoneCount);
+  const std::array<std::pair<const char*, std::size_t>, 5> expected = {{{"LeftThumbProximal", 0},
+                                                                        {"LeftThumbIntermediate", 1},
+                                                                        {"LeftThumbDistal", 2},
+                                                                        {"LeftIndexProximal", 3},
+                                                                        {"RightLittleDistal", 29}}};
+  for (const auto& [name, bone] : expected) {
+    const auto found = got.bones.find(name);
+    ASSERT_NE(found, got.bones.end()) << name;
+    EXPECT_LT(rotation_of(found->second).angularDistance((*motion.fingers)[bone]), 1e-4) << name;
+  }
+  EXPECT_GT(position_of(got.bones.at("LeftIndexProximal")).x(), 0.05) << "along the arm of the T-pose";
+}
+
 TEST_F(Vmc, EachBundleIsCompleteInItself) {
   const Pose pose = random_pose();
   const HumanoidMotion motion = humanoid_motion(header_.body, pose, pose.root);

@@ -79,7 +79,9 @@ export class PoseDriver {
     this.pending = null;
 
     const resting = rest > 0 ? restPose(now, this.still ? 0 : rest) : new Map<string, Quat>();
-    let bones = new Map([...relaxedFingers(), ...blendPoses(this.eased, resting, rest)]);
+    // Fingers that are not tracked are slightly bent, as those at rest are.
+    const fingers = relaxedFingers();
+    let bones = blendPoses(new Map([...fingers, ...this.eased]), new Map([...fingers, ...resting]), rest);
     let hips = mix(this.easedHips, [0, 0, 0], rest);
     if (this.mirrored) {
       bones = mirrorBones(bones);
