@@ -42,7 +42,8 @@ TEST(Senders, BadUrlsAreRefusedInWords) {
   EXPECT_NE(refusal("vmc://").find("the computer to send to"), std::string::npos);
   EXPECT_NE(refusal("vmc://localhost:0").find("port"), std::string::npos);
   EXPECT_NE(refusal("vmc://localhost/path").find("vmc://localhost:39539"), std::string::npos);
-  EXPECT_NE(refusal("vmc://localhost?bundles=1").find("bundle, positions, root, mirror"), std::string::npos);
+  EXPECT_NE(refusal("vmc://localhost?bundles=1").find("bundle, positions, root, expressions, mirror"),
+            std::string::npos);
   EXPECT_NE(refusal("vmc://localhost?positions=some").find("all, hips"), std::string::npos);
   EXPECT_NE(refusal("vmc://localhost?mirror=yes").find("0, 1"), std::string::npos);
   EXPECT_NE(refusal("bap+tcp://localhost").find("bap+tcp://localhost:5000"), std::string::npos);
