@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { VRM } from "@pixiv/three-vrm";
 import { describe, expect, it } from "vitest";
 import type { FaceMessage } from "../live/protocol";
-import { ARKIT, FACE_AT_REST, faceOf, weightsFor } from "./face";
+import { ARKIT, AvatarFace, FACE_AT_REST, faceOf, weightsFor } from "./face";
 
 const message = (arkit: Record<string, number>, vrm: Record<string, number> = {}): FaceMessage => ({
   confidence: 1,
@@ -33,6 +34,29 @@ describe("faces", () => {
     expect(weights.get("jawOpen")).toBe(0.8);
     expect(weights.get("aa")).toBe(0);
     expect(weights.get("happy")).toBe(0);
+  });
+  it("turn the eyes of an avatar once", () => {
+    const face = faceOf(message({ eyeLookOutLeft: 0.5, jawOpen: 0.8 }, { lookLeft: 0.4 }), 0, false);
+    for (const [names, eye] of [
+      [ARKIT, false],
+      [ARKIT, true],
+      [["lookLeft"], true],
+    ] as const) {
+      const shown: Record<string, number> = {};
+      const vrm = {
+        expressionManager: {
+          expressions: names.map((expressionName) => ({ expressionName })),
+          setValue: (name: string, weight: number) => (shown[name] = weight),
+        },
+        humanoid: { getRawBoneNode: () => (eye ? {} : null) },
+        lookAt: { yaw: 0, pitch: 0, autoUpdate: true },
+      };
+      new AvatarFace(vrm as unknown as VRM).show(face);
+      expect(shown["eyeLookOutLeft"] ?? 0).toBe(eye ? 0 : 0.5);
+      expect(shown["lookLeft"]).toBeUndefined();
+      expect(shown["jawOpen"]).toBe(names === ARKIT ? 0.8 : undefined);
+      expect(vrm.lookAt.yaw !== 0).toBe(eye);
+    }
   });
   it("close both eyes of an avatar that cannot close one", () => {
     const face = faceOf(message({}, { blink: 0.2, blinkLeft: 0.6 }), 0, false);

@@ -81,18 +81,19 @@ const LOOKS = ["lookUp", "lookDown", "lookLeft", "lookRight"];
 
 /**
  * The weights of an avatar's own expressions. One with most of ARKit's gets these; they show emotions and vowels, too. One
- * without expressions for single eyes closes both as far as the eyes do on average.
+ * without expressions for single eyes closes both as far as the eyes do on average. Where `looks`, the avatar's eyes are
+ * turned otherwise.
  */
-export function weightsFor(has: (name: string) => boolean, face: Face): Map<string, number> {
+export function weightsFor(has: (name: string) => boolean, face: Face, looks = false): Map<string, number> {
   const weight = (name: string): number => face.weights.get(name) ?? 0;
   const out = new Map<string, number>();
   const arkit = ARKIT.filter(has);
   if (arkit.length >= 26) {
-    for (const name of arkit) out.set(name, weight(name));
+    for (const name of arkit) out.set(name, looks && name.startsWith("eyeLook") ? 0 : weight(name));
     for (const name of [...EYELIDS, ...EMOTIONS, ...VOWELS]) if (has(name)) out.set(name, 0);
     return out;
   }
-  for (const name of [...EYELIDS, ...EMOTIONS, ...VOWELS, ...LOOKS])
+  for (const name of [...EYELIDS, ...EMOTIONS, ...VOWELS, ...(looks ? [] : LOOKS)])
     if (has(name)) out.set(name, weight(name));
   if (has("blink") && !(has("blinkLeft") && has("blinkRight")))
     out.set("blink", weight("blink") + 0.5 * (weight("blinkLeft") + weight("blinkRight")));
@@ -109,20 +110,24 @@ export class AvatarFace {
   /** The names in the file: those of ARKit are written with a capital letter in many files of VRM 0. */
   private readonly own = new Map<string, string>();
 
+  /** By bones, or by the expressions of VRM. */
+  private readonly turnsEyes: boolean;
+
   constructor(private readonly vrm: VRM) {
     const known = new Map(ARKIT.map((name) => [name.toLowerCase(), name]));
     for (const { expressionName: name } of vrm.expressionManager?.expressions ?? [])
       this.own.set(known.get(name.toLowerCase()) ?? name, name);
+    this.turnsEyes =
+      !!vrm.lookAt && (!!vrm.humanoid.getRawBoneNode("leftEye") || LOOKS.some((name) => this.own.has(name)));
     if (vrm.lookAt) vrm.lookAt.autoUpdate = false;
   }
 
   /** Call it before the avatar is updated. */
   show(face: Face): void {
     const { expressionManager, lookAt } = this.vrm;
-    const has = (name: string): boolean => this.own.has(name) && !(lookAt && LOOKS.includes(name));
-    for (const [name, weight] of weightsFor(has, face))
+    for (const [name, weight] of weightsFor((name) => this.own.has(name), face, this.turnsEyes))
       expressionManager?.setValue(this.own.get(name)!, weight);
-    if (lookAt) {
+    if (lookAt && this.turnsEyes) {
       lookAt.yaw = face.gaze[0] * DEGREES;
       lookAt.pitch = -face.gaze[1] * DEGREES;
     }
