@@ -54,19 +54,20 @@ function likeUniVrm(json, humanBones) {
   };
 }
 
+// VRM 1.0's names to those of 0.x, which has no "surprised".
 const PRESETS = {
-  ...{
-    happy: "joy",
-    angry: "angry",
-    sad: "sorrow",
-    relaxed: "fun",
-    aa: "a",
-    ih: "i",
-    ou: "u",
-    ee: "e",
-    oh: "o",
-  },
-  ...{ blink: "blink", blinkLeft: "blink_l", blinkRight: "blink_r" },
+  happy: "joy",
+  angry: "angry",
+  sad: "sorrow",
+  relaxed: "fun",
+  aa: "a",
+  ih: "i",
+  ou: "u",
+  ee: "e",
+  oh: "o",
+  blink: "blink",
+  blinkLeft: "blink_l",
+  blinkRight: "blink_r",
 };
 
 /** The expressions that VRM 0.x knows. */

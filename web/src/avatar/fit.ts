@@ -71,7 +71,7 @@ export function dropOddSprings(json: Json): number {
     Number.isInteger(i) && (i as number) >= 0 && (i as number) < count;
   let odd = 0;
   /** Keeps the good items of a list. Returns the new number of each old one; undefined: it is left out. */
-  const sieve = (owner: Json, key: string, good: (item: Json) => boolean): (number | undefined)[] => {
+  const filterItems = (owner: Json, key: string, good: (item: Json) => boolean): (number | undefined)[] => {
     if (owner[key] === undefined) return [];
     const kept: Json[] = [];
     const all = list(owner[key]);
@@ -93,10 +93,10 @@ export function dropOddSprings(json: Json): number {
   };
   const springs = extensions.VRMC_springBone;
   if (isObject(springs)) {
-    const colliders = sieve(springs, "colliders", (c) => within(c.node, nodes) && isObject(c.shape));
-    const groups = sieve(springs, "colliderGroups", () => true);
+    const colliders = filterItems(springs, "colliders", (c) => within(c.node, nodes) && isObject(c.shape));
+    const groups = filterItems(springs, "colliderGroups", () => true);
     renumber(springs.colliderGroups, "colliders", colliders);
-    sieve(
+    filterItems(
       springs,
       "springs",
       (s) =>
@@ -108,12 +108,12 @@ export function dropOddSprings(json: Json): number {
   }
   const vrm0 = isObject(extensions.VRM) ? extensions.VRM.secondaryAnimation : undefined;
   if (isObject(vrm0)) {
-    const groups = sieve(
+    const groups = filterItems(
       vrm0,
       "colliderGroups",
       (g) => within(g.node, nodes) && Array.isArray(g.colliders) && g.colliders.every(isObject),
     );
-    sieve(vrm0, "boneGroups", (b) => Array.isArray(b.bones) && b.bones.every((n) => within(n, nodes)));
+    filterItems(vrm0, "boneGroups", (b) => Array.isArray(b.bones) && b.bones.every((n) => within(n, nodes)));
     renumber(vrm0.boneGroups, "colliderGroups", groups);
   }
   return odd;
