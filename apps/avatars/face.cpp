@@ -151,7 +151,7 @@ Vector2d mouth_place(const MouthForm& form, double thickness, double u, double v
   return {(2.0 * u - 1.0) * form.width, form.y + form.rise * bow + (v - 0.5) * height};
 }
 
-// Up and to the person's left, in units of how far the eyes turn.
+// Direction of the gaze, up and to the person's left, as a share of the largest turn of the eyes.
 Vector2d look_of(FaceShape shape) {
   switch (shape) {
     case FaceShape::look_up:

@@ -12,7 +12,7 @@
 
 namespace telemime {
 
-/// What a face can be made to show: the expressions of VRM 1.0 of which each is one morph target.
+/// The expressions of VRM 1.0 that an avatar's face has, each as one morph target.
 enum class FaceShape : std::size_t {
   blink_left,
   blink_right,
@@ -43,7 +43,7 @@ struct AvatarPart {
   double roughness = 0.8;  ///< 0 mirror, 1 chalk
   Triangles surface;
   bool glows = false;
-  /// Where each vertex of a face goes for each FaceShape, as displacements; otherwise empty.
+  /// Displacement of each vertex for each FaceShape; empty for parts that do not move.
   std::array<std::vector<Eigen::Vector3d>, kFaceShapeCount> moved = {};
 };
 

@@ -212,8 +212,8 @@ void NeutralFace::View::update(const FaceMeasures& prior, std::size_t copies) {
 void NeutralFace::learn(const FaceMeasures& seen, double yaw, double time) {
   constexpr double kFront = 0.44;        // 25 degrees
   constexpr double kFarthest = 1.2;      // 69 degrees
-  constexpr std::size_t kCanonical = 2;  // as many samples does the canonical face count
-  constexpr std::size_t kOwnFront = 8;   // and the front for the sides
+  constexpr std::size_t kCanonical = 2;  // samples that the canonical face counts as
+  constexpr std::size_t kOwnFront = 8;   // those that the front counts as for the sides
   static const FaceMeasures canonical = measure_face(canonical_face(), HeadFit{});
   if (!(std::abs(yaw) < kFarthest)) {
     return;

@@ -15,7 +15,7 @@ namespace telemime {
 /// of its own image of features around the part. Points are numbered as in FaceLandmarks.
 struct FaceDetail {
   Network network;                        ///< from the piece of features to points in it
-  std::span<const std::uint16_t> points;  ///< of the mesh, which are placed anew
+  std::span<const std::uint16_t> points;  ///< of the mesh, which are refined
   int iris = -1;                          ///< the first of the five points of an iris; -1: the part has none
   int from = 0, to = 0;                   ///< the line between these points is level in the piece
 };

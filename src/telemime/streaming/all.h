@@ -14,9 +14,8 @@ namespace telemime {
 inline constexpr std::uint16_t kMarionettePort = 39539;
 
 /// vmc://host[:39539][?bundle=1|0][&positions=all|hips][&root=still|moves][&expressions=vrm0|vrm1|arkit]: the
-/// VMC protocol over UDP
-/// (vmc_messages.h). UDP has no connections: a missing receiver is noticed only if the system reports it,
-/// which it always does on this computer. Throws Error(usage).
+/// VMC protocol over UDP (vmc_messages.h). UDP has no connections: a missing receiver is noticed only if the
+/// system reports it, which it always does on this computer. Throws Error(usage).
 std::unique_ptr<Sender> make_vmc_sender(const SendUrl& url);
 
 /// bap+tcp://host:port[?profile=iso|greta|vreng-3.1|vreng-3.2]: connects by TCP and writes an endless
