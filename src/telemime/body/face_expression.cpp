@@ -210,36 +210,35 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
   if (!(fit.residual < kWorstFit) || !(presence >= 0.0 && presence <= 1.0)) {
     return {};
   }
+  // Of small faces the head is seen, but not what its parts do.
+  constexpr double kPupils = 63.0;  // mm apart
+  const double size = kPupils * fit.scale;
+  const double confidence =
+      ramp(presence, 0.5, 0.9) * ramp(size, 6.0, 16.0) * ramp(fit.residual, kWorstFit, 10.0);
+  const double detail = confidence * ramp(size, 10.0, 36.0);
   const FaceMeasures seen = measure_face(points, fit);
   const Eigen::Vector3d nose = fit.rotation * -Eigen::Vector3d::UnitZ();
   const double yaw = std::atan2(nose.x(), -nose.z());
   constexpr double kNodding = 0.5;  // sine of the pitch
-  constexpr double kSure = 0.8;
-  if (std::abs(nose.y()) < kNodding && presence > kSure) {
+  constexpr double kClear = 0.7;
+  if (std::abs(nose.y()) < kNodding && detail > kClear) {
     neutral.learn(seen, yaw, time);
   }
   const FaceMeasures rest = neutral.measures(yaw);
   FaceMotion face = expression_of(seen, rest);
-  // Cheeks face 45 degrees aside.
-  const auto seen_share = [&](double sign) {
-    const Eigen::Vector3d cheek = fit.rotation * Eigen::Vector3d(sign, 0.0, -1.0).normalized();
-    return ramp(-cheek.z(), -0.75, -0.5);
-  };
-  const double left_seen = seen_share(1.0);
-  const double right_seen = seen_share(-1.0);
-  if (std::min(left_seen, right_seen) < 1.0) {
-    face.gaze =
-        left_seen < right_seen ? gaze_of({seen, rest}, Side::right) : gaze_of({seen, rest}, Side::left);
-    cover_hidden_side(left_seen, right_seen, face);
-  }
+  face.confidence = confidence;
+  // A side disappears while the head turns from 60 to 75 degrees.
+  constexpr double kSeen = 60.0 * kDegree;
+  constexpr double kHidden = 75.0 * kDegree;
+  const double left_seen = ramp(yaw, kHidden, kSeen);
+  const double right_seen = ramp(-yaw, kHidden, kSeen);
+  face.gaze =
+      (left_seen * gaze_of({seen, rest}, Side::left) + right_seen * gaze_of({seen, rest}, Side::right)) /
+      (left_seen + right_seen);
+  cover_hidden_side(left_seen, right_seen, face);
   // The points are a parallel projection along the ray to the head.
   const Eigen::Vector3d ray = camera.ray(fit.translation.head<2>());
   face.head = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;
-  // Of small faces the head is seen, but not what its parts do.
-  constexpr double kPupils = 63.0;  // mm apart
-  const double size = kPupils * fit.scale;
-  face.confidence = ramp(presence, 0.5, 0.9) * ramp(size, 6.0, 16.0) * ramp(fit.residual, kWorstFit, 10.0);
-  const double detail = face.confidence * ramp(size, 10.0, 36.0);
   face.gaze *= detail;
   for (double& value : face.expressions) {
     value *= detail;

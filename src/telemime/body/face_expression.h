@@ -13,7 +13,8 @@ FaceMotion expression_of(const FaceMeasures& seen, const FaceMeasures& neutral);
 
 /// How the head is held, where the eyes look and what the face does. `points` are in pixels of the camera's
 /// picture, `presence` is the probability that they are a face, `time` in s. Learns the person's face at rest
-/// from what is seen from the front. What is turned away from the camera does what the other side does.
+/// from what is clearly seen, from the front and from both sides. What is turned away from the camera does
+/// what the other side does.
 /// Confidence is 0, and everything at rest, if the points are no face.
 FaceMotion face_motion(const FacePoints& points, double presence, const Camera& camera, double time,
                        NeutralFace& neutral);

@@ -348,6 +348,73 @@ TEST(FaceExpression, LastingGrimaceDoesNotBecomeTheFaceAtRest) {
   EXPECT_GT(face[eye_blink_left], 0.5);
 }
 
+TEST(FaceExpression, SmallFaceIsNotLearned) {
+  TestFace wrong;
+  wrong.jaw({0, 12, 0});
+  wrong.close_eye(Side::left, 0.2);
+  wrong.brow_outer(Side::left, 7);
+  NeutralFace neutral;
+  for (int i = 0; i < 50; ++i) {  // pupils 19 pixels apart
+    face_motion(wrong.seen(turned(0), 0.3, {320, 240}), 1.0, kCamera, 0.1 * i, neutral);
+  }
+  const FaceMotion face =
+      face_motion(TestFace().seen(turned(0), 2.0, {320, 240}), 1.0, kCamera, 5.0, neutral);
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    EXPECT_NEAR(face.expressions[i], 0.0, 1e-6) << kExpressionNames[i];
+  }
+}
+
+TEST(FaceExpression, WhatOnlyTheSideShowsIsItsRest) {
+  TestFace odd;
+  odd.brow_outer(Side::left, 5);
+  odd.move(odd.corner(Side::left), {0, 4, 0});
+  NeutralFace neutral;
+  const auto seen = [&](const TestFace& face, double yaw, double time) {
+    return face_motion(face.seen(turned(yaw), 2.0, {320, 240}), 1.0, kCamera, time, neutral);
+  };
+  for (int i = 0; i < 50; ++i) {
+    seen(TestFace(), 0.0, 0.1 * i);
+  }
+  EXPECT_GT(seen(odd, 40.0, 5.0)[brow_outer_up_left], 0.5) << "at first it is taken for an expression";
+  for (int i = 1; i < 80; ++i) {
+    seen(odd, 40.0, 5.0 + 0.1 * i);
+  }
+  const FaceMotion side = seen(odd, 40.0, 13.0);
+  EXPECT_LT(side[brow_outer_up_left], 0.05);
+  EXPECT_LT(side[mouth_frown_left], 0.05);
+  const FaceMotion front = seen(TestFace(), 0.0, 13.1);
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    EXPECT_NEAR(front.expressions[i], 0.0, 1e-6) << kExpressionNames[i];
+  }
+  EXPECT_GT(seen(odd, 0.0, 13.2)[brow_outer_up_left], 0.5);
+}
+
+TEST(FaceExpression, HiddenEyeDoesNotMatter) {
+  for (const double sign : {-1.0, 1.0}) {
+    const Side hidden = sign > 0.0 ? Side::right : Side::left;
+    TestFace face, garbage;
+    face.look(0.0, 0.2);
+    garbage.look(0.0, 0.2);
+    garbage.close_eye(hidden, 1.0);
+    garbage.points[hidden == Side::left ? kLeftIris : kRightIris] += Eigen::Vector3d(0.0, 5.0, -3.0);
+    const FaceMotion clean = motion_of(face, turned(76.0 * sign));
+    const FaceMotion seen = motion_of(garbage, turned(76.0 * sign));
+    EXPECT_LT((seen.gaze - clean.gaze).norm(), 1e-6);
+    for (std::size_t i = 0; i < kExpressionCount; ++i) {
+      EXPECT_NEAR(seen.expressions[i], clean.expressions[i], 1e-6) << kExpressionNames[i] << ", " << sign;
+    }
+    // It disappears gradually.
+    FaceMotion last = motion_of(garbage, turned(55.0 * sign));
+    const double before = last.gaze.y();
+    for (double yaw = 56.0; yaw < 80.0; yaw += 1.0) {
+      const FaceMotion now = motion_of(garbage, turned(yaw * sign));
+      EXPECT_LT(std::abs(now.gaze.y() - last.gaze.y()), 0.06) << yaw;
+      last = now;
+    }
+    EXPECT_GT(last.gaze.y() - before, 0.15);
+  }
+}
+
 TEST(FaceExpression, GarbageGivesFiniteValues) {
   Random random(5);
   NeutralFace neutral;
