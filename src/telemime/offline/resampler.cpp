@@ -36,6 +36,17 @@ HandMotions blend(const HandMotions& a, const HandMotions& b, double share) {
   return mixed;
 }
 
+FaceMotion blend(const FaceMotion& a, const FaceMotion& b, double share) {
+  FaceMotion mixed = a;
+  mixed.confidence += share * (b.confidence - a.confidence);
+  mixed.head = a.head.slerp(share, b.head);
+  mixed.gaze += share * (b.gaze - a.gaze);
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    mixed.expressions[i] += share * (b.expressions[i] - a.expressions[i]);
+  }
+  return mixed;
+}
+
 }  // namespace
 
 MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, double time) const {
@@ -49,11 +60,15 @@ MotionFrame Resampler::between(const MotionFrame& a, const MotionFrame& b, doubl
     if (a.hands && b.hands) {
       mixed.hands = blend(*a.hands, *b.hands, share);
     }
+    if (a.face && b.face) {
+      mixed.face = blend(*a.face, *b.face, share);
+    }
     return with_pose(mixed, blend(a.pose, b.pose, share), body_, camera_);
   }
   MotionFrame held = a;
   if (gap > longest_gap_) {
     held.state = TrackState::lost;
+    held.face.reset();
   }
   return held;
 }

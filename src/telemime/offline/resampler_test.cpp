@@ -57,6 +57,32 @@ TEST(Resampler, ADroppedFrameLiesBetweenItsNeighbours) {
   EXPECT_NEAR(out[1].pose[Angle::l_elbow_flexion], -0.6, 1e-12);
 }
 
+TEST(Resampler, FaceTurnsWithTheBody) {
+  MotionFrame first = bent(0.0, 0.0), last = bent(0.16, 0.0);
+  first.face.emplace().confidence = 0.6;
+  last.face.emplace().confidence = 1.0;
+  last.face->head = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitY());
+  last.face->gaze = {0.4, -0.2};
+  (*last.face)[Expression::jaw_open] = 1.0;
+  Resampler resampler = at_25();
+  EXPECT_EQ(pushed(resampler, first).size(), 1U);
+  const auto out = pushed(resampler, last);
+  ASSERT_EQ(out.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double share = 0.25 * static_cast<double>(i + 1);
+    ASSERT_TRUE(out[i].face);
+    EXPECT_NEAR(out[i].face->confidence, 0.6 + 0.4 * share, 1e-9);
+    EXPECT_NEAR(out[i].face->head.angularDistance(Eigen::Quaterniond::Identity()), 0.8 * share, 1e-6);
+    EXPECT_NEAR(out[i].face->gaze.x(), 0.4 * share, 1e-9);
+    EXPECT_NEAR((*out[i].face)[Expression::jaw_open], share, 1e-9);
+  }
+  // In a long gap nothing is known of the face.
+  last.time = 2.0;
+  const auto gap = pushed(resampler, last);
+  EXPECT_FALSE(gap.front().face);
+  EXPECT_TRUE(gap.back().face);
+}
+
 TEST(Resampler, AFasterCameraGivesFewerFrames) {
   Resampler resampler = at_25();
   std::size_t count = 0;
