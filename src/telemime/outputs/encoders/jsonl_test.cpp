@@ -239,9 +239,18 @@ TEST(Jsonl, ReadsBackTheFaceThatItWrote) {
   // One that is not finite is left out; one that cannot be is refused.
   frame.face->gaze.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(encoder->frame(frame).find("face"), std::string::npos);
-  std::string wrong = text;
-  wrong.replace(wrong.find("\"confidence\":") + 13, 1, ":7");
-  EXPECT_THROW(parse_pose_jsonl(wrong + text.substr(text.find('\n') + 1), "face"), Error);
+  const auto refused = [&](const std::string& place, const json& value, const std::string& words) {
+    json wrong = json::parse(text.substr(text.find('\n') + 1));
+    wrong[json::json_pointer("/face" + place)] = value;
+    const std::string said = error_of(ErrorKind::input, [&] {
+      parse_pose_jsonl(text.substr(0, text.find('\n') + 1) + wrong.dump() + "\n\n", "face");
+    });
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  refused("/confidence", 7, "between 0 and 1");
+  refused("/confidence", -0.1, "between 0 and 1");
+  refused("/head", json::array({0, 0, 0, 0}), "head");
+  refused("/head", json::array({0, 0, 1}), "head");
 }
 
 TEST(JsonlReader, RefusesASpreadThatIsNone) {

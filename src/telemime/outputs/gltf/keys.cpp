@@ -15,7 +15,7 @@ void repeat_last(std::vector<float>& column, std::size_t width) {
 
 }  // namespace
 
-void MotionKeys::Columns::add(float time, const HumanoidMotion& motion, const FaceMotion& face) {
+void MotionKeys::Columns::add(float time, const HumanoidMotion& motion) {
   times.push_back(time);
   const Eigen::Vector3f place = motion.hips.cast<float>();
   hips.insert(hips.end(), place.begin(), place.end());
@@ -23,6 +23,9 @@ void MotionKeys::Columns::add(float time, const HumanoidMotion& motion, const Fa
     const Eigen::Quaternionf q = motion.rotation[b].cast<float>().normalized();
     rotations[b].insert(rotations[b].end(), {q.x(), q.y(), q.z(), q.w()});
   }
+}
+
+void MotionKeys::Columns::add_face(const FaceMotion& face) {
   const auto weights = vrm_expressions(face);
   for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {
     expressions[i].insert(expressions[i].end(), {static_cast<float>(weights[i]), 0.0F, 0.0F});
@@ -40,10 +43,12 @@ void MotionKeys::Columns::hold(float time) {
   for (std::vector<float>& rotation : rotations) {
     repeat_last(rotation, 4);
   }
-  for (std::vector<float>& expression : expressions) {
-    repeat_last(expression, 3);
+  if (!gaze.empty()) {
+    for (std::vector<float>& expression : expressions) {
+      repeat_last(expression, 3);
+    }
+    repeat_last(gaze, 4);
   }
-  repeat_last(gaze, 4);
 }
 
 MotionKeys::MotionKeys(const Body& body, std::optional<std::size_t> face_node)
@@ -74,7 +79,10 @@ void MotionKeys::add(const MotionFrame& frame) {
   if (frame.face) {
     turn_head(*frame.face, motion);
   }
-  columns_.add(time, motion, frame.face.value_or(FaceMotion{}));
+  columns_.add(time, motion);
+  if (face_node_) {
+    columns_.add_face(frame.face.value_or(FaceMotion{}));
+  }
 }
 
 void MotionKeys::add_animation(GltfDocument& document) const {
@@ -86,7 +94,8 @@ void MotionKeys::add_animation(GltfDocument& document) const {
     HumanoidMotion rest;
     rest.hips = humanoid_skeleton(body_).position[0];
     rest.rotation.fill(Eigen::Quaterniond::Identity());
-    columns.add(0.0F, rest, FaceMotion{});
+    columns.add(0.0F, rest);
+    columns.add_face(FaceMotion{});
   }
   const std::size_t input = add_accessor(document, columns.times, "SCALAR", GltfTarget::none, true);
   auto channels = nlohmann::ordered_json::array();

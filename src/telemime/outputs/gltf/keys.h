@@ -47,7 +47,8 @@ class MotionKeys {
     std::array<std::vector<float>, kAnimatedExpressionCount> expressions;  ///< x is the weight
     std::vector<float> gaze;                                               ///< x, y, z, w
 
-    void add(float time, const HumanoidMotion& motion, const FaceMotion& face);
+    void add(float time, const HumanoidMotion& motion);
+    void add_face(const FaceMotion& face);
     void hold(float time);
   };
 
