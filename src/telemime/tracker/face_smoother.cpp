@@ -27,17 +27,22 @@ bool is_steady(std::size_t expression) {
 std::optional<FaceMotion> FaceSmoother::operator()(const std::optional<FaceMotion>& measured, double time) {
   const double step = time_ ? time - *time_ : 0.0;
   time_ = time;
-  if (!smooth_ || !(step > 0.0 && step <= kLongestGap)) {
-    smooth_ = measured;
-    last_ = measured.value_or(FaceMotion{});
+  const bool seen = measured && measured->confidence > 0.0;
+  const bool begins = !smooth_ || !(step > 0.0 && step <= kLongestGap);
+  if (begins || !seen || !last_) {
+    // Nothing is known of the speed of a face that appears.
+    last_ = seen ? measured : std::nullopt;
     speed_.fill({});
     head_speed_.reset();
     gaze_speed_.reset();
+  }
+  if (begins) {
+    smooth_ = last_;
     return smooth_;
   }
-  const double confidence = measured ? measured->confidence : 0.0;
+  const double confidence = seen ? measured->confidence : 0.0;
   smooth_->confidence += low_pass_share(kConfidence, step) * (confidence - smooth_->confidence);
-  if (confidence > 0.0) {
+  if (seen) {
     follow(*measured, step);
   } else {
     const double rest = low_pass_share(kToRest, step);
@@ -53,12 +58,12 @@ std::optional<FaceMotion> FaceSmoother::operator()(const std::optional<FaceMotio
 }
 
 void FaceSmoother::follow(const FaceMotion& measured, double step) {
-  const double head = head_speed_(turn_between(last_.head, measured.head), step, kHead);
+  const double head = head_speed_(turn_between(last_->head, measured.head), step, kHead);
   smooth_->head = smooth_->head.slerp(head, measured.head).normalized();
-  const Eigen::Vector2d move = measured.gaze - last_.gaze;
+  const Eigen::Vector2d move = measured.gaze - last_->gaze;
   smooth_->gaze += gaze_speed_({move.x(), move.y(), 0.0}, step, kGaze) * (measured.gaze - smooth_->gaze);
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
-    const double change = measured.expressions[i] - last_.expressions[i];
+    const double change = measured.expressions[i] - last_->expressions[i];
     const double share = speed_[i]({change, 0.0, 0.0}, step, is_steady(i) ? kSteady : kFast);
     smooth_->expressions[i] += share * (measured.expressions[i] - smooth_->expressions[i]);
   }

@@ -21,7 +21,7 @@ class FaceSmoother {
 
   std::optional<double> time_;
   std::optional<FaceMotion> smooth_;
-  FaceMotion last_;  ///< measured
+  std::optional<FaceMotion> last_;  ///< measured in the last frame, if seen
   std::array<SpeedShare, kExpressionCount> speed_;
   SpeedShare head_speed_;
   SpeedShare gaze_speed_;

@@ -96,6 +96,36 @@ TEST(FaceSmoother, FaceThatComesAndGoesDoesNotFlutter) {
   }
 }
 
+TEST(FaceSmoother, FaceWithoutConfidenceIsNone) {
+  FaceSmoother smoother;
+  for (int t = 0; t < 5; ++t) {
+    EXPECT_FALSE(smoother(FaceMotion{}, kStep * t)) << t;
+  }
+  FaceMotion face = seen_face();
+  face[jaw_open] = 0.8;
+  smoother(face, kStep * 5);
+  EXPECT_LT((*smoother(FaceMotion{}, kStep * 6))[jaw_open], 0.8) << "goes to rest";
+}
+
+TEST(FaceSmoother, HeadThatComesBackDoesNotJump) {
+  FaceSmoother smoother;
+  constexpr double kTurn = 0.52;  // rad
+  FaceMotion face = seen_face();
+  for (int t = 0; t < 25; ++t) {
+    smoother(face, kStep * t);
+  }
+  for (int t = 25; t < 37; ++t) {
+    ASSERT_TRUE(smoother(std::nullopt, kStep * t));
+  }
+  face.head = Eigen::AngleAxisd(kTurn, Eigen::Vector3d::UnitY());
+  const auto back = smoother(face, kStep * 37);
+  EXPECT_LT(back->head.angularDistance(Eigen::Quaterniond::Identity()), 0.3 * kTurn);
+  for (int t = 38; t < 62; ++t) {
+    smoother(face, kStep * t);
+  }
+  EXPECT_LT(smoother(face, kStep * 62)->head.angularDistance(face.head), 0.05 * kTurn);
+}
+
 TEST(FaceSmoother, PauseBeginsANewMotion) {
   FaceSmoother smoother;
   FaceMotion face = seen_face();

@@ -70,12 +70,15 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
   if (!features.face) {
     return std::nullopt;
   }
+  static_assert(kFacePoints == FaceLandmarks::kCount);
   FacePoints points;
   for (std::size_t i = 0; i < kFacePoints; ++i) {
     const FaceLandmark& seen = features.face->points[i];
     points[i] = {seen.pixel.x(), seen.pixel.y(), seen.depth};
   }
-  return face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
+  const FaceMotion face =
+      face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
+  return face.confidence > 0.0 ? std::optional(face) : std::nullopt;
 }
 
 // After a pause the last pose says nothing: the person is searched for as after a loss, in this frame.
