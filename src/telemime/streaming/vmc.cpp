@@ -71,10 +71,12 @@ class VmcLink final : public Link {
   bool frame(const MotionFrame& raw, double /*taken*/) override {
     const MotionFrame frame = motion_->clean(raw);
     const auto motion = (*motion_)(frame);
-    followed_at_ = motion ? std::optional(frame.time) : std::nullopt;
-    for (const std::string& datagram :
-         vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr, frame.face ? &*frame.face : nullptr,
-                       frame.time, options_)) {
+    const auto datagrams = vmc_datagrams(motion_->skeleton(), motion ? &*motion : nullptr,
+                                         face_to_show(frame.face), frame.time, options_);
+    followed_ = motion.has_value();
+    face_shown_ = frame.face.has_value();
+    time_ = frame.time;
+    for (const std::string& datagram : datagrams) {
       send(datagram);
     }
     // A refusal arrives after the frame that caused it: the next one is sent after it.
@@ -96,14 +98,22 @@ class VmcLink final : public Link {
   }
 
  private:
-  /// The last message to a receiver says that nobody is tracked.
+  /// Receivers keep the last face: when it is no longer seen, one at rest is sent.
+  const FaceMotion* face_to_show(const std::optional<FaceMotion>& face) const {
+    static const FaceMotion rest;
+    return face ? &*face : face_shown_ ? &rest : nullptr;
+  }
+
+  /// The last message to a receiver says that nobody is tracked, and brings the face to rest.
   void say_farewell() {
-    if (!followed_at_ || !socket_.is_open()) {
+    if (!(followed_ || face_shown_) || !socket_.is_open()) {
       return;
     }
     boost::system::error_code ignored;
-    for (const std::string& datagram : vmc_datagrams(motion_->skeleton(), nullptr, nullptr,
-                                                     *std::exchange(followed_at_, std::nullopt), options_)) {
+    const auto datagrams =
+        vmc_datagrams(motion_->skeleton(), nullptr, face_to_show(std::nullopt), time_, options_);
+    followed_ = face_shown_ = false;
+    for (const std::string& datagram : datagrams) {
       socket_.send(asio::buffer(datagram), 0, ignored);
     }
   }
@@ -156,7 +166,9 @@ class VmcLink final : public Link {
   VmcOptions options_;
   std::optional<PersonMotion> motion_;
   std::shared_ptr<const StreamHeader> person_;  ///< of motion_
-  std::optional<double> followed_at_;           ///< time of the last frame if it showed a person
+  bool followed_ = false;                       ///< the last frame showed a person
+  bool face_shown_ = false;                     ///< and a face
+  double time_ = 0.0;                           ///< of the last frame, s
   std::int64_t frames_ = 0;                     ///< since the last connection
   bool told_ = false;                           ///< the status says that frames arrive
   bool unreachable_ = false;                    ///< the computer was unreachable in the last attempt

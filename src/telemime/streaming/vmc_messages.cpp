@@ -212,7 +212,7 @@ std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const H
       add_fingers(options.all_positions ? skeleton : average_skeleton(), *motion->fingers, messages);
     }
   }
-  if (motion != nullptr && face != nullptr) {
+  if (face != nullptr) {
     add_expressions(*face, options.expressions, messages);
   }
   return options.bundles ? bundled(messages, common, options.largest) : single(messages);

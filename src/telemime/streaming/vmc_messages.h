@@ -31,9 +31,9 @@ struct VmcOptions {
 /// or not), /VMC/Ext/T, /VMC/Ext/Root/Pos and a /VMC/Ext/Bone/Pos for each of the 19 bones and, where hands
 /// are tracked, of the 30 finger bones, in the left-handed frame of Unity for a VRM 1.0 model: p = (-x, y,
 /// z), q = (x, -y, -z, w). `motion` is nullptr while the person is lost: then the first two alone. With a
-/// face, /VMC/Ext/Blend/Val for each expression and /VMC/Ext/Blend/Apply follow; `face` is nullptr where none
-/// is seen. Each bundle begins with /VMC/Ext/OK and /VMC/Ext/T, so that it can be used by itself. `time` in
-/// s.
+/// face, /VMC/Ext/Blend/Val for each expression and /VMC/Ext/Blend/Apply follow; without one (nullptr)
+/// receivers keep the last. Each bundle begins with /VMC/Ext/OK and /VMC/Ext/T, so that it can be used by
+/// itself. `time` in s.
 std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const HumanoidMotion* motion,
                                        const FaceMotion* face, double time, const VmcOptions& options);
 

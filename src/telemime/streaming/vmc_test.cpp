@@ -236,6 +236,41 @@ TEST_F(Vmc, ExpressionsInTheNamesThatAreAskedFor) {
   EXPECT_THROW(make_sender(url_of(receiver_.port(), "?expressions=all")), Error);
 }
 
+TEST_F(Vmc, FaceComesToRestWhenItIsNotSeen) {
+  enum class End { face_unseen, person_lost, farewell };
+  for (const End end : {End::face_unseen, End::person_lost, End::farewell}) {
+    UdpReceiver receiver;
+    auto sender = make_sender(url_of(receiver.port(), "?expressions=arkit"));
+    sender->begin(header_);
+    MotionFrame frame = frame_of(random_pose(), 0);
+    frame.face = testing_motion::random_face(random_);
+    sender->send(frame, kTaken);
+    next_frame(receiver);
+    // A face that comes to rest is followed even while the person is lost.
+    const bool lost = end == End::person_lost;
+    frame.state = lost ? TrackState::lost : TrackState::tracking;
+    frame.face->expressions[0] = 0.25;
+    sender->send(frame, kTaken);
+    EXPECT_FLOAT_EQ(next_frame(receiver, lost).marionette.blends.at("browDownLeft"), 0.25F);
+    frame.face.reset();
+    if (end == End::farewell) {
+      sender.reset();
+    } else {
+      sender->send(frame, kTaken);
+    }
+    const Marionette got = next_frame(receiver, end != End::face_unseen).marionette;
+    EXPECT_EQ(got.blends.size(), kExpressionCount);
+    EXPECT_TRUE(got.applied);
+    for (const auto& [name, weight] : got.blends) {
+      EXPECT_EQ(weight, 0.0F) << name;
+    }
+    if (sender) {
+      sender->send(frame, kTaken);
+      EXPECT_TRUE(next_frame(receiver, lost).marionette.blends.empty()) << "once is enough";
+    }
+  }
+}
+
 TEST_F(Vmc, PositionsOfTheHipsAlone) {
   header_.body = make_body([] {
     Shape tall;
