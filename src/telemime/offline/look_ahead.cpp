@@ -12,8 +12,9 @@ namespace telemime {
 namespace {
 
 // Neighbouring frames look alike: one in this time is enough to pick from.
-constexpr double kStride = 3.0;  // 1/25 s
-constexpr double kSlack = 0.5;   // 1/25 s, of sums of time
+constexpr double kStride = 3.0;    // 1/25 s
+constexpr double kExactly = 0.01;  // 1/25 s, of sums of time
+constexpr double kSlack = 0.5;     // 1/25 s, of sums of time
 // Fewer keyframes than this tell no more than the first frame alone.
 constexpr std::size_t kFewest = 3;
 
@@ -162,7 +163,7 @@ struct Scouting {
     if (!is_tracked(record)) {
       return;
     }
-    const bool due = tracked_for > next_candidate - kSlack;
+    const bool due = tracked_for > next_candidate - kExactly;
     if (due && record.features.head) {
       first.candidates.push_back({.keyframe = {*record.estimate.prepared, motion.pose, motion.region_score},
                                   .frame = motion.frame,

@@ -15,7 +15,7 @@
 namespace telemime {
 namespace {
 
-constexpr double kFaceless = 25.0;   // 1/25 s with a head but no face, until the outline of the head is used
+constexpr double kFaceless = 31.25;  // 1/25 s with a head but no face, until the outline of the head is used
 constexpr double kExact = 0.05;      // of a step: time stamps of cameras are not more exact
 constexpr double kLeastSteps = 0.2;  // between two frames
 constexpr double kMostSteps = 8.0;   // after a longer gap the motion model says nothing
