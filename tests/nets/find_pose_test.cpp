@@ -10,9 +10,11 @@
 #include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
+#include "telemime/body/face_model.h"
 #include "telemime/capture/source.h"
 #include "telemime/evaluation/truth.h"
 #include "telemime/nets/face_landmarks.h"
@@ -186,6 +188,41 @@ TEST_F(FindPose, FaceIsAroundTheNoseOfThePose) {
     EXPECT_LT((points[kNoseTip].pixel - pose->points[PoseLandmarkIndex::nose].pixel).norm(),
               0.5 * eyes.norm());
     EXPECT_NEAR(region->centre.x(), points[kNoseTip].pixel.x(), 0.5 * eyes.norm());
+  }
+}
+
+TEST_F(FindPose, EyesAndIrisesAreOnTheirOwnSide) {
+  PoseNetworks networks = load_pose_networks(kModels);
+  FaceNetworks faces = load_face_networks(kModels);
+  for (const cv::Mat& frame : frames_of(kDemo / "video.mp4", 3)) {
+    const auto pose = find_pose(frame, networks);
+    ASSERT_TRUE(pose);
+    const auto face = find_face(frame, head_region(*pose), faces, std::nullopt);
+    ASSERT_TRUE(face);
+    FacePoints points;
+    for (std::size_t i = 0; i < kFacePoints; ++i) {
+      points[i] = {face->points[i].pixel.x(), face->points[i].pixel.y(), face->points[i].depth};
+    }
+    const HeadFit fit = fit_head(points);
+    const std::vector<std::size_t> right = {33,  7,   163, 144, 145, 153, 154, 155,
+                                            133, 173, 157, 158, 159, 160, 161, 246};
+    const std::vector<std::size_t> left = {263, 249, 390, 373, 374, 380, 381, 382,
+                                           362, 398, 384, 385, 386, 387, 388, 466};
+    for (const auto& [iris, eye] : {std::pair(kRightIris, right), std::pair(kLeftIris, left)}) {
+      std::vector<cv::Point2f> contour;
+      for (const std::size_t i : eye) {
+        contour.emplace_back(static_cast<float>(points[i].x()), static_cast<float>(points[i].y()));
+        EXPECT_LT((fit.in_head(points[i]) - canonical_face()[i]).head<2>().norm(), 10.0) << i << ", mm";
+      }
+      const cv::Point2f middle(static_cast<float>(points[iris].x()), static_cast<float>(points[iris].y()));
+      EXPECT_GT(cv::pointPolygonTest(contour, middle, false), 0.0) << iris;
+      const double across = (points[iris + 1] - points[iris + 3]).head<2>().norm() / fit.scale;
+      EXPECT_GT(across, 9.0) << "mm";
+      EXPECT_LT(across, 14.0) << "mm";
+    }
+    for (const std::size_t i : {0U, 13U, 14U, 17U, 61U, 291U}) {
+      EXPECT_LT((fit.in_head(points[i]) - canonical_face()[i]).head<2>().norm(), 15.0) << i << ", mm";
+    }
   }
 }
 
