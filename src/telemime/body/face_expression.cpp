@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "telemime/body/face_eye.h"
+
 namespace telemime {
 namespace {
 
@@ -48,8 +50,6 @@ constexpr SidePair kSneer{nose_sneer_left, nose_sneer_right};
 // Those that one side can do without the other.
 constexpr SidePair kSided[] = {kBrowDown,  kBrowOuterUp, kCheekSquint, kBlink,   kSquint,  kWide, kFrown,
                                kLowerDown, kPress,       kSmile,       kStretch, kUpperUp, kSneer};
-
-constexpr double kEyeball = 12.0;  // mm, radius
 
 // Each measure less the same one at rest.
 class Change {

@@ -39,14 +39,14 @@ Eigen::Quaterniond turned(double yaw, double pitch = 0.0, double roll = 0.0) {
 }
 
 /// What a face does, which coefficients show it, and which others may.
-struct Deed {
+struct Movement {
   std::function<void(TestFace&)> move;
   std::vector<Expression> shown;
   std::vector<Expression> also;
 };
 
 /// What both sides can do, once on each; `by` is outwards, down, back.
-std::vector<Deed> sided_deeds() {
+std::vector<Movement> sided_movements() {
   using Move = std::function<void(TestFace&, Side)>;
   const auto out = [](Side side, double x, double y) -> Eigen::Vector3d {
     return x * TestFace::outward(side) + Eigen::Vector3d(0, y, 0);
@@ -86,20 +86,20 @@ std::vector<Deed> sided_deeds() {
          f.thin(f.on(s, {37, 39, 84, 181}), f.on(s, {82, 81, 87, 178}), 0.85);
        }},
   };
-  std::vector<Deed> deeds;
+  std::vector<Movement> movements;
   for (const Sided& sided : list) {
     for (const Side side : {Side::left, Side::right}) {
-      deeds.push_back({[move = sided.move, side](TestFace& f) { move(f, side); },
-                       {side == Side::left ? sided.left : sided.right},
-                       sided.also[static_cast<std::size_t>(side)]});
+      movements.push_back({[move = sided.move, side](TestFace& f) { move(f, side); },
+                           {side == Side::left ? sided.left : sided.right},
+                           sided.also[static_cast<std::size_t>(side)]});
     }
   }
-  return deeds;
+  return movements;
 }
 
-std::vector<Deed> make_deeds() {
+std::vector<Movement> make_movements() {
   const std::vector<Expression> press = {mouth_press_left, mouth_press_right};
-  std::vector<Deed> all = {
+  std::vector<Movement> all = {
       {[](TestFace& f) { f.look(33 * kDeg, 0); }, {eye_look_out_left, eye_look_in_right}, {}},
       {[](TestFace& f) { f.look(-33 * kDeg, 0); }, {eye_look_in_left, eye_look_out_right}, {}},
       {[](TestFace& f) { f.look(0, 28 * kDeg); }, {eye_look_up_left, eye_look_up_right}, {}},
@@ -172,19 +172,19 @@ std::vector<Deed> make_deeds() {
        {mouth_shrug_lower, mouth_shrug_upper},
        {mouth_smile_left, mouth_smile_right}},
   };
-  const std::vector<Deed> sided = sided_deeds();
+  const std::vector<Movement> sided = sided_movements();
   all.insert(all.end(), sided.begin(), sided.end());
   return all;
 }
 
-const std::vector<Deed>& deeds() {
-  static const std::vector<Deed> all = make_deeds();
+const std::vector<Movement>& movements() {
+  static const std::vector<Movement> all = make_movements();
   return all;
 }
 
-TestFace face_of(const Deed& deed) {
+TestFace face_of(const Movement& movement) {
   TestFace face;
-  deed.move(face);
+  movement.move(face);
   return face;
 }
 
@@ -208,21 +208,21 @@ TEST(FaceExpression, RestIsZero) {
   }
 }
 
-TEST(FaceExpression, EachDeedShowsInItsCoefficientsAlone) {
+TEST(FaceExpression, EachMovementShowsInItsCoefficientsAlone) {
   std::set<Expression> covered;
-  for (std::size_t d = 0; d < deeds().size(); ++d) {
-    const Deed& deed = deeds()[d];
-    const FaceMotion face = motion_of(face_of(deed));
+  for (std::size_t d = 0; d < movements().size(); ++d) {
+    const Movement& movement = movements()[d];
+    const FaceMotion face = motion_of(face_of(movement));
     for (std::size_t i = 0; i < kExpressionCount; ++i) {
       const auto e = static_cast<Expression>(i);
       const auto has = [e](const std::vector<Expression>& list) {
         return std::find(list.begin(), list.end(), e) != list.end();
       };
-      if (has(deed.shown)) {
-        EXPECT_GT(face[e], 0.8) << name_of(e) << " of deed " << d;
+      if (has(movement.shown)) {
+        EXPECT_GT(face[e], 0.8) << name_of(e) << " of movement " << d;
         covered.insert(e);
-      } else if (!has(deed.also)) {
-        EXPECT_LT(face[e], 0.2) << name_of(e) << " of deed " << d << ", " << name_of(deed.shown[0]);
+      } else if (!has(movement.also)) {
+        EXPECT_LT(face[e], 0.2) << name_of(e) << " of movement " << d << ", " << name_of(movement.shown[0]);
       }
     }
   }
@@ -234,18 +234,18 @@ TEST(FaceExpression, EachDeedShowsInItsCoefficientsAlone) {
 }
 
 TEST(FaceExpression, DoesNotChangeWithTheHead) {
-  for (const Deed& deed : deeds()) {
-    const TestFace face = face_of(deed);
+  for (const Movement& movement : movements()) {
+    const TestFace face = face_of(movement);
     const FaceMotion straight = motion_of(face);
     for (const double yaw : {-60.0, -30.0, 30.0, 60.0}) {
       for (const double pitch : {-25.0, 0.0, 25.0}) {
-        if (std::abs(yaw) > 50.0 && name_of(deed.shown[0]).starts_with("eyeLook")) {
+        if (std::abs(yaw) > 50.0 && name_of(movement.shown[0]).starts_with("eyeLook")) {
           continue;  // the iris of an eye that looks far aside is out of sight
         }
         const FaceMotion aside = motion_of(face, turned(yaw, pitch, 10.0));
         for (std::size_t i = 0; i < kExpressionCount; ++i) {
           EXPECT_NEAR(aside.expressions[i], straight.expressions[i], 0.05)
-              << kExpressionNames[i] << ", " << name_of(deed.shown[0]) << ", yaw " << yaw << ", pitch "
+              << kExpressionNames[i] << ", " << name_of(movement.shown[0]) << ", yaw " << yaw << ", pitch "
               << pitch;
         }
       }
@@ -254,8 +254,8 @@ TEST(FaceExpression, DoesNotChangeWithTheHead) {
 }
 
 TEST(FaceExpression, MirroredFaceGivesMirroredCoefficients) {
-  for (const Deed& deed : deeds()) {
-    const TestFace face = face_of(deed);
+  for (const Movement& movement : movements()) {
+    const TestFace face = face_of(movement);
     TestFace mirror;
     for (std::size_t i = 0; i < kFacePoints; ++i) {
       mirror.points[TestFace::mirrored(i)] = face.points[i].cwiseProduct(Eigen::Vector3d(-1, 1, 1));
@@ -265,7 +265,7 @@ TEST(FaceExpression, MirroredFaceGivesMirroredCoefficients) {
     EXPECT_NEAR(a.gaze.x(), b.gaze.x(), 0.01);
     for (std::size_t i = 0; i < kExpressionCount; ++i) {
       EXPECT_NEAR(a.expressions[i], b.expressions[i], 0.02)
-          << kExpressionNames[i] << ", " << name_of(deed.shown[0]);
+          << kExpressionNames[i] << ", " << name_of(movement.shown[0]);
     }
   }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "telemime/body/face_eye.h"
+
 namespace telemime {
 namespace {
 
@@ -46,8 +48,6 @@ constexpr std::array<SidePoints, 2> kSides = {{{.upper_lid = {387, 386, 385},
                                                 .lower_edge = {84, 181},
                                                 .cheek = {50, 205, 123},
                                                 .nostril = {129, 98, 64}}}};
-
-constexpr double kEyeball = 12.0;  // mm, radius
 
 /// Which quantile of what was seen is the face at rest, and how far it may be from the canonical face.
 struct NeutralRule {
@@ -125,7 +125,7 @@ FaceMeasures measure_face(const FacePoints& points, const HeadFit& fit) {
     set(eye_opening, opening / width);
     set(lower_lid, (middle - mean(p.lower_lid)).y() / width);
     // The iris is seen in the picture alone: its depth is that of a ball in the eye.
-    const Eigen::Vector3d ball = middle + Eigen::Vector3d(0.0, 0.0, kEyeball - 4.0);
+    const Eigen::Vector3d ball = middle + Eigen::Vector3d(0.0, 0.0, kEyeball - kIrisBulge);
     Eigen::Vector3d offset = fit.rotation * (at(p.iris) - ball);
     const double across = offset.head<2>().squaredNorm();
     offset.z() = -std::sqrt(std::max(kEyeball * kEyeball - across, 0.0));

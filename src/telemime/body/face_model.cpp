@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/body/face_eye.h"
+
 namespace telemime {
 namespace {
 
@@ -30,11 +32,10 @@ FacePoints make_canonical_face() {
     face[i] = {kMesh[i][0], kMesh[i][1], kMesh[i][2]};
   }
   // The iris bulges a little out of the line between the corners of its eye.
-  constexpr double kBulge = 4.0;   // mm
   constexpr double kRadius = 5.9;  // mm
   for (const auto& [iris, outer, inner] :
        {std::array<std::size_t, 3>{kRightIris, 33, 133}, {kLeftIris, 263, 362}}) {
-    const Eigen::Vector3d middle = 0.5 * (face[outer] + face[inner]) - Eigen::Vector3d(0.0, 0.0, kBulge);
+    const Eigen::Vector3d middle = 0.5 * (face[outer] + face[inner]) - Eigen::Vector3d(0.0, 0.0, kIrisBulge);
     face[iris] = middle;
     const Eigen::Vector3d x(kRadius, 0.0, 0.0), y(0.0, kRadius, 0.0);
     face[iris + 1] = middle + x;
