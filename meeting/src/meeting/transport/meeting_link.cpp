@@ -204,11 +204,13 @@ void MeetingLink::drain() {
 }
 
 void MeetingLink::send_when_due() {
-  if (!waiting_ || !connection_.drained()) {
+  if (!waiting_) {
     return;
   }
   const double now = seconds_now();
-  const double due = pace_.due(*waiting_);
+  // While earlier data are on their way, the frame waits: it may be the last one before a pause.
+  constexpr double kUntilDrained = 0.01;  // s
+  const double due = connection_.drained() ? pace_.due(*waiting_) : now + kUntilDrained;
   if (due > now) {
     pose_timer_.expires_at(at_seconds(due));
     pose_timer_.async_wait([this](const boost::system::error_code& error) {
