@@ -14,11 +14,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kThumb = 0;
 
-// The first angle of each finger; the thumb has one more.
-constexpr std::array<std::size_t, kFingerCount + 1> kFirstAngle = {0, 4, 7, 10, 13, 16};
-
 std::size_t angle_count(std::size_t finger) {
-  return kFirstAngle[finger + 1] - kFirstAngle[finger];
+  return kFirstFingerAngle[finger + 1] - kFirstFingerAngle[finger];
 }
 
 Eigen::Vector3d mirrored_if(Side side, const Eigen::Vector3d& p) {
@@ -75,7 +72,7 @@ double within(double value, const AngleRange& range) {
 // The angles from the directions of the bones, one after the other.
 void angles_of_directions(const FingerPoints& target, const Eigen::Vector3d& base, std::size_t finger,
                           double* a) {
-  const AngleRange* const limits = &hand_limits()[kFirstAngle[finger]];
+  const AngleRange* const limits = &hand_limits()[kFirstFingerAngle[finger]];
   Eigen::Matrix3d axes = base_axes(finger);
   const auto bone = [&](int i) -> Eigen::Vector3d {
     return axes.transpose() *
@@ -103,7 +100,7 @@ double refine_finger(const HandSizes& sizes, const FingerPoints& target, std::si
   constexpr double kDelta = 1e-4;
   constexpr double kDamping = 1e-3;
   const auto n = static_cast<Eigen::Index>(angle_count(finger));
-  const AngleRange* const limits = &hand_limits()[kFirstAngle[finger]];
+  const AngleRange* const limits = &hand_limits()[kFirstFingerAngle[finger]];
   FingerPoints error = target - finger_points(sizes, finger, a);
   for (int step = 0; step < kSteps; ++step) {
     Eigen::MatrixXd jacobian(9, n);
@@ -221,7 +218,7 @@ std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> finger_rotations(const 
   std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> rotations;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     const Eigen::Matrix3d& axes = base_axes(f);
-    const auto joints = bends(f, &angles[kFirstAngle[f]]);
+    const auto joints = bends(f, &angles[kFirstFingerAngle[f]]);
     for (std::size_t i = 0; i < 3; ++i) {
       rotations[f][i] = mirrored_if(side, Eigen::Matrix3d(axes * joints[i] * axes.transpose()));
     }
@@ -238,7 +235,7 @@ HandPoints hand_points(const HandSizes& sizes, const HandAngles& angles, Side si
   points[0] = frame_from_hand.translation();
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     points[hand_joint(f, 0)] = place(sizes.base[f]);
-    const FingerPoints finger = finger_points(sizes, f, &angles[kFirstAngle[f]]);
+    const FingerPoints finger = finger_points(sizes, f, &angles[kFirstFingerAngle[f]]);
     for (std::size_t i = 0; i < 3; ++i) {
       points[hand_joint(f, i + 1)] = place(finger.col(static_cast<Eigen::Index>(i)));
     }
@@ -273,7 +270,7 @@ std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::Matrix3d rotation = svd.matrixU() * sign * svd.matrixV().transpose();
-  // The fingers, from where the sizes has their bases.
+  // The fingers, from where the sizes have their bases.
   HandFit fit;
   double squares = 0.0;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
@@ -284,7 +281,7 @@ std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points
           sizes.base[f] +
           rotation.transpose() * (mirrored_if(side, points[hand_joint(f, i + 1)]) - base) / scale;
     }
-    double* const angles = &fit.angles[kFirstAngle[f]];
+    double* const angles = &fit.angles[kFirstFingerAngle[f]];
     angles_of_directions(target, sizes.base[f], f, angles);
     squares += refine_finger(sizes, target, f, angles);
   }
@@ -306,6 +303,7 @@ HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side
   if (!(palm > 0.0)) {
     return sizes;
   }
+  sizes.palm = palm;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     const Eigen::Vector3d off = hand(hand_joint(f, 0)) / palm - average.base[f];
     sizes.base[f] += off * std::min(1.0, kMost * average.base[f].norm() / std::max(1e-12, off.norm()));

@@ -44,6 +44,8 @@ inline constexpr std::array<std::string_view, kHandAngleCount> kHandAngleNames =
     "ring_pip",      "little_mcp",      "little_spread", "little_pip"};
 using HandAngles = std::array<double, kHandAngleCount>;  // rad
 inline constexpr double kDipOfPip = 2.0 / 3.0;
+/// The first angle of each finger, then the number of all; the thumb has one more than the others.
+inline constexpr std::array<std::size_t, kFingerCount + 1> kFirstFingerAngle = {0, 4, 7, 10, 13, 16};
 
 struct AngleRange {
   double min = 0.0, max = 0.0;  ///< rad
@@ -99,8 +101,8 @@ struct HandFit {
 /// than a point.
 std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side);
 
-/// What 21 points say of a hand's sizes, given their fit; with sizes.palm. In shares of the palm, each within
-/// a third of the average.
+/// The sizes that 21 points show, given their fit: the palm in the unit of the points, the others in shares
+/// of it, each within a third of the average. The average hand if the palm has no length.
 HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side);
 
 }  // namespace telemime

@@ -156,6 +156,7 @@ TEST(HandModel, MeasuredShapeIsThatOfThePoints) {
   }
   const HandPoints points = hand_points(sizes, resting_hand(), Side::right, random_place(random));
   const HandSizes found = measured_sizes(points, *fit_hand(sizes, points, Side::right), Side::right);
+  EXPECT_NEAR(found.palm, sizes.palm, 1e-9);
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     EXPECT_LT((found.base[f] - sizes.base[f]).norm(), 1e-6);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/models/table.h"
 #include "telemime/nets/picture_region.h"
 
@@ -91,8 +92,6 @@ FaceDetail load(const std::filesystem::path& models, const std::string& input,
 }  // namespace
 
 std::vector<FaceDetail> load_face_details(const std::filesystem::path& models) {
-  constexpr int kRightIris = 468;
-  constexpr int kLeftIris = 473;
   std::vector<FaceDetail> details;
   details.push_back(load(models, "transform_tensor_bilinear_v2", {"conv_lips"}));
   details.push_back(load(models, "transform_tensor_bilinear_v2_1", {"conv_left_eye", "conv_left_iris"}));
@@ -103,8 +102,8 @@ std::vector<FaceDetail> load_face_details(const std::filesystem::path& models) {
   std::tie(details[0].from, details[0].to) = std::pair(61, 291);
   std::tie(details[1].from, details[1].to) = std::pair(33, 133);
   std::tie(details[2].from, details[2].to) = std::pair(362, 263);
-  details[1].iris = kRightIris;
-  details[2].iris = kLeftIris;
+  details[1].iris = FaceLandmarks::kRightIris;
+  details[2].iris = FaceLandmarks::kLeftIris;
   return details;
 }
 

@@ -61,8 +61,8 @@ std::optional<FaceLandmarks> landmarks_in(const cv::Mat& picture, const PictureR
     face.points[i].pixel = points[i];
   }
   // An iris has the depth of its eye.
-  for (const auto& [iris, corners] :
-       {std::pair(468, std::pair(33, 133)), std::pair(473, std::pair(362, 263))}) {
+  for (const auto& [iris, corners] : {std::pair(FaceLandmarks::kRightIris, std::pair(33, 133)),
+                                      std::pair(FaceLandmarks::kLeftIris, std::pair(362, 263))}) {
     for (int i = iris; i < iris + 5; ++i) {
       face.points[i].depth = 0.5 * (face.points[corners.first].depth + face.points[corners.second].depth);
     }

@@ -27,6 +27,8 @@ struct FaceLandmark {
 struct FaceLandmarks {
   static constexpr std::size_t kMeshCount = 468;
   static constexpr std::size_t kCount = 478;
+  static constexpr int kRightIris = 468;  ///< its middle
+  static constexpr int kLeftIris = 473;
   std::array<FaceLandmark, kCount> points;
   double presence = 0.0;      ///< probability that there is a face in the region
   PictureRegion region;       ///< in which the face was seen

@@ -117,7 +117,7 @@ TEST_F(WebSocketSender, WhatTheReceiverSaysIsReadAndForgotten) {
   }
   sender->send(frames_[0], kTaken);
   EXPECT_EQ(server_.read()["type"], "pose");
-  server_.write(std::string(100000, 'x'));  // too much: begins anew
+  server_.write(std::string(100000, 'x'));  // too much: begins again
   server_.accept();
   EXPECT_EQ(server_.read()["type"], "body");
 }

@@ -11,23 +11,24 @@ namespace {
 constexpr double kRestCutoff = 0.9;  // Hz: 94 % of the way to rest in half a second
 constexpr double kRise = 6.0;        // Hz, of the visibility of a hand that comes into sight
 constexpr double kUnseen = 0.02;     // visibility below which a hand is at rest
-constexpr std::array<std::size_t, kFingerCount + 1> kFirst = {0, 4, 7, 10, 13, 16};
 
 }  // namespace
 
 void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& target, double step,
                           State& state, HandMotion& smooth) const {
   const bool seen = measured.visibility > 0.0;
+  // Where a hand comes into sight, the way from its form at rest is not a motion.
+  const bool appears = seen && !(state.last.visibility > 0.0);
   // Fingers, each with its own speed.
   for (std::size_t f = 0; f < kFingerCount; ++f) {
-    Eigen::Vector3d change;
-    for (std::size_t a = 0; a < 3; ++a) {
+    Eigen::Vector3d change = Eigen::Vector3d::Zero();
+    for (std::size_t a = 0; a < 3 && !appears; ++a) {
       change[static_cast<Eigen::Index>(a)] =
-          measured.angles[kFirst[f] + a] - state.last.angles[kFirst[f] + a];
+          measured.angles[kFirstFingerAngle[f] + a] - state.last.angles[kFirstFingerAngle[f] + a];
     }
     const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro);
     const double share = !seen ? low_pass_share(kRestCutoff, step) : smoothing_.share.value_or(by_speed);
-    for (std::size_t a = kFirst[f]; a < kFirst[f + 1]; ++a) {
+    for (std::size_t a = kFirstFingerAngle[f]; a < kFirstFingerAngle[f + 1]; ++a) {
       smooth.angles[a] += share * (measured.angles[a] - smooth.angles[a]);
     }
   }

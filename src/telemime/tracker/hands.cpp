@@ -11,7 +11,7 @@ constexpr std::array<Joint, 2> kWrists = {Joint::l_wrist, Joint::r_wrist};
 constexpr double kFarthest = 0.2;  // m, of a hand's wrist from that of its arm
 constexpr double kNearest = 0.05;  // m, of a wrist from the camera
 constexpr double kHeld = 0.1;      // s, that a hand keeps its form when it is not seen
-constexpr double kWorst = 0.03;    // m, of the points from the model: what fits worse is no hand
+constexpr double kWorst = 0.03;    // m, of the points from the model: what fits worse is not a hand
 
 // m between a finding and an arm's wrist, across the line of sight; more if it looks like the other hand.
 double distance_to_arm(const HandLandmarks& hand, Side side, const HandScene& scene) {
@@ -48,7 +48,7 @@ void learn_sizes(const HandScene& scene, const HandPoints& points, const HandFit
   }
 }
 
-// The model on a finding; empty if it is no hand.
+// The model on a finding; empty if it is not a hand.
 std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const HandScene& scene,
                                  HandState& state) {
   constexpr double kGood = 0.8;     // presence from which on sizes are learned

@@ -180,6 +180,25 @@ TEST_F(Hands, SmoothedHandGoesToRestInHalfASecond) {
   EXPECT_LT(hands[0].visibility, 0.15);
 }
 
+TEST_F(Hands, HandThatAppearsDoesNotJump) {
+  constexpr double kStep = 0.04;
+  HandState state;
+  HandSmoother smoother({.one_euro = {1.5, 1.5, 1.0}, .share = {}});
+  HandMotions hands;
+  for (int t = 0; t < 25; ++t) {
+    hands = smoother(observe_hands({}, scene(kStep * t), state), kinematics_, kStep);
+  }
+  const HandAngles angles = some_angles(0.8);
+  const double way = largest_difference(hands[0].angles, angles);
+  for (int t = 25; t < 27; ++t) {
+    const HandAngles before = hands[0].angles;
+    hands = smoother(observe_hands({seen(Side::left, angles), SeenHand{}}, scene(kStep * t), state),
+                     kinematics_, kStep);
+    EXPECT_LT(largest_difference(hands[0].angles, before), 0.35 * way);
+  }
+  EXPECT_LT(largest_difference(hands[0].angles, angles), 0.6 * way) << "but it moves on";
+}
+
 TEST_F(Hands, SmootherKeepsAHandThatIsStill) {
   HandSmoother smoother({.one_euro = {1.5, 1.5, 1.0}, .share = {}});
   HandState state;

@@ -36,7 +36,7 @@ TEST(WithBudget, MoreTimeIsMoreEvaluationsAndAllAreValid) {
     EXPECT_EQ(fixed.seed, config.seed);
     return fixed;
   };
-  // What an evaluation costs is measured anew each time: only very different budgets must differ.
+  // What an evaluation costs is measured again each time: only very different budgets must differ.
   const Config none = in(0.0001);
   const Config little = in(1.0);
   const Config much = in(1000.0);
