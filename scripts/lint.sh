@@ -26,7 +26,7 @@ printf '%s\0' "${files[@]}" | xargs -0 -n 50 clang-format-14 --dry-run -Werror
 
 # The compiler's options for one file, without what only a build needs.
 options_of() {
-  sed -n "s|^  \"command\": \"\(.*\) -o .* -c $PWD/$1\",\{0,1\}$|\1|p" "$build/compile_commands.json" | head -1 |
+  sed -n "s|^  \"command\": \"\(.*\) -o .* -c $PWD/$1\",\{0,1\}$|\1|p; T; q" "$build/compile_commands.json" |
     sed 's|\\"|"|g; s|\\\\|\\|g' | { grep -oE -- '-(D|I|isystem |std=)[^ ]+' || true; } | tr '\n' ' '
 }
 
