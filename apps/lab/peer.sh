@@ -86,8 +86,16 @@ for folder in "${folders[@]}"; do
 done
 print_errors
 
+# measure_time NAME THREADS OPTION...
+measure_time() {
+  OPENCV_FOR_THREADS_NUM="$2" track_clip "$here/$round/$1" data/demo --quality balanced --frames 80 --threads "$2" \
+    --set calibration.look_ahead=0 --formats jsonl --seed "$seed" "${@:3}" > "$here/log" 2>&1 ||
+    { cat "$here/log" >&2; fail "the time could not be measured"; }
+}
+
 # In turn, on few frames, so that other work on the computer disturbs all alike. Without the look-ahead, which fits the body
-# once before the first frame and changes nothing in the time of the others.
+# once before the first frame and changes nothing in the time of the others. The peer finds neither hands nor expressions: both
+# are left out but for the last run.
 here="$out/times"
 rm -rf "$here"
 options=()
@@ -97,10 +105,9 @@ for ((round = 1; round <= rounds; ++round)); do
   mkdir -p "$here/$round"
   run_peer data/demo "$here/$round/peer.json" --frames 80
   for threads in 1 0; do
-    OPENCV_FOR_THREADS_NUM="$threads" track_clip "$here/$round/threads_$threads" data/demo --quality balanced --frames 80 \
-      --threads "$threads" --set calibration.look_ahead=0 --formats jsonl --seed "$seed" > "$here/log" 2>&1 ||
-      { cat "$here/log" >&2; fail "the time could not be measured"; }
+    measure_time "threads_$threads" "$threads" --no-face --no-hands
   done
+  measure_time whole 0
 done
 if ((rounds > 0)); then
   echo "Times on $(nproc) processors; load of the last minute: $(cut -d ' ' -f 1 /proc/loadavg)"

@@ -125,14 +125,15 @@ test("a clip without a person is not in the mean", () => {
 
 test("times are compared within a round", () => {
   const text = timeTable([
-    { peer: 50, one: 25, all: 20, networks: 10 },
-    { peer: 100, one: 60, all: 40, networks: 10 },
-    { peer: 50, one: 30, all: 25, networks: 15 },
+    { peer: 50, one: 25, all: 20, networks: 10, whole: 30 },
+    { peer: 100, one: 60, all: 40, networks: 10, whole: 50 },
+    { peer: 50, one: 30, all: 25, networks: 15, whole: 30 },
   ]);
   assert.match(text, /\| peer \| 50 \| 1\.00 \|/);
   assert.match(text, /\| Telemime, one thread \| 30 \| 0\.60 \| 0\.50, 0\.60, 0\.60 \|/);
   assert.match(text, /\| Telemime, default threads \| 25 \| 0\.40 \| 0\.40, 0\.40, 0\.50 \|/);
   assert.match(text, /\| its networks \| 10 \| 0\.20 \| 0\.20, 0\.10, 0\.30 \|/);
+  assert.match(text, /\| with hands and face \| 30 \| 0\.60 \| 0\.60, 0\.50, 0\.60 \|/);
 });
 
 test("times are read from both files", () => {

@@ -127,7 +127,7 @@ Measured run_once(const Lab& lab, const Clip& clip, const Config& config, const 
   request.overlay = false;
   request.config = config;
   request.config.seed = seed;
-  request.config.face = false;  // it does not change the body
+  request.config.face = request.config.hands = false;  // they do not change the body
   if (lab.options().quick) {
     constexpr int kFew = 12;
     request.most_frames = kFew;

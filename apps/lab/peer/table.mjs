@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables of peer.sh, in Markdown:
 //   node table.mjs errors FOLDER...   one row for each clip, from telemime_accuracy.json and peer_accuracy.json in its folder
-//   node table.mjs times ROUND...     the folders of the rounds: peer.json, and the runs threads_1 and threads_0 of Telemime
+//   node table.mjs times ROUND...     the folders of the rounds: peer.json, and the runs threads_1, threads_0, whole of Telemime
 
 import { readFileSync, realpathSync } from "node:fs";
 import { basename, join } from "node:path";
@@ -64,14 +64,15 @@ export function telemimeTime(text, stages = ["features", "search"]) {
 /** The same of the peer. */
 export const peerTime = ({ frames }) => median(frames.map(({ ms }) => ms));
 
-/** `rounds`: { peer, one, all, networks }: ms a frame of the peer, of Telemime on one thread and on all, and of the
- * networks, which are a part of both. */
+/** `rounds`: { peer, one, all, networks, whole }: ms a frame of the peer, of Telemime on one thread and on all, of the
+ * networks, which are a part of both, and of Telemime on all threads with hands and face. */
 export function timeTable(rounds) {
   const names = {
     peer: "peer",
     one: "Telemime, one thread",
     all: "Telemime, default threads",
     networks: "its networks",
+    whole: "with hands and face",
   };
   return table(
     ["tracker", "ms a frame", "times the peer", "each round"],
@@ -96,6 +97,7 @@ if (realpathSync(process.argv[1]) === fileURLToPath(import.meta.url)) {
           one: telemimeTime(read(folder, "threads_1", "pose.jsonl")),
           all: telemimeTime(read(folder, "threads_0", "pose.jsonl")),
           networks: telemimeTime(read(folder, "threads_1", "pose.jsonl"), ["networks"]),
+          whole: telemimeTime(read(folder, "whole", "pose.jsonl")),
         })),
       ),
   };

@@ -31,6 +31,12 @@ constexpr double kLeastSkin = 0.25;
 constexpr int kMostWithoutSkin = 4;
 constexpr double kPause = 1.0;  // s; no motion is followed across it
 
+void require_colour_image(const Frame& frame) {
+  if (frame.image.empty() || frame.image.type() != CV_8UC3) {
+    throw Error(ErrorKind::input, "frame " + std::to_string(frame.index) + " has no 8-bit colour image");
+  }
+}
+
 /// Takes what a network does not take for the person, such as somebody else behind, out of the silhouette. It
 /// is unknown what it is: no cue counts it. Where the network sees only a part of the silhouette, it is not
 /// believed.
@@ -86,10 +92,11 @@ FeatureExtractor::FeatureExtractor(const ImageConfig& config)
   }
 }
 
-std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) {
+std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame) {
   if (!finder_.has_networks() || found_in_ == frame.index) {
     return found_;
   }
+  require_colour_image(frame);
   Stopwatch watch;
   // Networks see a square of 256 pixels: a larger picture would only cost time.
   constexpr int kWidest = 640;
@@ -100,7 +107,7 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
   }
   found_ = finder_.find(picture, frame.time);
   if (found_) {
-    found_ = scaled_to(std::move(*found_), picture.size(), {config_.width, config_.height});
+    found_ = scaled_to(std::move(*found_), picture.size(), working_size());
   }
   found_in_ = frame.index;
   networks_ms_ = watch.lap();
@@ -108,9 +115,7 @@ std::optional<PoseLandmarks> FeatureExtractor::landmarks_of(const Frame& frame) 
 }
 
 FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
-  if (frame.image.empty() || frame.image.type() != CV_8UC3) {
-    throw Error(ErrorKind::input, "frame " + std::to_string(frame.index) + " has no 8-bit colour image");
-  }
+  require_colour_image(frame);
   // The working image.
   WorkingImages p;
   cv::resize(frame.image, p.bgr, cv::Size(config_.width, config_.height), 0, 0, cv::INTER_AREA);
@@ -180,7 +185,7 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
   shape_ = HeadShape{};
-  const std::optional<PoseLandmarks> landmarks = landmarks_of(frame);
+  const std::optional<PoseLandmarks> landmarks = find_landmarks(frame);
   const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
   head_.reset();
   std::optional<TrackedFace> face =
@@ -247,7 +252,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   // Head: track the face; a head that the background explains is rejected. A covered lens shows none.
   status_.brightness = cv::mean(p.grey)[0];
   status_.detail = detail_of(p.grey);
-  out.landmarks = landmarks_of(frame);
+  out.landmarks = find_landmarks(frame);
   out.networks_ms = networks_ms_;
   std::optional<TrackedFace> face;
   if (shows_something(status_)) {

@@ -46,6 +46,10 @@ class FeatureExtractor {
   /// extract() labels the person `ignore` outside the head.
   PersonReport learn_person(const Frame& frame);
 
+  /// What networks see of the person in a frame, in pixels of the working image; they look at a frame once,
+  /// whichever function asks first. Empty without networks or if nobody is found. Throws as extract().
+  std::optional<PoseLandmarks> find_landmarks(const Frame& frame);
+
   /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
   /// Error(input) if the frame has no 8-bit BGR image.
   FrameFeatures extract(const Frame& frame);
@@ -57,6 +61,7 @@ class FeatureExtractor {
   /// size.
   void set_calibration(ImageCalibration calibration);
   const ImageConfig& config() const { return config_; }
+  cv::Size working_size() const { return {config_.width, config_.height}; }
 
  private:
   struct WorkingImages {
@@ -81,7 +86,6 @@ class FeatureExtractor {
   void update_camera_motion(const cv::Mat& grey);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
 
-  std::optional<PoseLandmarks> landmarks_of(const Frame& frame);
   double networks_ms_ = 0.0;  ///< time of the networks in the last frame that they looked at
 
   ImageConfig config_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "telemime/core/in_parallel.h"
 #include "telemime/image/person_finder.h"
 
 namespace telemime {
@@ -53,7 +54,8 @@ bool are_same_hand(const HandLandmarks& a, const HandLandmarks& b) {
 }
 
 HandFinder::HandFinder(const std::filesystem::path& models)
-    : networks_(std::make_shared<HandNetworks>(load_hand_networks(models))) {}
+    : networks_{std::make_shared<HandNetworks>(load_hand_networks(models)),
+                std::make_shared<HandNetworks>(load_hand_networks(models))} {}
 
 std::optional<HandLandmarks> HandFinder::look(const cv::Mat& picture, const PoseLandmarks& pose,
                                               HandSide side, double time) {
@@ -61,33 +63,35 @@ std::optional<HandLandmarks> HandFinder::look(const cv::Mat& picture, const Pose
   constexpr double kAway = 0.6;         // of the region's width, between the wrist and that of the pose
   const PoseLandmark& wrist = wrist_of(pose, side);
   // Where it was, as long as the body has it there, too.
-  const auto& followed = followed_[static_cast<std::size_t>(side)];
+  const auto i = static_cast<std::size_t>(side);
+  const auto& followed = followed_[i];
   if (followed && time > followed->time && time - followed->time < kRemembered) {
-    auto hand = hand_in(picture, next_region(followed->hand), *networks_);
+    auto hand = hand_in(picture, next_region(followed->hand), *networks_[i]);
     if (hand && (hand->points[0].pixel - wrist.pixel).norm() < kAway * hand->region.width) {
       return hand;
     }
   }
   constexpr double kInPicture = 0.5;
-  return wrist.presence > kInPicture ? find_hand(picture, pose, side, *networks_) : std::nullopt;
+  return wrist.presence > kInPicture ? find_hand(picture, pose, side, *networks_[i]) : std::nullopt;
 }
 
 std::array<SeenHand, 2> HandFinder::find(const cv::Mat& picture, const PoseLandmarks& pose, cv::Size working,
                                          double time, bool in_turn) {
   std::array<SeenHand, 2> hands;
-  if (!networks_) {
+  if (!has_networks()) {
     return hands;
   }
   PoseLandmarks unmasked = pose;
   unmasked.mask = cv::Mat();
   const PoseLandmarks in_picture = scaled_to(std::move(unmasked), working, picture.size());
   turn_ = 1 - turn_;
-  for (const HandSide side : {HandSide::left, HandSide::right}) {
+  const auto look_for = [&](HandSide side) {
     const auto i = static_cast<std::size_t>(side);
     if (!in_turn || i == turn_) {
       hands[i] = {.looked = true, .found = look(picture, in_picture, side, time)};
     }
-  }
+  };
+  in_parallel([&] { look_for(HandSide::left); }, [&] { look_for(HandSide::right); });
   // Two findings of one hand: the better one stays.
   if (hands[0].found && hands[1].found && are_same_hand(*hands[0].found, *hands[1].found)) {
     const bool left = doubt(*hands[0].found, in_picture, HandSide::left) <

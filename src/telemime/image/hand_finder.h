@@ -28,11 +28,11 @@ class HandFinder {
   /// Reads the networks from this folder (find_models). Throws Error(config).
   explicit HandFinder(const std::filesystem::path& models);
 
-  bool has_networks() const { return networks_ != nullptr; }
+  bool has_networks() const { return networks_[0] != nullptr; }
 
   /// The hands in the next picture (CV_8UC3, BGR). `pose` and the result are in pixels of an image of size
   /// `working` that shows the same. `time` is that of the picture, s. With `in_turn` it looks for one hand
-  /// only.
+  /// only, otherwise for both at the same time.
   std::array<SeenHand, 2> find(const cv::Mat& picture, const PoseLandmarks& pose, cv::Size working,
                                double time, bool in_turn = false);
 
@@ -44,7 +44,7 @@ class HandFinder {
     HandLandmarks hand;  ///< in pixels of the picture
     double time = 0.0;
   };
-  std::shared_ptr<HandNetworks> networks_;
+  std::array<std::shared_ptr<HandNetworks>, 2> networks_;  ///< of each hand
   std::array<std::optional<Followed>, 2> followed_;
   std::size_t turn_ = 0;  ///< the hand that was looked for last
 };

@@ -4,10 +4,12 @@
 #include "telemime/tracker/track_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "telemime/body/face_expression.h"
+#include "telemime/core/in_parallel.h"
 #include "telemime/core/stopwatch.h"
 #include "telemime/tracker/lost_and_found.h"
 #include "telemime/tracking/posterior.h"
@@ -43,6 +45,36 @@ bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene,
     scene.relearn_colours = false;
   }
   return report.accepted || faceless;
+}
+
+template <typename T>
+struct Timed {
+  T found{};
+  double ms = 0.0;
+};
+
+// The face of the person (docs/face.md).
+Timed<std::optional<FaceLandmarks>> find_face(const Frame& frame,
+                                              const std::optional<PoseLandmarks>& landmarks,
+                                              SceneState& scene) {
+  if (!scene.face.has_networks() || !landmarks) {
+    return {};
+  }
+  Stopwatch watch;
+  auto face = scene.face.find(frame.image, *landmarks, scene.features.working_size());
+  return {.found = std::move(face), .ms = watch.lap()};
+}
+
+// The hands of the person (docs/hands.md).
+Timed<std::array<SeenHand, 2>> find_hands(const Frame& frame, const std::optional<PoseLandmarks>& landmarks,
+                                          SceneState& scene) {
+  if (!scene.hands.has_networks() || !landmarks) {
+    return {};
+  }
+  Stopwatch watch;
+  auto hands = scene.hands.find(frame.image, *landmarks, scene.features.working_size(), frame.time,
+                                scene.hands_in_turn);
+  return {.found = std::move(hands), .ms = watch.lap()};
 }
 
 // The estimate of a frame before its search: the last pose.
@@ -177,8 +209,23 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
   FrameFeatures learned;
   const bool has_colours = learn_colours(frame, request, scene, learned);
-  // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1).
-  FrameFeatures features = scene.features.extract(frame);
+  // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1); face and hands (docs/hands.md)
+  // beside them, as they need the landmarks of the body alone.
+  const std::optional<PoseLandmarks> landmarks = scene.features.find_landmarks(frame);
+  FrameFeatures features;
+  Timed<std::optional<FaceLandmarks>> face;
+  Timed<std::array<SeenHand, 2>> hands;
+  on_threads(scene.threads, [&] {
+    in_parallel([&] { features = scene.features.extract(frame); },
+                [&] { face = find_face(frame, landmarks, scene); },
+                [&] { hands = find_hands(frame, landmarks, scene); });
+  });
+  features.face = face.found;
+  features.face_ms = face.ms;
+  if (scene.hands.has_networks()) {
+    features.hands = hands.found;
+    features.hands_ms = hands.ms;
+  }
   // Whether a person is present, and warnings where the assumptions of the scene model do not hold.
   features.warnings = scene.features.status().warnings;
   features.person_present = scene.features.status().person;
@@ -192,22 +239,6 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   }
   if (!features.head) {
     scene.head_since = frame.index + 1;
-  }
-  // The face of the person.
-  if (scene.face.has_networks() && features.landmarks) {
-    Stopwatch face;
-    features.face = scene.face.find(frame.image, *features.landmarks, features.labels.size());
-    features.face_ms = face.lap();
-  }
-  // The hands of the person (docs/hands.md).
-  if (scene.hands.has_networks()) {
-    Stopwatch hands;
-    features.hands.emplace();
-    if (features.landmarks) {
-      features.hands = scene.hands.find(frame.image, *features.landmarks, features.labels.size(), frame.time,
-                                        scene.hands_in_turn);
-    }
-    features.hands_ms = hands.lap();
   }
   features.frame = frame.index;
   features.time = frame.time;

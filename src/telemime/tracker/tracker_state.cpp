@@ -17,7 +17,8 @@ Config fitted_to(Config config, const Camera& camera) {
 
 TrackingRun make_tracking_run(const Config& config, const Camera& camera) {
   Config fitted = fitted_to(config, camera);
-  SceneState scene{.features = FeatureExtractor(fitted.image), .face = {}, .hands = {}};
+  SceneState scene{
+      .features = FeatureExtractor(fitted.image), .face = {}, .hands = {}, .threads = fitted.threads};
   if (uses_face(fitted)) {
     scene.face = FaceFinder(find_models(fitted.image.models));
   }

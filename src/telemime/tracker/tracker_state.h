@@ -89,6 +89,7 @@ struct SceneState {
   FaceFinder face;             ///< without networks where faces are not tracked
   HandFinder hands{};          ///< without networks where hands are not tracked
   bool hands_in_turn = false;  ///< one hand in a frame, when time is short
+  int threads = 0;             ///< Config::threads
   /// The first frame from which on a head was visible, with the colours that are known now.
   std::int64_t head_since = 0;
   bool relearn_colours = false;  ///< the known colours may be somebody else's
