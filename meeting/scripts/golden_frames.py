@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes data/frames/golden.json and the seeds of the fuzz target meeting_frame.
 
+The frames of version 1 (`cases`) never change: clients that know nothing else are in use.
+
 It packs the frames with its own code, from docs/protocol.md, so that it, the C++ and the TypeScript code check each
 other. Usage: scripts/golden_frames.py
 """
@@ -167,17 +169,127 @@ def cases():
     return good + bad
 
 
+FINGERS = ["Thumb", "Index", "Middle", "Ring", "Little"]
+FINGER_BONES = [
+    side + finger + joint
+    for side in ("left", "right")
+    for finger in FINGERS
+    for joint in (
+        ("Metacarpal", "Proximal", "Distal") if finger == "Thumb" else ("Proximal", "Intermediate", "Distal")
+    )
+]
+AXES = ([3, 3, 3] + 4 * [2, 1, 1]) * 2  # of each finger bone
+WITH_FINGERS, WITH_FACE = 1, 2
+
+
+def product(a, b):
+    (x1, y1, z1, w1), (x2, y2, z2, w2) = a, b
+    return [
+        w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
+        w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
+        w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
+        w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
+    ]
+
+
+def finger_rotations(degrees):
+    """By the name of the bone: about z, then about the turned y, then about the turned x."""
+    rest = list(degrees)
+    out = {}
+    for bone, axes in zip(FINGER_BONES, AXES):
+        q = IDENTITY
+        for axis in [(0, 0, 1), (0, 1, 0), (1, 0, 0)][:axes]:
+            q = product(q, about(axis, rest.pop(0)))
+        out[bone] = q
+    assert not rest
+    return out
+
+
+def pack_detail(detail):
+    fingers, face = detail["fingers"], detail["face"]
+    flags = (WITH_FINGERS if fingers else 0) | (WITH_FACE if face else 0)
+    out = struct.pack("<BBHI", 2, flags, detail["session"], detail["sequence"])
+    if fingers:
+        out += struct.pack("<50b", *fingers)
+    if face:
+        out += struct.pack("<B2b", face["confidence"], *face["gaze"]) + bytes(face["arkit"]) + bytes(face["vrm"])
+    return out
+
+
+def detail(fingers=None, face=None, session=4660, sequence=7):
+    made = {"session": session, "sequence": sequence, "fingers": fingers, "face": face}
+    return {**made, "rotations": finger_rotations(fingers)} if fingers else made
+
+
+def details():
+    chance = random.Random(8)
+    fingers = [chance.randint(-120, 120) for _ in range(50)]
+    bent = [0, 0, 0] * 3 + [-80, 5, -100, -67] * 4
+    face = {
+        "confidence": 230,
+        "gaze": [-24, 17],
+        "arkit": [chance.randrange(256) for _ in range(52)],
+        "vrm": [chance.randrange(256) for _ in range(17)],
+    }
+    ends = {"confidence": 255, "gaze": [-128, 127], "arkit": [0, 255] * 26, "vrm": [255] * 17}
+    good = {
+        "all": detail(fingers, face),
+        "fingers_alone": detail(bent + [-a if i > 8 else a for i, a in enumerate(bent)]),
+        "face_alone": detail(face=face),
+        "nothing": detail(),
+        "ends": detail([-120, 120] * 25, ends, 65535, 2**32 - 1),
+    }
+    made = [{"name": name, "hex": pack_detail(d).hex(), "detail": d} for name, d in good.items()]
+    full = pack_detail(good["all"])
+    later = bytearray(full)
+    later[1] |= 4
+    made.append({
+        "name": "later_section", "written": False, "hex": (later + bytes(range(20))).hex(), "detail": good["all"]
+    })  # fmt: skip
+
+    def refuse(name, fault, data):
+        made.append({"name": name, "hex": bytes(data).hex(), "fault": fault})
+
+    def changed(**at):
+        data = bytearray(full)
+        for place, value in at.items():
+            data[int(place[1:])] = value
+        return data
+
+    refuse("no_bytes", "wrong_size", b"")
+    refuse("one_byte_less", "wrong_size", full[:-1])
+    refuse("one_byte_more", "wrong_size", full + b"\0")
+    refuse("part_of_a_head", "wrong_size", full[:7])
+    refuse("later_section_short", "wrong_size", later[:-1])
+    refuse("later_section_long", "wrong_size", later + bytes(127))
+    refuse("version_3", "unknown_version", changed(_0=3))
+    refuse("session_0", "no_session", changed(_2=0, _3=0))
+    refuse("bent_too_far", "no_angle", changed(_20=121))
+    refuse("bent_back_too_far", "no_angle", changed(_57=256 - 121))
+    return made
+
+
+def lines(made):
+    return ",\n".join("  " + json.dumps(case) for case in made)
+
+
 def main():
     made = cases()
     target = ROOT / "data" / "frames" / "golden.json"
     target.parent.mkdir(parents=True, exist_ok=True)
-    lines = ",\n".join("  " + json.dumps(case) for case in made)
-    target.write_text('{"bones": ' + json.dumps(BONES) + ',\n "cases": [\n' + lines + "\n]}\n")
+    detailed = details()
+    target.write_text(
+        '{"bones": ' + json.dumps(BONES) + ',\n "cases": [\n' + lines(made) + '\n],\n "details": [\n'
+        + lines(detailed) + "\n]}\n"
+    )  # fmt: skip
     seeds = ROOT / "fuzz" / "corpus" / "meeting_frame"
     seeds.mkdir(parents=True, exist_ok=True)
     for case in made:
         if case["name"] in ("rest", "pose", "lost", "one_bone", "eighteen_bones"):
             (seeds / (case["name"] + ".bin")).write_bytes(bytes.fromhex(case["hex"]))
+    for case in detailed:
+        if case["name"] in ("all", "fingers_alone", "face_alone", "later_section"):
+            (seeds / ("detail_" + case["name"] + ".bin")).write_bytes(bytes.fromhex(case["hex"]))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 #include "checks.h"
 #include "feeder.h"
 #include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/publishing.h"
 #include "meeting/transport/senders.h"
 #include "telemime/outputs/numbers.h"
@@ -70,6 +71,37 @@ TEST_F(ParticipantTest, FramesAreWhatWasSent) {
     EXPECT_EQ(frame.session, all[0].session);
   }
   EXPECT_GE(sender->status().sent, static_cast<std::int64_t>(sent.size()) - 1);
+}
+
+TEST_F(ParticipantTest, HandsAndFaceFollowTheirFrame) {
+  const auto sender = make_sender(broker_.url(), kAllSenderKinds);
+  ASSERT_TRUE(is_sending(*sender)) << sender->status().words;
+  const StreamHeader header = testing_motion::header();
+  std::vector<MotionFrame> sent = testing_motion::gesture(header, 3, /*period=*/0.4);
+  Random random(1);
+  sender->begin(header);
+  PersonMotion motion(header.body);
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    MotionFrame& frame = sent[i];
+    frame.face = testing_motion::random_face(random);
+    frame.hands.emplace();
+    (*frame.hands)[0].angles[6] = 0.2 + 0.3 * static_cast<double>(i);
+    sender->send(frame, 5000.0 + 40.0 * static_cast<double>(i));
+    ASSERT_TRUE(comes_true([&] { return subscriber_.payloads("p/tracker/pose").size() == 2 * (i + 1); }));
+    const std::string bytes = subscriber_.payloads("p/tracker/pose").back();
+    const auto detail =
+        decode_pose_detail({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    ASSERT_TRUE(detail);
+    const PoseFrame body = subscriber_.frames("tracker").back();
+    EXPECT_EQ(detail->session, body.session);
+    EXPECT_EQ(detail->sequence, body.sequence);
+    const auto meant = motion(motion.clean(frame));
+    ASSERT_TRUE(meant);
+    EXPECT_EQ(detail->fingers, quantised(*meant->fingers));
+    EXPECT_EQ(detail->face, quantised(*frame.face));
+    const auto head = static_cast<std::size_t>(HumanBone::head);
+    EXPECT_LT(body.rotation[head].angularDistance(meant->rotation[head]), 2e-4) << "as the face holds it";
+  }
 }
 
 TEST_F(ParticipantTest, StateAndPresenceArePublished) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/testing.h"
 
 namespace telemime::meeting::test_support {
@@ -98,7 +99,7 @@ std::vector<std::string> Subscriber::payloads(const std::string& topic) const {
 std::vector<PoseFrame> Subscriber::frames(const std::string& participant) const {
   std::vector<PoseFrame> frames;
   for (const Received& message : all()) {
-    if (message.topic == "p/" + participant + "/pose") {
+    if (message.topic == "p/" + participant + "/pose" && !is_pose_detail(message.payload)) {
       EXPECT_FALSE(message.retained);
       frames.push_back(frame_of(message.payload));
     }

@@ -129,6 +129,26 @@ export async function followsPerson(page, person, count = 10) {
   assert.ok(error.mean <= 2);
 }
 
+/** Asserts that the mouth opens as the person's, and that a finger bends so where the avatar has fingers. */
+export async function followsDetail(page, person, count = 10) {
+  const errors = { bend: [], jaw: [] };
+  let shown = await nextPose(page, person.participant, null);
+  for (let n = 0; n < count; n++) {
+    shown = await nextPose(page, person.participant, shown.captured);
+    const [, , z, w] = shown.bones.leftIndexIntermediate ?? [];
+    const bend = z === undefined ? person.bendOf(shown.captured) : (2 * Math.atan2(z, w) * 180) / Math.PI;
+    errors.bend.push(Math.abs(bend - person.bendOf(shown.captured)));
+    const mouth = shown.face.jawOpen ?? shown.face.aa;
+    errors.jaw.push(Math.abs(mouth - person.jawOf(shown.captured)));
+  }
+  const [bend, jaw] = [errors.bend, errors.jaw].map(meanAndWorst);
+  console.log(
+    `${person.participant}: finger ${bend.mean.toFixed(2)} degrees off, mouth ${jaw.mean.toFixed(3)}, ` +
+      `at most ${bend.worst.toFixed(2)}, ${jaw.worst.toFixed(3)}`,
+  );
+  assert.ok(bend.mean <= 2 && jaw.mean <= 0.02);
+}
+
 /** Asserts that no frame of this participant was refused. */
 export async function nothingRefused(page, { participant }) {
   const r = await page.evaluate(

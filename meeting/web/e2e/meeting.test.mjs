@@ -8,6 +8,7 @@ import {
   atTheEntry,
   dressed,
   drawLine,
+  followsDetail,
   followsPerson,
   hasText,
   inTheMeeting,
@@ -26,7 +27,7 @@ const { pages, quiet, ignoreComplaints } = setUpMeeting(
   (t) => ({ browser, meeting, ana, bo, chair, guest, watcher } = t),
   {
     people: {
-      ana: { name: "Ana", gesture: "wave", avatar: { look: "plain" } },
+      ana: { name: "Ana", gesture: "wave", avatar: { look: "plain" }, detailed: true },
       bo: { name: "Bo", gesture: "open", avatar: { look: "robot" }, phase: 1 },
     },
     pages: {
@@ -52,6 +53,11 @@ test("all see each other move", LONG, async () => {
   );
   assert.deepEqual(seats[0], seats[1], "the same seats for all");
   assert.deepEqual(seats[0], seats[2]);
+  quiet();
+});
+
+test("all see fingers and faces of the others", LONG, async () => {
+  for (const page of pages()) await followsDetail(page, ana);
   quiet();
 });
 

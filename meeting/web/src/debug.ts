@@ -27,6 +27,8 @@ export interface DebugPose {
   rest: number;
   /** Normalised rotations of the avatar's bones. */
   bones: Record<string, Quat>;
+  /** Weights of the avatar's expressions, by the names of ARKit and VRM 1.0. */
+  face: Record<string, number>;
 }
 
 export interface MeetingDebug {

@@ -3,11 +3,22 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { angleBetween, type Quat } from "#web/shared/quaternion";
+import { decodeDetail, encodeDetail, type PoseDetail } from "./detail";
+import { FINGER_BONES, fingerRotations } from "./detail_pose";
 import { BONES, decodeFrame, encodeFrame, type PoseFrame } from "./frame";
 
 interface Golden {
   bones: string[];
   cases: Case[];
+  details: DetailCase[];
+}
+
+interface DetailCase {
+  name: string;
+  hex: string;
+  detail?: PoseDetail & { rotations?: Record<string, Quat> };
+  fault?: string;
+  written?: boolean;
 }
 
 interface Case {
@@ -84,5 +95,26 @@ describe("golden frames", () => {
   });
   it.each(bad)("$name is refused: $fault", ({ hex }) => {
     expect(decodeFrame(bytesOf(hex))).toBeNull();
+  });
+});
+
+describe("golden details", () => {
+  const good = golden.details.filter((c) => c.detail);
+  const bad = golden.details.filter((c) => c.fault);
+
+  it("are there", () => {
+    expect([good.length > 4, bad.length > 8]).toEqual([true, true]);
+  });
+  it.each(good)("$name is read", ({ hex, detail, written }) => {
+    const { rotations, ...want } = detail!;
+    expect(decodeDetail(bytesOf(hex))).toEqual(want);
+    if (written !== false) expect(hexOf(encodeDetail(want))).toBe(hex);
+    if (!rotations) return;
+    const got = fingerRotations(want.fingers!);
+    for (const bone of FINGER_BONES)
+      expect(angleBetween(got.get(bone)!, rotations[bone]!), bone).toBeLessThan(1e-6);
+  });
+  it.each(bad)("$name is refused: $fault", ({ hex }) => {
+    expect(decodeDetail(bytesOf(hex))).toBeNull();
   });
 });

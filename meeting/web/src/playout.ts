@@ -4,6 +4,9 @@
 
 import { IDENTITY, conjugate, mix, multiply, slerp, type Quat, type Vec3 } from "#web/shared/quaternion";
 import { ClockMap, JUMP } from "./clock_map";
+import type { FaceMessage } from "#web/live/protocol";
+import type { PoseDetail } from "./detail";
+import { faceMessage, fingerRotations, mixFaces } from "./detail_pose";
 import { BONES, type PoseFrame } from "./frame";
 
 const MAX_FRAMES = 128;
@@ -15,20 +18,27 @@ interface Timed {
   tracked: boolean;
   hips: Vec3;
   rotations: ReadonlyMap<string, Quat>;
+  /** Those of the newest detail, until that of this frame arrives. */
+  fingers: ReadonlyMap<string, Quat>;
+  face: FaceMessage | null;
 }
 
 export interface Played {
   tracked: boolean;
   bones: Map<string, Quat>;
   hips: Vec3; // m
+  face: FaceMessage | null;
   /** The publisher's time that is shown, s. */
   at: number;
 }
 
-function between(a: Timed, b: Timed, t: number): { bones: Map<string, Quat>; hips: Vec3 } {
-  const bones = new Map<string, Quat>();
-  for (const [bone, q] of b.rotations) bones.set(bone, slerp(a.rotations.get(bone) ?? q, q, t));
-  return { bones, hips: mix(a.hips, b.hips, t) };
+function between(a: Timed, b: Timed, t: number): Pick<Played, "bones" | "hips" | "face"> {
+  const bones = new Map(a.fingers === b.fingers ? b.fingers : undefined);
+  for (const part of ["rotations", "fingers"] as const)
+    if (a[part] !== b[part])
+      for (const [bone, q] of b[part]) bones.set(bone, slerp(a[part].get(bone) ?? q, q, t));
+  const face = a.face && b.face && a.face !== b.face ? mixFaces(a.face, b.face, t) : a.face;
+  return { bones, hips: mix(a.hips, b.hips, t), face };
 }
 
 export class Playout {
@@ -57,9 +67,19 @@ export class Playout {
       tracked: frame.tracked,
       hips: frame.hips,
       rotations: new Map(frame.bones.map((b) => [BONES[b.bone]!, b.rotation])),
+      fingers: newest?.fingers ?? new Map<string, Quat>(),
+      face: newest?.face ?? null,
     });
     if (this.frames.length > MAX_FRAMES) this.frames.shift();
     return true;
+  }
+
+  /** Fingers and face of the newest frame. */
+  addDetail({ fingers, face }: PoseDetail): void {
+    const newest = this.frames.at(-1);
+    if (!newest) return;
+    newest.fingers = fingers ? fingerRotations(fingers) : new Map<string, Quat>();
+    newest.face = face && faceMessage(face);
   }
 
   /** The publisher has restarted, maybe with another clock. */
@@ -93,7 +113,7 @@ export class Playout {
     const pose =
       b && b.tracked && a.tracked
         ? between(a, b, (at - a.at) / (b.at - a.at))
-        : { bones: new Map(a.rotations), hips: a.hips };
+        : { bones: new Map([...a.rotations, ...a.fingers]), hips: a.hips, face: a.face };
     const held = wanted > a.at && !b;
     this.catchUp(pose.bones, this.waiting && !held, now);
     this.waiting = held;

@@ -2,7 +2,9 @@
 // The frames of a participant: which are accepted, which pose they show, and their statistics.
 
 import { RestBlend } from "#web/avatar/rest";
+import type { FaceMessage } from "#web/live/protocol";
 import type { Quat, Vec3 } from "#web/shared/quaternion";
+import { decodeDetail, isDetail } from "./detail";
 import { decodeFrame, type PoseFrame } from "./frame";
 import { Playout } from "./playout";
 import { RateLimit } from "./rate_limit";
@@ -92,11 +94,13 @@ const RETURN = 0.3; // s to return
 const LEFTOVERS = 1;
 const MAX_ENDED = 64;
 
-export type Verdict = "taken" | "malformed" | "outOfOrder" | "replayed" | "flooded" | "leftover";
+/** `detail`: fingers and face of the newest frame, taken. */
+export type Verdict = "taken" | "detail" | "malformed" | "outOfOrder" | "replayed" | "flooded" | "leftover";
 
 export interface StreamPose {
   bones: ReadonlyMap<string, Quat>;
   hips: Vec3; // m, in the publisher's world
+  face: FaceMessage | null;
   /** 0 follows the frames, 1 rests. */
   rest: number;
 }
@@ -107,18 +111,21 @@ export class PoseStream {
   private readonly blend = new RestBlend({ delay: 0, leave: FADE, back: RETURN });
   private session: number | null = null;
   private newest: PoseFrame | null = null;
+  /** The sequence of the newest detail. */
+  private detailed: number | null = null;
   private readonly ended = new Set<number>();
   private left: { session: number; at: number } | null = null;
-  private seen: StreamPose = { bones: new Map(), hips: [0, 0, 0], rest: 1 };
+  private seen: StreamPose = { bones: new Map(), hips: [0, 0, 0], face: null, rest: 1 };
 
   /** Takes a message of the pose topic; `now` in s of the local clock, here and below. */
   receive(payload: Uint8Array, now: number): Verdict {
     const verdict = this.judge(payload, now);
-    if (verdict !== "taken" && verdict !== "leftover") this.arrivals[verdict]++;
+    if (verdict !== "taken" && verdict !== "detail" && verdict !== "leftover") this.arrivals[verdict]++;
     return verdict;
   }
 
   private judge(payload: Uint8Array, now: number): Verdict {
+    if (isDetail(payload)) return this.judgeDetail(payload);
     const frame = decodeFrame(payload);
     if (!frame) return "malformed";
     if (this.ended.has(frame.session)) return "replayed";
@@ -138,13 +145,24 @@ export class PoseStream {
     return "taken";
   }
 
+  /** A detail follows its frame; that of a frame which was not taken is left over. */
+  private judgeDetail(payload: Uint8Array): Verdict {
+    const detail = decodeDetail(payload);
+    if (!detail) return "malformed";
+    if (this.playing !== detail.session || this.newest?.sequence !== detail.sequence) return "leftover";
+    if (this.detailed === detail.sequence) return "replayed";
+    this.detailed = detail.sequence;
+    this.playout.addDetail(detail);
+    return "detail";
+  }
+
   /** A new session: the old one has ended for good. */
   private start(session: number): void {
     if (this.session !== null) this.ended.add(this.session);
     const [oldest] = this.ended;
     if (this.ended.size > MAX_ENDED) this.ended.delete(oldest!);
     this.session = session;
-    this.newest = null;
+    this.newest = this.detailed = null;
     this.playout.clear();
     this.arrivals.restart();
   }
@@ -173,7 +191,7 @@ export class PoseStream {
     const played = this.playout.sample(now);
     const rest = this.blend.update(now, (played?.tracked ?? false) && this.alive(now, SILENCE));
     // The last tracked pose fades to rest.
-    if (played?.tracked) this.seen = { bones: played.bones, hips: played.hips, rest };
+    if (played?.tracked) this.seen = { bones: played.bones, hips: played.hips, face: played.face, rest };
     else this.seen = { ...this.seen, rest };
     return this.seen;
   }

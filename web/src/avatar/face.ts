@@ -78,6 +78,19 @@ const EYELIDS = ["blink", "blinkLeft", "blinkRight"];
 const EMOTIONS = ["happy", "angry", "sad", "relaxed", "surprised"];
 const VOWELS = ["aa", "ih", "ou", "ee", "oh"];
 const LOOKS = ["lookUp", "lookDown", "lookLeft", "lookRight"];
+/** The expressions of VRM 1.0 that faces are given, in the order of the frames of meetings. */
+export const VRM_EXPRESSIONS: readonly string[] = [...EMOTIONS, ...VOWELS, ...EYELIDS, ...LOOKS];
+
+/** Whether one can see that two faces differ. */
+export function facesDiffer(a: Face, b: Face): boolean {
+  const visible = (x: number, y: number): boolean => Math.abs(x - y) > 2e-3;
+  return (
+    a !== b &&
+    (a.weights.size !== b.weights.size ||
+      [0, 1].some((i) => visible(a.gaze[i]!, b.gaze[i]!)) ||
+      [...a.weights].some(([name, w]) => visible(w, b.weights.get(name) ?? 0)))
+  );
+}
 
 /**
  * The weights of an avatar's own expressions. One with most of ARKit's gets these; they show emotions and vowels, too. One

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frames of data/room-frames/golden.json, which scripts/golden_frames.py packs with code of its own.
+// The frames of data/frames/golden.json, which scripts/golden_frames.py packs with code of its own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/pose_frame.h"
 #include "telemime/outputs/numbers.h"
 
@@ -106,6 +107,62 @@ TEST(GoldenFrames, AreWritten) {
     }
   }
   EXPECT_GE(written, 12);
+}
+
+template <std::size_t n, class Number>
+void read_all(const Json& from, std::array<Number, n>& to) {
+  ASSERT_EQ(from.size(), n);
+  std::copy(from.begin(), from.end(), to.begin());
+}
+
+PoseDetail detail_of(const Json& meaning) {
+  PoseDetail detail;
+  detail.session = meaning.at("session").get<std::uint16_t>();
+  detail.sequence = meaning.at("sequence").get<std::uint32_t>();
+  if (const Json& fingers = meaning.at("fingers"); !fingers.is_null()) {
+    read_all(fingers, detail.fingers.emplace());
+  }
+  if (const Json& face = meaning.at("face"); !face.is_null()) {
+    PoseDetail::Face& read = detail.face.emplace();
+    read.confidence = face.at("confidence").get<std::uint8_t>();
+    read_all(face.at("gaze"), read.gaze);
+    read_all(face.at("arkit"), read.arkit);
+    read_all(face.at("vrm"), read.vrm);
+  }
+  return detail;
+}
+
+TEST(GoldenDetails, AreReadAndWritten) {
+  std::set<std::string> faults;
+  const Json file = golden();
+  for (const Json& item : file.at("details")) {
+    SCOPED_TRACE(item.at("name").get<std::string>());
+    const Bytes bytes = from_hex(item.at("hex"));
+    const auto read = decode_pose_detail(bytes);
+    if (item.contains("fault")) {
+      ASSERT_FALSE(read);
+      EXPECT_EQ(name_of(read.fault()), item.at("fault").get<std::string>());
+      faults.insert(item.at("fault"));
+      continue;
+    }
+    ASSERT_TRUE(read) << name_of(read.fault());
+    const PoseDetail meant = detail_of(item.at("detail"));
+    EXPECT_EQ(read->session, meant.session);
+    EXPECT_EQ(read->sequence, meant.sequence);
+    EXPECT_EQ(read->fingers, meant.fingers);
+    EXPECT_EQ(read->face, meant.face);
+    if (item.value("written", true)) {
+      EXPECT_EQ(encode(meant), bytes);
+    }
+    if (meant.fingers) {
+      const FingerRotations rotations = rotations_of(*read->fingers);
+      for (std::size_t bone = 0; bone < kFingerBoneCount; ++bone) {
+        const auto q = item["detail"]["rotations"].at(kFingerBoneNames[bone]).get<std::array<double, 4>>();
+        EXPECT_LT(rotations[bone].angularDistance(Eigen::Quaterniond(q[3], q[0], q[1], q[2])), 1e-6);
+      }
+    }
+  }
+  EXPECT_EQ(faults, std::set<std::string>(kDetailFaultNames.begin(), kDetailFaultNames.end()));
 }
 
 }  // namespace

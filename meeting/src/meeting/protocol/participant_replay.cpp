@@ -8,6 +8,7 @@
 
 #include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/pose_frame.h"
 
 namespace telemime::meeting {
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kLongestChat = 2048;  // bytes, as readers accept (meeting/docs/protocol.md)
 // us. Slightly less than the frame time at 30 per second, so that a frame that comes a little early is kept.
 constexpr double kClosest = 1e6 / 31.0;
-// Offsets in a pose frame (meeting/docs/protocol.md).
+// Offsets in a pose frame (meeting/docs/protocol.md); a detail has the first two.
 constexpr std::size_t kSessionPlace = 2;
 constexpr std::size_t kSequencePlace = 4;
 constexpr std::size_t kCapturedPlace = 8;
@@ -88,6 +89,17 @@ std::uint64_t ParticipantReplay::captured_of(std::uint64_t at, std::uint64_t rec
 
 std::optional<ReplayStep> ParticipantReplay::pose(const RecordedMessage& message) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(message.payload.data());
+  ReplayStep step{TopicKind::pose, 0, session_, true, message.payload};
+  if (is_pose_detail(message.payload)) {
+    const auto detail = decode_pose_detail({bytes, message.payload.size()});
+    // Of the frame that was replayed last.
+    if (!detail || recorded_ != detail->session || sequence_ != detail->sequence) {
+      return std::nullopt;
+    }
+    patch(step.payload, kSessionPlace, session_, 2);
+    patch(step.payload, kSequencePlace, next_sequence_ - 1, 4);
+    return step;
+  }
   const auto frame = decode_pose_frame({bytes, message.payload.size()});
   if (!frame || !follow(frame->session)) {
     return std::nullopt;
@@ -102,7 +114,7 @@ std::optional<ReplayStep> ParticipantReplay::pose(const RecordedMessage& message
     return std::nullopt;
   }
   last_at_ = now;
-  ReplayStep step{TopicKind::pose, 0, session_, true, message.payload};
+  step.session = session_;
   patch(step.payload, kSessionPlace, session_, 2);
   patch(step.payload, kSequencePlace, next_sequence_++, 4);
   patch(step.payload, kCapturedPlace, captured_of(message.at, frame->captured), 8);

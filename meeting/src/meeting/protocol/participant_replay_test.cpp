@@ -8,6 +8,7 @@
 
 #include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/testing.h"
 #include "telemime/core/random.h"
 
@@ -61,6 +62,34 @@ TEST(ParticipantReplay, FramesKeepEverythingButWhoAndWhen) {
     EXPECT_EQ(frame.captured, kClock + 2000 + (captured - first));
     EXPECT_EQ(step->payload.substr(0, 2), said.payload.substr(0, 2));
     EXPECT_EQ(step->payload.substr(16), said.payload.substr(16)) << "bit for bit";
+  }
+}
+
+RecordedMessage detail(std::uint64_t at, std::uint16_t session, std::uint32_t sequence) {
+  PoseDetail detail;
+  detail.session = session;
+  detail.sequence = sequence;
+  detail.fingers.emplace().fill(33);
+  const auto bytes = encode(detail);
+  return message(at, TopicKind::pose, {bytes.begin(), bytes.end()});
+}
+
+TEST(ParticipantReplay, DetailsFollowTheirFrame) {
+  ParticipantReplay part(1.0, 500, kClock);
+  EXPECT_FALSE(part.step(detail(0, 31, 10))) << "without a frame";
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    ASSERT_TRUE(part.step(pose(1000 * i, 31, 10 + 2 * i, 1 + i)));
+    EXPECT_FALSE(part.step(detail(1000 * i, 31, 9 + 2 * i))) << "of another frame";
+    EXPECT_FALSE(part.step(detail(1000 * i, 32, 10 + 2 * i))) << "of another session";
+    const RecordedMessage said = detail(1000 * i, 31, 10 + 2 * i);
+    const auto step = part.step(said);
+    ASSERT_TRUE(step);
+    const auto read = decode_pose_detail(
+        {reinterpret_cast<const std::uint8_t*>(step->payload.data()), step->payload.size()});
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->session, 500);
+    EXPECT_EQ(read->sequence, i);
+    EXPECT_EQ(step->payload.substr(8), said.payload.substr(8)) << "bit for bit";
   }
 }
 

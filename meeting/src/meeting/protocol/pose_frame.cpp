@@ -5,6 +5,7 @@
 #include <bit>
 #include <optional>
 
+#include "meeting/protocol/little_endian.h"
 #include "meeting/protocol/packed_rotation.h"
 #include "telemime/core/errors.h"
 
@@ -52,39 +53,7 @@ void require_writable(const PoseFrame& frame) {
   }
 }
 
-class Writer {
- public:
-  explicit Writer(std::size_t size) { bytes_.reserve(size); }
-  /// Appends the `count` lowest bytes, little-endian.
-  void put(std::uint64_t value, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-    }
-  }
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-  /// Takes the next `count` bytes, little-endian; requires that they exist.
-  std::uint64_t take(std::size_t count) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      value |= static_cast<std::uint64_t>(bytes_[i]) << (8 * i);
-    }
-    bytes_ = bytes_.subspan(count);
-    return value;
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
-
-PoseFrame read_head(Reader& reader) {
+PoseFrame read_head(ByteReader& reader) {
   PoseFrame frame;
   reader.take(1);  // the version
   const std::uint64_t flags = reader.take(1);
@@ -100,7 +69,7 @@ PoseFrame read_head(Reader& reader) {
   return frame;
 }
 
-std::optional<PoseFault> read_confidences(Reader& reader, PoseFrame& frame) {
+std::optional<PoseFault> read_confidences(ByteReader& reader, PoseFrame& frame) {
   std::uint64_t pair = 0;
   bool second = false;
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {
@@ -113,7 +82,7 @@ std::optional<PoseFault> read_confidences(Reader& reader, PoseFrame& frame) {
   return second && pair > 15U ? std::optional(PoseFault::unused_half) : std::nullopt;
 }
 
-std::optional<PoseFault> read_rotations(Reader& reader, PoseFrame& frame) {
+std::optional<PoseFault> read_rotations(ByteReader& reader, PoseFrame& frame) {
   for (std::size_t bone = 0; bone < kHumanBoneCount; ++bone) {
     if (!frame.has(bone)) {
       continue;
@@ -136,7 +105,7 @@ std::optional<PoseFault> read_rotations(Reader& reader, PoseFrame& frame) {
 std::vector<std::uint8_t> encode(const PoseFrame& frame) {
   require_writable(frame);
   // The head: flags, counters, time, bones, position of the hips.
-  Writer writer(size_of(frame.mask));
+  ByteWriter writer(size_of(frame.mask));
   writer.put(kVersion, 1);
   writer.put((frame.tracked ? kTracked : 0U) | (frame.still ? kStill : 0U), 1);
   writer.put(frame.session, 2);
@@ -181,7 +150,7 @@ Outcome<PoseFrame, PoseFault> decode_pose_frame(std::span<const std::uint8_t> by
   if (bytes.size() < kPoseFrameHead) {
     return PoseFault::wrong_size;
   }
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   PoseFrame frame = read_head(reader);
   if (const auto fault = fault_of_head(frame)) {
     return *fault;

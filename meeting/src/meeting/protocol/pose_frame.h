@@ -21,7 +21,7 @@ inline constexpr std::size_t kPackedRotationBytes = 6;
 inline constexpr std::size_t kLongestPoseFrame =
     kPoseFrameHead + kMostFrameBones / 2 + kMostFrameBones * kPackedRotationBytes;
 
-/// The pose of one participant at one moment: the message `pose` (meeting/docs/protocol.md).
+/// The pose of one participant at one moment: version 1 of the message `pose` (meeting/docs/protocol.md).
 struct PoseFrame {
   PoseFrame() { rotation.fill(Eigen::Quaterniond::Identity()); }
 

@@ -187,5 +187,45 @@ TEST(PublishPace, StillnessHasBounds) {
   EXPECT_TRUE(is_still(turned(0.0), other)) << "not in the mask";
 }
 
+TEST(PublishPace, FingersAndFaceMoveToo) {
+  DetailedFrame before(turned(0.0));
+  before.detail.fingers.emplace();
+  before.detail.face.emplace();
+  EXPECT_TRUE(is_still(before, before));
+  const auto moves = [&before](const auto& change) {
+    DetailedFrame now = before;
+    change(now.detail);
+    return !is_still(before, now);
+  };
+  EXPECT_FALSE(moves([](PoseDetail& d) { d.fingers->at(20) = 2; }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.fingers->at(20) = -3; }));
+  EXPECT_FALSE(moves([](PoseDetail& d) { d.face->arkit[3] = 5; }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.face->arkit[3] = 6; }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.face->vrm[3] = 6; }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.face->gaze[1] = 3; }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.face.reset(); }));
+  EXPECT_TRUE(moves([](PoseDetail& d) { d.fingers.reset(); }));
+}
+
+TEST(DetailPace, RepeatsWhatDoesNotChangeRarely) {
+  DetailPace pace;
+  PoseDetail detail;
+  for (int i = 0; i < 40; ++i) {
+    EXPECT_FALSE(pace.take(detail)) << "no hands and no face: never";
+  }
+  detail.fingers.emplace();
+  int taken = 0;
+  for (int i = 0; i < 45; ++i) {
+    ++detail.sequence;
+    taken += pace.take(detail) ? 1 : 0;
+  }
+  EXPECT_EQ(taken, 3) << "every 15th";
+  detail.fingers->at(7) = 1;
+  EXPECT_TRUE(pace.take(detail));
+  detail.fingers.reset();
+  EXPECT_TRUE(pace.take(detail)) << "readers must know that the fingers are gone";
+  EXPECT_FALSE(pace.take(detail));
+}
+
 }  // namespace
 }  // namespace telemime::meeting

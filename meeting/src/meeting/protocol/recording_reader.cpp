@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_detail.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -23,7 +24,7 @@ constexpr std::size_t kMostNames = 16;  // of one participant: memory needs a bo
 
 void add_message(RecordedParticipant& person, const RecordedMessage& message) {
   if (message.topic.kind == TopicKind::pose) {
-    ++person.frames;
+    person.frames += is_pose_detail(message.payload) ? 0 : 1;
     person.takes_part = true;
     return;
   }

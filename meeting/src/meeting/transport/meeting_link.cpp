@@ -100,6 +100,7 @@ void MeetingLink::open() {
   confirmed_.reset();
   duplicate_ = false;
   waiting_.reset();
+  detail_pace_ = {};
   connection_.open(random_client_id(output_.participant), presence(false));
   connection_.subscribe(presence_filter(output_.meeting));
   connection_.publish_retained(presence(true));
@@ -127,8 +128,11 @@ bool MeetingLink::frame(const MotionFrame& raw, double taken) {
   drain();
   const MotionFrame frame = motion_->clean(raw);
   const auto motion = (*motion_)(frame);
-  waiting_ = motion ? pose_frame_of(*motion, frame.spread) : PoseFrame();
-  waiting_->captured = microseconds(taken);
+  waiting_.emplace();
+  if (motion) {
+    *waiting_ = {pose_frame_of(*motion, frame.spread), pose_detail_of(*motion, frame.face)};
+  }
+  waiting_->pose.captured = microseconds(taken);
   send_when_due();
   const bool sent = uncounted_ > 0;
   uncounted_ -= sent ? 1 : 0;
@@ -220,13 +224,19 @@ void MeetingLink::send_when_due() {
     });
     return;
   }
-  waiting_->session = session_;
-  waiting_->sequence = sequence_++;
+  auto& [pose, detail] = *waiting_;
+  pose.session = detail.session = session_;
+  pose.sequence = detail.sequence = sequence_++;
   // The frame of a lost person may repeat the time of the previous one.
-  waiting_->captured = captured_ = std::max(waiting_->captured, captured_ + 1);
-  waiting_->still = pace_.still(*waiting_);
-  const std::vector<std::uint8_t> bytes = encode(*waiting_);
-  connection_.publish(pose_topic_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  pose.captured = captured_ = std::max(pose.captured, captured_ + 1);
+  pose.still = pace_.still(*waiting_);
+  const auto publish = [this](const std::vector<std::uint8_t>& bytes) {
+    connection_.publish(pose_topic_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  };
+  publish(encode(pose));
+  if (pose.tracked && detail_pace_.take(detail)) {
+    publish(encode(detail));
+  }
   pace_.sent(*waiting_, now);
   last_sent_ = now;
   waiting_.reset();

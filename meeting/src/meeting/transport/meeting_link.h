@@ -68,7 +68,8 @@ class MeetingLink final : public Link {
   std::shared_ptr<const StreamHeader> person_;  ///< of motion_
   PublishPace pace_;
   Attendance attendance_;
-  std::optional<PoseFrame> waiting_;  ///< the newest frame, until it is sent
+  DetailPace detail_pace_;
+  std::optional<DetailedFrame> waiting_;  ///< the newest frame, until it is sent
   std::uint32_t sequence_ = 0;
   std::uint64_t captured_ = 0;  ///< us, of the last frame sent
   int uncounted_ = 0;           ///< frames sent that frame() has not reported yet

@@ -6,6 +6,7 @@
 
 #include "meeting/protocol/meeting_info.h"
 #include "meeting/protocol/messages.h"
+#include "meeting/protocol/pose_detail.h"
 
 namespace telemime::meeting {
 namespace {
@@ -72,8 +73,8 @@ void ReplayParticipant::publish(ReplayStep step) {
         break;
       case TopicKind::pose:
         if (pending_.poses.size() == kQueuedPoses) {
+          status_.dropped += is_pose_detail(pending_.poses.front()) ? 0 : 1;
           pending_.poses.pop_front();
-          ++status_.dropped;
         }
         pending_.poses.push_back(std::move(step.payload));
         break;
@@ -218,7 +219,7 @@ void ReplayParticipant::write(Pending work) {
   for (const std::string& pose : work.poses) {
     connection_.publish(topic(TopicKind::pose), pose);
     const std::lock_guard lock(mutex_);
-    ++status_.frames;
+    status_.frames += is_pose_detail(pose) ? 0 : 1;
   }
   drain();
 }

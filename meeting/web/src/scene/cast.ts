@@ -199,6 +199,11 @@ export class Cast {
     return this.all.get(id)?.figure.avatar?.read() ?? {};
   }
 
+  /** The current expressions; empty without an avatar. */
+  face(id: string): Record<string, number> {
+    return this.all.get(id)?.figure.avatar?.face.read() ?? {};
+  }
+
   dressed(id: string): boolean {
     return this.all.get(id)?.figure.avatar !== null && this.all.has(id);
   }

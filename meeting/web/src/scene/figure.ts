@@ -2,6 +2,7 @@
 // One participant in the scene: the avatar on its chair, and the position of its name.
 
 import { Group, Vector3, type Object3D } from "three";
+import { faceOf, facesDiffer, FACE_AT_REST, type Face } from "#web/avatar/face";
 import type { Avatar } from "#web/avatar/load";
 import { blendPoses, relaxedFingers } from "#web/avatar/rest";
 import { angleBetween, IDENTITY, type Quat, type Vec3 } from "#web/shared/quaternion";
@@ -14,6 +15,7 @@ const BACK = 0.05; // m: distance of the hips behind the centre of the seat
 /** Height of the name over a chair without an avatar, m. */
 const TAG_WITHOUT = 1.16;
 
+/** Fingers that are not tracked are slightly bent, as those at rest are. */
 const FINGERS = relaxedFingers();
 
 export class Figure {
@@ -23,6 +25,7 @@ export class Figure {
   private seated: Seated | null = null;
   private shown = new Map<string, Quat>();
   private lastSway: Vec3 = [0, 0, 0];
+  private lastFace: Face = FACE_AT_REST;
   private fresh = true;
   private readonly scratch = new Vector3();
 
@@ -53,19 +56,26 @@ export class Figure {
     const avatar = this.avatar;
     if (!avatar || !this.seated) return false;
     const resting = pose.rest > 0 ? seatedRest(now, breath * pose.rest) : new Map<string, Quat>();
-    const upper = blendPoses(withoutLegs(pose.bones), resting, pose.rest);
-    const bones = new Map([...FINGERS, ...upper, ...legsFor(this.seated, upper.get("hips") ?? IDENTITY)]);
+    const upper = blendPoses(
+      new Map([...FINGERS, ...withoutLegs(pose.bones)]),
+      new Map([...FINGERS, ...resting]),
+      pose.rest,
+    );
+    const bones = new Map([...upper, ...legsFor(this.seated, upper.get("hips") ?? IDENTITY)]);
+    const face = faceOf(pose.face, pose.rest, false);
     const sway = seatedSway(pose.hips, home, avatar.hipHeight).map((v) => v * (1 - pose.rest));
     const moved =
       this.fresh ||
       avatar.hasSprings ||
+      facesDiffer(face, this.lastFace) ||
       [0, 1, 2].some((i) => Math.abs(sway[i]! - this.lastSway[i]!) > STILL) ||
       [...upper].some(([bone, q]) => angleBetween(q, this.shown.get(bone) ?? IDENTITY) > STILL);
     if (!moved) return false;
     this.shown = upper;
     this.lastSway = sway as unknown as Vec3;
+    this.lastFace = face;
     const up = (this.seated.hips - avatar.hipHeight) / avatar.hipHeight;
-    avatar.show(bones, [sway[0]!, sway[1]! + up, sway[2]!], dt);
+    avatar.show(bones, [sway[0]!, sway[1]! + up, sway[2]!], dt, face);
     if (this.fresh) avatar.resetSprings();
     this.fresh = false;
     return true;

@@ -141,7 +141,8 @@ export class SceneUi {
     for (const p of roster.here) {
       const shown = p.stream.shown;
       const bones = Object.entries(this.cast?.read(p.id) ?? {}).map(([b, r]) => [b, r.local] as const);
-      if (shown && bones.length) out[p.id] = { ...shown, bones: Object.fromEntries(bones) };
+      const face = this.cast?.face(p.id) ?? {};
+      if (shown && bones.length) out[p.id] = { ...shown, bones: Object.fromEntries(bones), face };
     }
     return out;
   }
