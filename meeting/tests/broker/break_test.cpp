@@ -144,7 +144,6 @@ std::size_t presences(const Subscriber& subscriber) {
 TEST(BrokenMeeting, PageThatGivesWayIsNoDuplicate) {
   Broker broker;
   Subscriber subscriber(broker.port());
-  ASSERT_TRUE(comes_true([&] { return subscriber.subscribed(); }));
   const auto sender = make_sender(broker.url(), kAllSenderKinds);
   ASSERT_TRUE(is_sending(*sender) && is_here(subscriber, "tracker", true));
   const std::uint16_t session = subscriber.json("p/tracker/presence").at("session");

@@ -39,10 +39,7 @@ double longest_gap(const Subscriber& subscriber, const std::string& participant)
 class ClusterFaults : public ::testing::Test {
  protected:
   std::unique_ptr<Subscriber> subscriber_at(std::size_t node) const {
-    auto subscriber =
-        std::make_unique<Subscriber>(cluster_.port(node), "studio.watch", cluster_.password("watch"));
-    EXPECT_TRUE(eventually([&] { return subscriber->subscribed(); }));
-    return subscriber;
+    return std::make_unique<Subscriber>(cluster_.port(node), "studio.watch", cluster_.password("watch"));
   }
   static bool hears(const Subscriber& subscriber, const std::string& participant, std::size_t count) {
     return eventually([&] { return subscriber.frames(participant).size() >= count; });

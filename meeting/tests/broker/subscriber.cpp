@@ -11,6 +11,7 @@
 
 #include "meeting/protocol/pose_detail.h"
 #include "meeting/protocol/testing.h"
+#include "telemime/streaming/testing_receivers.h"
 
 namespace telemime::meeting::test_support {
 namespace {
@@ -33,6 +34,8 @@ Subscriber::Subscriber(std::uint16_t port, const std::string& user, const std::s
   }
   EXPECT_EQ(mosquitto_connect(client_, "127.0.0.1", port, kKeepAlive), MOSQ_ERR_SUCCESS);
   EXPECT_EQ(mosquitto_loop_start(client_), MOSQ_ERR_SUCCESS);
+  // Until then, messages that are not retained would be lost.
+  EXPECT_TRUE(testing_receivers::comes_true([this] { return subscribed_.load(); })) << "not subscribed";
 }
 
 Subscriber::~Subscriber() {

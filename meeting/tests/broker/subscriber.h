@@ -28,15 +28,14 @@ class Subscriber {
     bool retained;
     double at;  ///< s of the steady clock
   };
-  /// `base`: the topics to receive; "r/" for all meetings.
+  /// Returns when the broker has granted the subscription: what is published after that is received. `base`:
+  /// the topics to receive; "r/" for all meetings.
   explicit Subscriber(std::uint16_t port, const std::string& user = "", const std::string& password = "",
                       std::string base = "r/home/studio/");
   Subscriber(const Subscriber&) = delete;
   Subscriber& operator=(const Subscriber&) = delete;
   ~Subscriber();
 
-  /// Whether the broker has granted the subscription. Messages may arrive before.
-  bool subscribed() const { return subscribed_; }
   std::vector<Received> all() const;
   /// The payloads of a topic, in order.
   std::vector<std::string> payloads(const std::string& topic) const;
