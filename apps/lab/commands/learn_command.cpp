@@ -60,7 +60,7 @@ std::vector<SceneOptions> learning_scenes(std::uint64_t seed, int clips) {
                  .sensor = {},
                  .long_sleeves = i % 3 == 0,
                  .distance = kDistances[i % kDistances.size()],
-                 .look_around = i % 2 == 0};
+                 .look_around = i % 2 == 0 ? 0.61 : 0.0};
   }
   return scenes;
 }

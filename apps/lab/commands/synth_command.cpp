@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -88,7 +89,10 @@ void add_synth_command(CLI::App& app) {
   command
       ->add_option("--distance", scene.distance, "of the person, m; 0: as the gesture is staged, about 1.4")
       ->capture_default_str();
-  command->add_flag("--look-around", scene.look_around, "the head turns to either side and nods");
+  command->add_flag_callback(
+      "--look-around", [&scene] { scene.look_around = std::numbers::pi / 3.0; },
+      "the head turns by 60 degrees to either side and nods; truth.json has its rotation, as that of every "
+      "clip");
   command->add_flag("--fingers", scene.fingers, "the fingers move; truth.json has their joints");
   command->add_flag("--walk-in", scene.walk_in,
                     "the person walks in and out of an empty scene (120 frames or more)");

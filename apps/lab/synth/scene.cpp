@@ -182,6 +182,18 @@ nlohmann::ordered_json hands_truth(const Scene& scene) {
   return hands;
 }
 
+// Camera from head as FaceMotion has it: x to the person's left, y to the chin, z to the back; x, y, z, w.
+nlohmann::ordered_json head_truth(const Scene& scene, int frame) {
+  const Eigen::Vector3d head_axes(1.0, -1.0, -1.0);
+  const Eigen::Quaterniond q(
+      Eigen::Matrix3d(scene_kinematics(scene, frame).camera_from_head.linear() * head_axes.asDiagonal()));
+  nlohmann::ordered_json out;
+  for (const double c : {q.x(), q.y(), q.z(), q.w()}) {
+    out.push_back(std::round(1e4 * c) / 1e4);
+  }
+  return out;
+}
+
 }  // namespace
 
 ActorKinematics scene_kinematics(const Scene& scene, int frame) {
@@ -195,9 +207,10 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
     pose.root.y() += 0.16 * (kStaged - options.distance);
     pose.root.z() += options.distance - kStaged;
   }
-  if (options.look_around) {
+  if (options.look_around > 0.0) {
     const double t = moment / kGestureFps;
-    pose.look += 0.61 * std::sin(2.1 * t);
+    // At most 84 degrees per second.
+    pose.look += options.look_around * std::sin(std::min(2.1, 1.47 / options.look_around) * t);
     pose.nod += 0.26 * std::sin(1.3 * t + 0.5);
   }
   if (options.fingers) {
@@ -267,6 +280,7 @@ std::string truth_json(const Scene& scene) {
       row.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
     }
     truth["positions"].push_back(std::move(row));
+    truth["head"].push_back(head_truth(scene, frame));
     if (scene.options.walk_in) {
       truth["visible"].push_back(person_is_visible(scene, frame));
     }

@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "lab/synth/sequence.h"
@@ -213,6 +217,28 @@ TEST(Scene, DistanceMovesThePersonAndKeepsTheHead) {
     EXPECT_EQ(surface_at(frame, scene.camera, frame.joints[Joint::head]), Surface::head) << distance;
     EXPECT_EQ(cv::countNonZero(frame.surfaces.row(0)), 0) << distance;
   }
+}
+
+TEST(Scene, HeadTurnsToEitherSideAndTheTruthHasIt) {
+  SceneOptions options = small_scene(Gesture::talking);
+  options.look_around = std::numbers::pi / 3.0;
+  const auto truth = nlohmann::json::parse(truth_json(make_scene(options)));
+  const auto& heads = truth.at("head");
+  ASSERT_EQ(heads.size(), static_cast<std::size_t>(options.frames));
+  double left = 0.0;
+  double right = 0.0;
+  for (const auto& head : heads) {
+    const auto q = head.get<std::array<double, 4>>();
+    const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+    EXPECT_NEAR(rotation.norm(), 1.0, 1e-3);
+    const Eigen::Vector3d nose = rotation * -Eigen::Vector3d::UnitZ();  // camera frame
+    left = std::max(left, std::atan2(nose.x(), -nose.z()));
+    right = std::min(right, std::atan2(nose.x(), -nose.z()));
+  }
+  EXPECT_GT(left, 0.9);
+  EXPECT_LT(left, 1.3);
+  EXPECT_LT(right, -0.9);
+  EXPECT_GT(right, -1.3);
 }
 
 TEST(Scene, ImpossibleOptionsAreRefused) {

@@ -34,8 +34,9 @@ struct SceneOptions {
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
   /// again.
   bool walk_in = false;
-  bool fingers = false;      ///< each finger bends and stretches in its own time; the truth has them
-  bool look_around = false;  ///< the head turns by 35 degrees to either side and nods by 15
+  bool fingers = false;  ///< each finger bends and stretches in its own time; the truth has them
+  double look_around =
+      0.0;  ///< rad; the head turns by it to either side and nods by 15 degrees; 0: it does not
 };
 
 /// The person, the background and the camera, ready to be rendered; a constant value.

@@ -256,6 +256,7 @@ Evaluation evaluate(const std::vector<MotionFrame>& frames, const Camera& input,
   result.bones = bone_lengths(tracks.estimate);
   result.truth_bones = bone_lengths(tracks.truth);
   result.hands = measure_hands(frames, truth);
+  result.head = measure_heads(frames, truth);
   result.times = stage_times(frames);
   return result;
 }

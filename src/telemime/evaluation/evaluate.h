@@ -10,6 +10,7 @@
 #include "telemime/body/motion_frame.h"
 #include "telemime/evaluation/frame_errors.h"
 #include "telemime/evaluation/hand_errors.h"
+#include "telemime/evaluation/head_errors.h"
 #include "telemime/evaluation/motion_measures.h"
 #include "telemime/evaluation/truth.h"
 
@@ -81,6 +82,7 @@ struct Evaluation {
   std::array<std::optional<BoneLength>, kBoneNames.size()> bones{};
   std::array<std::optional<BoneLength>, kBoneNames.size()> truth_bones{};
   std::optional<HandReport> hands;  ///< nothing when the truth or the pose file has none
+  std::optional<HeadReport> head;   ///< the same
   std::vector<StageTime> times;     ///< over all frames of the pose file, in order of first appearance
 };
 

@@ -67,6 +67,17 @@ Json hands_json(const std::optional<HandReport>& hands) {
                : Json(nullptr);
 }
 
+Json head_json(const std::optional<HeadReport>& head) {
+  return head ? Json{{"in_truth", head->heads},
+                     {"seen", rounded(head->seen, 6)},
+                     {"degrees", number(head->angle, kDegreesPerRadian)},
+                     {"p95_degrees", number(head->angle_p95, kDegreesPerRadian)},
+                     {"yaw_degrees", number(head->yaw, kDegreesPerRadian)},
+                     {"pitch_degrees", number(head->pitch, kDegreesPerRadian)},
+                     {"roll_degrees", number(head->roll, kDegreesPerRadian)}}
+              : Json(nullptr);
+}
+
 }  // namespace
 
 Json evaluation_json(const Evaluation& evaluation) {
@@ -110,6 +121,7 @@ Json evaluation_json(const Evaluation& evaluation) {
         {"correlation", lag ? Json(rounded(lag->correlation, 4)) : Json(nullptr)}}},
       {"bones", bones_json(evaluation)},
       {"hands", hands_json(evaluation.hands)},
+      {"head", head_json(evaluation.head)},
       {"stages", times},
   };
 }

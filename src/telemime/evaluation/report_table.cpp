@@ -153,6 +153,21 @@ void hand_rows(std::string& table, const Evaluation& evaluation) {
        "   95th percentile " + millimetres(evaluation.hands->palm_aligned_p95)});
 }
 
+void head_rows(std::string& table, const Evaluation& evaluation) {
+  if (!evaluation.head) {
+    return;
+  }
+  const HeadReport& head = *evaluation.head;
+  const auto degrees = [](const std::optional<double>& angle) {
+    return angle ? fixed(*angle * kDegreesPerRadian, 1) : "-";
+  };
+  table += "\nhead\n";
+  row(table, "heads", {std::to_string(head.heads), "   seen " + percent(head.seen)});
+  row(table, "rotation, degrees",
+      {degrees(head.angle), "   yaw " + degrees(head.yaw) + ", pitch " + degrees(head.pitch) + ", roll " +
+                                degrees(head.roll) + ", 95th percentile " + degrees(head.angle_p95)});
+}
+
 }  // namespace
 
 std::string evaluation_table(const Evaluation& evaluation) {
@@ -174,6 +189,7 @@ std::string evaluation_table(const Evaluation& evaluation) {
   spread_rows(table, evaluation);
   motion_rows(table, evaluation);
   hand_rows(table, evaluation);
+  head_rows(table, evaluation);
   if (!evaluation.times.empty()) {
     table += "\ntime, ms\n";
     row(table, "", {"median", "95 %"});

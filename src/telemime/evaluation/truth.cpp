@@ -2,6 +2,7 @@
 #include "telemime/evaluation/truth.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "telemime/core/files.h"
@@ -73,6 +74,20 @@ std::optional<HandPoints> read_hand(const JsonField& points) {
   return hand;
 }
 
+// The head of one frame; null where it is not known.
+std::optional<Eigen::Quaterniond> read_head(const JsonField& rotation) {
+  if (rotation.value().is_null()) {
+    return std::nullopt;
+  }
+  const auto [x, y, z, w] = rotation.numbers<4>();
+  const Eigen::Quaterniond head(w, x, y, z);
+  constexpr double kRounding = 0.01;
+  if (!(std::abs(head.norm() - 1.0) <= kRounding)) {
+    rotation.fail("must be a unit quaternion");
+  }
+  return head.normalized();
+}
+
 void read_range(const JsonField& root, Truth& truth) {
   truth.last_scored = truth.frames.size() - 1;
   if (!root.has("best_frames")) {
@@ -118,6 +133,13 @@ Truth parse_truth(std::string_view text, const std::string& name) {
     check_size(right, positions.size(), "frame");
     for (std::size_t f = 0; f < positions.size(); ++f) {
       truth.hands.push_back({read_hand(left[f]), read_hand(right[f])});
+    }
+  }
+  if (root.has("head")) {
+    const JsonField heads = root["head"];
+    check_size(heads, positions.size(), "frame");
+    for (std::size_t f = 0; f < heads.size(); ++f) {
+      truth.heads.push_back(read_head(heads[f]));
     }
   }
   if (root.has("visible")) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,8 @@ struct Truth {
   std::vector<TruthJoints> frames;  ///< by frame number
   /// By frame, or empty: the joints of both hands by Side, m, camera frame.
   std::vector<std::array<std::optional<HandPoints>, 2>> hands;
+  /// By frame, or empty: camera from head, as FaceMotion::head.
+  std::vector<std::optional<Eigen::Quaterniond>> heads;
   std::vector<bool> visible;     ///< by frame: is there a person to track? empty: in every frame
   std::size_t first_scored = 0;  ///< frames outside [first, last] are not scored
   std::size_t last_scored = 0;

@@ -52,6 +52,20 @@ TEST(Truth, FlagsRangeAndScale) {
   EXPECT_FALSE(truth.scale_known);
 }
 
+TEST(Truth, ReadsTheHeadOrThatItIsUnknown) {
+  json root = small_truth();
+  EXPECT_TRUE(parse_truth(root.dump(), "t").heads.empty());
+  root["head"] = {{0.6, 0.0, 0.0, 0.8}, nullptr};
+  const Truth truth = parse_truth(root.dump(), "t");
+  ASSERT_EQ(truth.heads.size(), 2U);
+  EXPECT_TRUE(truth.heads[0]->isApprox(Eigen::Quaterniond(0.8, 0.6, 0.0, 0.0)));
+  EXPECT_FALSE(truth.heads[1]);
+  root["head"][1] = {0.0, 0.0, 0.0, 2.0};
+  EXPECT_THROW(parse_truth(root.dump(), "t"), Error);
+  root["head"] = {nullptr};
+  EXPECT_THROW(parse_truth(root.dump(), "t"), Error);
+}
+
 TEST(Truth, SaysWhatIsWrong) {
   const auto broken = [](const std::string& key, const json& value) {
     json root = small_truth();
