@@ -132,6 +132,8 @@ void add_track_command(CLI::App& app) {
       ->delimiter(',');
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
                       "Signs and units of motion.bap: iso, greta, vreng-3.1 or vreng-3.2.");
+  command->add_flag("--no-fingers{false}", options->request.output_options.fingers,
+                    "Skeletons and markers without fingers; pose.jsonl and pose.csv keep them.");
   command->add_flag("--no-overlay{false}", options->request.overlay, "Write no overlay video.");
   command->add_flag("--show", options->show, "Show overlay, top view and residuals in a window.");
   command->callback([options] { run(*options); });

@@ -48,7 +48,9 @@ RunOutputs::RunOutputs(const TrackRequest& request, double fps, OverlayVideo::No
   }
 }
 
-void RunOutputs::begin(const StreamHeader& header) {
+void RunOutputs::begin(const StreamHeader& known) {
+  StreamHeader header = known;
+  header.fingers = known.fingers && options_.fingers;
   resampler_.emplace(header.body, header.camera, header.fps);
   for (const OutputFormat& format : kOutputFormats) {
     if (formats_.empty() || std::find(formats_.begin(), formats_.end(), format.name) != formats_.end()) {

@@ -43,6 +43,7 @@ std::unique_ptr<Encoder> make_trc_encoder();
 /// Options of the output files.
 struct OutputOptions {
   std::string bap_profile = "iso";  ///< bap/profile.h
+  bool fingers = true;              ///< of tracked hands, in bvh, bap, glb, vrma and trc
 };
 
 /// One file format that a run can write.

@@ -19,6 +19,7 @@ struct StreamHeader {
   Camera camera;      ///< of the INPUT image
   double fps = 25.0;  ///< frames per second, > 0
   JointLimits limits;
+  bool fingers = false;   ///< skeletons and markers have fingers, where the frames have hands
   nlohmann::json config;  ///< effective configuration, any JSON value
   nlohmann::json extra;   ///< other information (name of the input, version of the program)
 };

@@ -94,6 +94,8 @@ HumanoidSkeleton humanoid_skeleton(const Body& body) {
   }
   add_side(body, Side::left, s);
   add_side(body, Side::right, s);
+  const HandSizes hand = average_hand(body.shape.stature);
+  s.fingers = finger_skeleton(hand, hand);
   return s;
 }
 
@@ -174,34 +176,8 @@ HumanoidMotion humanoid_motion(const Body& body, const MotionFrame& frame, const
     return humanoid_motion(body, frame.pose, origin);
   }
   HumanoidMotion motion = humanoid_motion(body, with_wrists(frame.pose, *frame.hands), origin);
-  motion.fingers.emplace();
-  for (const Side side : {Side::left, Side::right}) {
-    const auto s = static_cast<std::size_t>(side);
-    const Eigen::Matrix3d t = t_pose_from_rest(side);
-    const auto rotations = finger_rotations((*frame.hands)[s].angles, side);
-    for (std::size_t f = 0; f < kFingerCount; ++f) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        (*motion.fingers)[15 * s + 3 * f + i] = quaternion(t * rotations[f][i] * t.transpose());
-      }
-    }
-  }
+  motion.fingers = finger_bone_rotations(*frame.hands);
   return motion;
-}
-
-std::array<Eigen::Vector3d, kFingerBoneCount> finger_bone_offsets(double stature) {
-  std::array<Eigen::Vector3d, kFingerBoneCount> offsets;
-  for (const Side side : {Side::left, Side::right}) {
-    Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
-    turn.linear() = t_pose_from_rest(side);
-    const HandPoints flat = hand_points(average_hand(stature), {}, side, turn);
-    for (std::size_t f = 0; f < kFingerCount; ++f) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Eigen::Vector3d parent = flat[i == 0 ? 0 : hand_joint(f, i - 1)];
-        offsets[15 * static_cast<std::size_t>(side) + 3 * f + i] = flat[hand_joint(f, i)] - parent;
-      }
-    }
-  }
-  return offsets;
 }
 
 std::array<Eigen::Vector3d, kHumanBoneCount> humanoid_joints(const HumanoidSkeleton& skeleton,

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "telemime/body/motion_frame.h"
+#include "telemime/outputs/fingers.h"
 
 namespace telemime {
 
@@ -45,28 +46,12 @@ inline constexpr std::array<std::string_view, kHumanBoneCount> kHumanBoneNames =
 inline constexpr std::array<int, kHumanBoneCount> kHumanBoneParent = {-1, 0,  1,  2, 3,  2,  5, 6,  7, 2,
                                                                       9,  10, 11, 0, 13, 14, 0, 16, 17};
 
-/// The finger bones: of the left hand, then of the right one; of each finger from the base to the tip, in the
-/// order of the joints of a hand (body/hand_model.h). Names of VRM 1.0.
-inline constexpr std::size_t kFingerBoneCount = 30;
-inline constexpr std::array<std::string_view, kFingerBoneCount> kFingerBoneNames = {
-    "leftThumbMetacarpal",     "leftThumbProximal",      "leftThumbDistal",         "leftIndexProximal",
-    "leftIndexIntermediate",   "leftIndexDistal",        "leftMiddleProximal",      "leftMiddleIntermediate",
-    "leftMiddleDistal",        "leftRingProximal",       "leftRingIntermediate",    "leftRingDistal",
-    "leftLittleProximal",      "leftLittleIntermediate", "leftLittleDistal",        "rightThumbMetacarpal",
-    "rightThumbProximal",      "rightThumbDistal",       "rightIndexProximal",      "rightIndexIntermediate",
-    "rightIndexDistal",        "rightMiddleProximal",    "rightMiddleIntermediate", "rightMiddleDistal",
-    "rightRingProximal",       "rightRingIntermediate",  "rightRingDistal",         "rightLittleProximal",
-    "rightLittleIntermediate", "rightLittleDistal"};
-using FingerRotations = std::array<Eigen::Quaterniond, kFingerBoneCount>;
-
-/// From the parent's joint to that of each finger bone in the T-pose, m, for a person of this stature.
-std::array<Eigen::Vector3d, kFingerBoneCount> finger_bone_offsets(double stature);
-
 /// A body in the T-pose of VRM 1.0: facing +z, x to its own left, y up, soles at y = 0, arms along x, palms
 /// down; m. At rest all bones have the axes of the world.
 struct HumanoidSkeleton {
   std::array<Eigen::Vector3d, kHumanBoneCount> position;  ///< of each bone's joint, in the world
   std::array<Eigen::Vector3d, kHumanBoneCount> end;       ///< where bones without a child end; others: child
+  std::optional<FingerSkeleton> fingers;                  ///< on the hands
   Eigen::Vector3d offset(HumanBone bone) const;           ///< from the parent's joint; of the hips: position
 };
 
@@ -78,6 +63,7 @@ struct HumanoidMotion {
   const Eigen::Quaterniond& operator[](HumanBone b) const { return rotation[static_cast<std::size_t>(b)]; }
 };
 
+/// With the fingers of average hands.
 HumanoidSkeleton humanoid_skeleton(const Body& body);
 
 /// The pose of humanoid_skeleton(body). The hips take the trunk's heading, the spine the rest of its

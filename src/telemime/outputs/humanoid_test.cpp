@@ -177,7 +177,7 @@ TEST(Humanoid, FingersFollowTheHandModel) {
   }
   place_hands(k, *frame.hands);
   const HumanoidMotion motion = humanoid_motion(body, frame, frame.pose.root);
-  const auto offsets = finger_bone_offsets(body.shape.stature);
+  const FingerSkeleton skeleton = finger_skeleton(*frame.hands);
   ASSERT_TRUE(motion.fingers);
   // Forward kinematics of the bones: the joints in the frame of the hand's bone.
   for (std::size_t side = 0; side < 2; ++side) {
@@ -190,8 +190,8 @@ TEST(Humanoid, FingersFollowTheHandModel) {
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
       Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t bone = 15 * side + 3 * f + i;
-        at += turn * offsets[bone];
+        const std::size_t bone = finger_bone(static_cast<Side>(side), f, i);
+        at += turn * skeleton.offset(bone);
         turn = turn * (*motion.fingers)[bone];
         const Eigen::Vector3d joint = t * (from_camera * (*frame.hands)[side].joints[hand_joint(f, i)]);
         EXPECT_LT((at - joint).norm(), 1e-9) << kFingerBoneNames[bone];

@@ -57,6 +57,28 @@ inline FaceMotion random_face(Random& random) {
   return face;
 }
 
+/// Hands with all angles, sizes and turns of the palm set, at the wrists of this pose.
+inline HandMotions random_hands(const Body& body, const Pose& pose, Random& random) {
+  HandMotions hands;
+  HandSizes sizes = average_hand(body.shape.stature);
+  sizes.palm *= 1.1;
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    sizes.base[f] += 0.02 * Eigen::Vector3d(0.5, 1.0, -1.0);
+    sizes.bone[f][1] *= 0.9 + 0.05 * static_cast<double>(f);
+  }
+  for (HandMotion& hand : hands) {
+    hand.sizes = sizes;
+    hand.visibility = 1.0;
+    hand.seen =
+        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+    for (std::size_t a = 0; a < kHandAngleCount; ++a) {
+      hand.angles[a] = random.uniform(hand_limits()[a].min, hand_limits()[a].max);
+    }
+  }
+  place_hands(forward_kinematics(body, pose), hands);
+  return hands;
+}
+
 /// A random pose inside the limits, 1.0 to 1.6 m in front of the camera.
 inline Pose random_pose(const JointLimits& limits, Random& random) {
   Pose pose;

@@ -116,13 +116,11 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
   }
 }
 
-void add_fingers(const HumanoidSkeleton& skeleton, const FingerRotations& fingers,
+void add_fingers(const FingerSkeleton& skeleton, const FingerRotations& fingers,
                  std::vector<Message>& messages) {
-  // The crown is as high as the person is tall.
-  const auto offsets = finger_bone_offsets(skeleton.end[static_cast<std::size_t>(HumanBone::head)].y());
   for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
-    messages.push_back(
-        place_message("/VMC/Ext/Bone/Pos", unity_name(kFingerBoneNames[b]), {offsets[b], fingers[b]}));
+    messages.push_back(place_message("/VMC/Ext/Bone/Pos", unity_name(kFingerBoneNames[b]),
+                                     {skeleton.offset(b), fingers[b]}));
   }
 }
 
@@ -209,7 +207,8 @@ std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const H
   if (motion != nullptr) {
     add_places(skeleton, *motion, options, messages);
     if (motion->fingers) {
-      add_fingers(options.all_positions ? skeleton : average_skeleton(), *motion->fingers, messages);
+      add_fingers((options.all_positions ? skeleton : average_skeleton()).fingers.value(), *motion->fingers,
+                  messages);
     }
   }
   if (face != nullptr) {

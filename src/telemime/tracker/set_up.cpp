@@ -65,6 +65,7 @@ StreamHeader header_of(const SourceInfo& info, const TrackingRun& run) {
   header.camera = run.tracker.camera;
   header.fps = info.fps;
   header.limits = run.tracker.limits;
+  header.fingers = run.scene.hands.has_networks();
   header.config = to_json(run.tracker.config);
   header.extra = {{"input", info.name}};
   if (run.state.person) {

@@ -74,6 +74,45 @@ TEST(Bvh, JointsStandWhereTheMotionFrameHasThem) {
   }
 }
 
+TEST(Bvh, FingersAreWhereTheMotionFrameHasThem) {
+  StreamHeader header = testing_motion::header();
+  header.fingers = true;
+  Random random(5);
+  std::vector<MotionFrame> frames;
+  for (std::int64_t n = 0; n < 60; ++n) {
+    frames.push_back(testing_motion::frame_of(
+        header.body, header.camera, testing_motion::random_pose(header.limits, random), n, header.fps));
+    frames.back().hands = testing_motion::random_hands(header.body, frames.back().pose, random);
+  }
+  const BvhFile file = parse_bvh(encoded(header, frames));
+  ASSERT_EQ(file.joints.size(), kBvhBoneCount + kFingerBoneCount);
+  const auto named = [&](const std::string& name) {
+    const auto found = std::find_if(file.joints.begin(), file.joints.end(),
+                                    [&](const BvhJoint& joint) { return joint.name == name; });
+    EXPECT_NE(found, file.joints.end()) << name;
+    return static_cast<std::size_t>(found - file.joints.begin());
+  };
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const auto world = bvh_world(file, f);
+    for (const Side side : {Side::left, Side::right}) {
+      const HandPoints& joints = (*frames[f].hands)[static_cast<std::size_t>(side)].joints;
+      const std::size_t hand = named(side == Side::left ? "LeftHand" : "RightHand");
+      for (std::size_t b = finger_bone(side, 0, 0); b < finger_bone(side, kFingerCount, 0); ++b) {
+        const std::size_t bone = named(motion_builder_name(b));
+        const auto expect_at = [&](const Eigen::Vector3d& place, std::size_t joint) {
+          const Eigen::Vector3d from_wrist = place - world[hand].translation();
+          EXPECT_LT((from_wrist - in_file(joints[joint] - joints[0])).norm(), 0.002)
+              << motion_builder_name(b);
+        };
+        expect_at(world[bone].translation(), hand_joint(b / 3 % kFingerCount, b % 3));
+        if (const auto& end = file.joints[bone].end_site) {
+          expect_at(world[bone] * *end, hand_joint(b / 3 % kFingerCount, 3));
+        }
+      }
+    }
+  }
+}
+
 TEST(Bvh, RestIsAnUprightTPoseFacingForward) {
   const Body body = make_body(Shape{});
   BvhFile file;

@@ -59,7 +59,7 @@ Eigen::Matrix3d link_frame(const Eigen::Vector3d& link, const Girdle& girdle) {
   return frame;
 }
 
-BvhJoint joint(const char* name, BvhBone parent, const Eigen::Vector3d& metres) {
+BvhJoint joint(const std::string& name, BvhBone parent, const Eigen::Vector3d& metres) {
   BvhJoint result;
   result.name = name;
   result.parent = static_cast<int>(parent);
@@ -103,13 +103,30 @@ void add_leg(const Body& body, Side side, std::vector<BvhJoint>& joints) {
                               {0, -kLegs.shank * h, 0}, {0, -kLegs.ankle_height * h, kLegs.foot_length * h}));
 }
 
+void add_fingers(const FingerSkeleton& fingers, std::vector<BvhJoint>& joints) {
+  for (const BvhBone hand : {BvhBone::l_hand, BvhBone::r_hand}) {
+    joints[static_cast<std::size_t>(hand)].end_site.reset();
+  }
+  for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
+    const BvhBone hand = b < finger_bone(Side::right, 0, 0) ? BvhBone::l_hand : BvhBone::r_hand;
+    BvhJoint bone = joint(motion_builder_name(b), hand, fingers.offset(b));
+    if (b % 3 != 0) {
+      bone.parent = static_cast<int>(joints.size()) - 1;
+    }
+    if (b % 3 == 2) {
+      bone.end_site = kCentimetresPerMetre * (fingers.end[b] - fingers.position[b]);
+    }
+    joints.push_back(bone);
+  }
+}
+
 Eigen::Vector3d spine_from_hips(const Body& body) {
   return {0.0, kLegs.hips_below_root * body.shape.stature, 0.0};
 }
 
 }  // namespace
 
-std::vector<BvhJoint> bvh_skeleton(const Body& body) {
+std::vector<BvhJoint> bvh_skeleton(const Body& body, const std::optional<FingerSkeleton>& fingers) {
   std::vector<BvhJoint> joints;
   BvhJoint hips = joint("Hips", BvhBone::hips, Eigen::Vector3d::Zero());
   hips.parent = -1;
@@ -124,6 +141,9 @@ std::vector<BvhJoint> bvh_skeleton(const Body& body) {
   add_arm(body, Side::right, joints);
   add_leg(body, Side::left, joints);
   add_leg(body, Side::right, joints);
+  if (fingers) {
+    add_fingers(*fingers, joints);
+  }
   return joints;
 }
 

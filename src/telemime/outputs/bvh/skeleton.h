@@ -10,6 +10,7 @@
 
 #include "telemime/body/body.h"
 #include "telemime/body/face_motion.h"
+#include "telemime/outputs/fingers.h"
 
 namespace telemime {
 
@@ -52,8 +53,10 @@ struct BvhJoint {
 };
 
 /// The skeleton of a body in a T-pose: arms along x, palms down, y up, facing +z, cm. Every joint turns by
-/// Zrotation Xrotation Yrotation; only the hips translate.
-std::vector<BvhJoint> bvh_skeleton(const Body& body);
+/// Zrotation Xrotation Yrotation; only the hips translate. The fingers, if any, come after the bones of
+/// BvhBone.
+std::vector<BvhJoint> bvh_skeleton(const Body& body,
+                                   const std::optional<FingerSkeleton>& fingers = std::nullopt);
 
 /// What the bones of bvh_skeleton(body) do in a pose.
 struct BvhMotion {

@@ -9,13 +9,15 @@
 #include "telemime/outputs/bvh/skeleton.h"
 #include "telemime/outputs/euler.h"
 #include "telemime/outputs/finite.h"
+#include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
 namespace {
 
 constexpr std::size_t kCountWidth = 10;
-constexpr int kDecimals = 4;  // cm and degrees
+constexpr std::size_t kOffsetWidth = 10;  // the head is patched: its size must not change
+constexpr int kDecimals = 4;              // cm and degrees
 constexpr AxisOrder kOrder = {2, 0, 1};
 constexpr std::array<const char*, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
                                                       "Xrotation", "Yrotation", "Zrotation"};
@@ -23,14 +25,17 @@ constexpr std::array<const char*, 6> kChannelNames = {"Xposition", "Yposition", 
 void append_offset(std::string& text, const std::string& indent, const Eigen::Vector3d& offset) {
   text += indent + "OFFSET";
   for (const double value : offset) {
-    text += ' ';
-    append_fixed(text, value, kDecimals);
+    std::string number;
+    append_fixed(number, value, kDecimals);
+    text.append(std::max(kOffsetWidth, number.size() + 1) - number.size(), ' ').append(number);
   }
   text += '\n';
 }
 
+/// `order` gets the indices of the joints as they stand in the file.
 void append_joint(std::string& text, const std::vector<BvhJoint>& joints, std::size_t index,
-                  std::size_t depth) {
+                  std::size_t depth, std::vector<std::size_t>& order) {
+  order.push_back(index);
   const std::string outer(depth, '\t');
   const std::string inner(depth + 1, '\t');
   const BvhJoint& joint = joints[index];
@@ -43,7 +48,7 @@ void append_joint(std::string& text, const std::vector<BvhJoint>& joints, std::s
   text += '\n';
   for (std::size_t child = index + 1; child < joints.size(); ++child) {
     if (joints[child].parent == static_cast<int>(index)) {
-      append_joint(text, joints, child, depth + 1);
+      append_joint(text, joints, child, depth + 1, order);
     }
   }
   if (joint.end_site) {
@@ -58,29 +63,34 @@ class BvhEncoder final : public Encoder {
  public:
   std::string begin(const StreamHeader& header) override {
     body_ = header.body;
-    std::string text = "HIERARCHY\n";
-    append_joint(text, bvh_skeleton(body_), 0, 0);
-    text += "MOTION\nFrames: ";
-    count_offset_ = text.size();
-    text += padded_count(0, kCountWidth) + "\nFrame Time: ";
-    append_fixed(text, 1.0 / header.fps, 8);
-    return text + "\n";
+    fps_ = header.fps;
+    if (header.fingers) {
+      fingers_ = humanoid_skeleton(body_).fingers;
+      turned_.fill(Eigen::Quaterniond::Identity());
+    }
+    return head(order_);
   }
 
   std::string frame(const MotionFrame& raw) override {
     const MotionFrame frame = finite_(raw);
-    BvhMotion motion = bvh_motion(body_, frame.pose);
+    BvhMotion motion = bvh_motion(body_, frame.hands ? with_wrists(frame.pose, *frame.hands) : frame.pose);
     if (frame.face) {
       turn_head(*frame.face, motion);
+    }
+    if (fingers_ && frame.hands) {
+      fingers_ = finger_skeleton(*frame.hands);
+      turned_ = finger_bone_rotations(*frame.hands);
     }
     std::string text;
     for (const double value : motion.hips) {
       append_fixed(text, value, kDecimals);
       text += ' ';
     }
-    for (std::size_t bone = 0; bone < kBvhBoneCount; ++bone) {
+    for (const std::size_t bone : order_) {
       EulerAngles& last = last_[bone];
-      const EulerAngles angles = decompose(motion.parent_from_bone[bone], kOrder, last);
+      const EulerAngles angles = decompose(
+          bone < kBvhBoneCount ? motion.parent_from_bone[bone] : turned_[bone - kBvhBoneCount].matrix(),
+          kOrder, last);
       for (std::size_t i = 0; i < 3; ++i) {
         // Continuing beyond 180 degrees keeps programs that interpolate between frames from spinning the bone
         // back.
@@ -94,16 +104,30 @@ class BvhEncoder final : public Encoder {
     return text;
   }
 
+  // The lengths of the fingers are learned while the person is tracked: those of the last frame stay.
   std::optional<Patch> patch() const override {
-    return Patch{count_offset_, padded_count(count_, kCountWidth)};
+    std::vector<std::size_t> order;
+    return Patch{0, head(order)};
   }
 
  private:
+  /// `order` gets the bones as they stand in the file.
+  std::string head(std::vector<std::size_t>& order) const {
+    std::string text = "HIERARCHY\n";
+    append_joint(text, bvh_skeleton(body_, fingers_), 0, 0, order);
+    text += "MOTION\nFrames: " + padded_count(count_, kCountWidth) + "\nFrame Time: ";
+    append_fixed(text, 1.0 / fps_, 8);
+    return text + "\n";
+  }
+
   Body body_;
+  double fps_ = 25.0;
   FiniteFrames finite_;
-  std::array<EulerAngles, kBvhBoneCount> last_{};
+  std::optional<FingerSkeleton> fingers_;
+  FingerRotations turned_;
+  std::array<EulerAngles, kBvhBoneCount + kFingerBoneCount> last_{};
+  std::vector<std::size_t> order_;
   std::size_t count_ = 0;
-  std::size_t count_offset_ = 0;
 };
 
 }  // namespace
