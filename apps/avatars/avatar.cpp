@@ -238,7 +238,7 @@ std::string make_avatar(const Shape& shape, const AvatarLook& look) {
   document.json["extensionsUsed"] = {"VRMC_vrm"};
   document.json["extensions"]["VRMC_vrm"] = {{"specVersion", "1.0"},
                                              {"meta", meta(look)},
-                                             {"humanoid", {{"humanBones", human_bones()}}},
+                                             {"humanoid", {{"humanBones", human_bones(figure.skeleton)}}},
                                              {"lookAt", look_at(figure)},
                                              {"expressions", expressions(face_node)}};
   return glb_bytes(document);

@@ -8,9 +8,22 @@
 
 namespace telemime {
 
+namespace {
+
+std::array<float, 3> numbers(const Eigen::Vector3d& place) {
+  const Eigen::Vector3f p = place.cast<float>();
+  return {p.x(), p.y(), p.z()};
+}
+
+std::size_t hand_of(std::size_t finger_bone_index) {
+  return static_cast<std::size_t>(finger_bone_index < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand
+                                                                                     : HumanBone::r_hand);
+}
+
+}  // namespace
+
 void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton) {
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-    const Eigen::Vector3f offset = skeleton.offset(static_cast<HumanBone>(b)).cast<float>();
     nlohmann::ordered_json node = {{"name", kHumanBoneNames[b]}};
     auto children = nlohmann::ordered_json::array();
     for (std::size_t child = b + 1; child < kHumanBoneCount; ++child) {
@@ -18,23 +31,48 @@ void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton) {
         children.push_back(child);
       }
     }
+    for (std::size_t child = 0; skeleton.fingers && child < kFingerBoneCount; child += 3) {
+      if (hand_of(child) == b) {
+        children.push_back(finger_node(child));
+      }
+    }
     if (!children.empty()) {
       node["children"] = std::move(children);
     }
-    node["translation"] = std::array<float, 3>{offset.x(), offset.y(), offset.z()};
+    node["translation"] = numbers(skeleton.offset(static_cast<HumanBone>(b)));
     add_to(document, "nodes", std::move(node));
+  }
+  for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
+    nlohmann::ordered_json node = {{"name", kFingerBoneNames[b]}};
+    if (b % 3 < 2) {
+      node["children"] = {finger_node(b + 1)};
+    }
+    add_to(document, "nodes", std::move(node));
+  }
+  if (skeleton.fingers) {
+    set_fingers(document, *skeleton.fingers);
   }
   document.json["scenes"][0]["nodes"].push_back(0);
 }
 
+void set_fingers(GltfDocument& document, const FingerSkeleton& fingers) {
+  for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
+    document.json["nodes"][finger_node(b)]["translation"] = numbers(fingers.offset(b));
+  }
+}
+
 std::size_t add_humanoid_skin(GltfDocument& document, const HumanoidSkeleton& skeleton) {
+  std::vector<Eigen::Vector3d> places(skeleton.position.begin(), skeleton.position.end());
+  for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
+    places.emplace_back(skeleton.position[hand_of(b)] + skeleton.fingers->position[b]);
+  }
   std::vector<float> matrices;
   auto joints = nlohmann::ordered_json::array();
-  for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-    const Eigen::Vector3f p = skeleton.position[b].cast<float>();
+  for (const Eigen::Vector3d& place : places) {
+    const Eigen::Vector3f p = place.cast<float>();
     // Column by column; at rest all bones have the axes of the world.
     matrices.insert(matrices.end(), {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -p.x(), -p.y(), -p.z(), 1});
-    joints.push_back(b);
+    joints.push_back(joints.size());
   }
   const std::size_t accessor = add_accessor(document, matrices, "MAT4");
   return add_to(document, "skins", {{"inverseBindMatrices", accessor}, {"skeleton", 0}, {"joints", joints}});
@@ -72,10 +110,13 @@ nlohmann::ordered_json animated_look_at(std::size_t first_node) {
   return {{"node", first_node + kAnimatedExpressionCount}, {"offsetFromHeadBone", {0.0, 0.06, 0.0}}};
 }
 
-nlohmann::ordered_json human_bones() {
+nlohmann::ordered_json human_bones(const HumanoidSkeleton& skeleton) {
   nlohmann::ordered_json bones;
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
     bones[std::string(kHumanBoneNames[b])] = {{"node", b}};
+  }
+  for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
+    bones[std::string(kFingerBoneNames[b])] = {{"node", finger_node(b)}};
   }
   return bones;
 }

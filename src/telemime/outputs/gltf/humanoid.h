@@ -9,11 +9,19 @@
 
 namespace telemime {
 
-/// Adds the bones as nodes 0 to 18 of an empty document, in the order of HumanBone, and the hips to the
-/// scene.
+/// The node of a finger bone, after those of HumanBone.
+constexpr std::size_t finger_node(std::size_t bone) {
+  return kHumanBoneCount + bone;
+}
+
+/// Adds the bones as nodes 0 to 18 of an empty document, in the order of HumanBone, then the fingers that the
+/// skeleton has, and the hips to the scene.
 void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton);
 
-/// Adds a skin whose joint b is HumanBone b; returns its index.
+/// Places the finger bones of such a document where those of other hands are.
+void set_fingers(GltfDocument& document, const FingerSkeleton& fingers);
+
+/// Adds a skin whose joint b is node b; returns its index.
 std::size_t add_humanoid_skin(GltfDocument& document, const HumanoidSkeleton& skeleton);
 
 /// Adds a mesh as a node of the scene that this skin moves; returns the node's index.
@@ -34,6 +42,6 @@ nlohmann::ordered_json animated_expressions(std::size_t first_node);
 nlohmann::ordered_json animated_look_at(std::size_t first_node);
 
 /// The map from names of bones to nodes, as in VRMC_vrm and VRMC_vrm_animation.
-nlohmann::ordered_json human_bones();
+nlohmann::ordered_json human_bones(const HumanoidSkeleton& skeleton);
 
 }  // namespace telemime

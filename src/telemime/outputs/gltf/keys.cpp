@@ -6,6 +6,11 @@
 namespace telemime {
 namespace {
 
+void append(std::vector<float>& column, const Eigen::Quaterniond& rotation) {
+  const Eigen::Quaternionf q = rotation.cast<float>().normalized();
+  column.insert(column.end(), {q.x(), q.y(), q.z(), q.w()});
+}
+
 void repeat_last(std::vector<float>& column, std::size_t width) {
   const std::size_t from = column.size() - width;
   for (std::size_t i = 0; i < width; ++i) {
@@ -20,8 +25,20 @@ void MotionKeys::Columns::add(float time, const HumanoidMotion& motion) {
   const Eigen::Vector3f place = motion.hips.cast<float>();
   hips.insert(hips.end(), place.begin(), place.end());
   for (std::size_t b = 0; b < kMovingBoneCount; ++b) {
-    const Eigen::Quaternionf q = motion.rotation[b].cast<float>().normalized();
-    rotations[b].insert(rotations[b].end(), {q.x(), q.y(), q.z(), q.w()});
+    append(rotations[b], motion.rotation[b]);
+  }
+}
+
+// A frame without hands keeps the fingers as they were.
+void MotionKeys::Columns::add_fingers(const std::optional<FingerRotations>& turned) {
+  for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
+    if (turned) {
+      append(fingers[b], (*turned)[b]);
+    } else if (fingers[b].empty()) {
+      append(fingers[b], Eigen::Quaterniond::Identity());
+    } else {
+      repeat_last(fingers[b], 4);
+    }
   }
 }
 
@@ -31,10 +48,8 @@ void MotionKeys::Columns::add_face(const FaceMotion& face) {
     expressions[i].insert(expressions[i].end(), {static_cast<float>(weights[i]), 0.0F, 0.0F});
   }
   // Seen from the avatar, which faces +z: about y to its left, then about x downwards.
-  const Eigen::Quaternionf look = (Eigen::AngleAxisd(face.gaze.x(), Eigen::Vector3d::UnitY()) *
-                                   Eigen::AngleAxisd(-face.gaze.y(), Eigen::Vector3d::UnitX()))
-                                      .cast<float>();
-  gaze.insert(gaze.end(), {look.x(), look.y(), look.z(), look.w()});
+  append(gaze, Eigen::AngleAxisd(face.gaze.x(), Eigen::Vector3d::UnitY()) *
+                   Eigen::AngleAxisd(-face.gaze.y(), Eigen::Vector3d::UnitX()));
 }
 
 void MotionKeys::Columns::hold(float time) {
@@ -42,6 +57,11 @@ void MotionKeys::Columns::hold(float time) {
   repeat_last(hips, 3);
   for (std::vector<float>& rotation : rotations) {
     repeat_last(rotation, 4);
+  }
+  if (!fingers[0].empty()) {
+    for (std::vector<float>& finger : fingers) {
+      repeat_last(finger, 4);
+    }
   }
   if (!gaze.empty()) {
     for (std::vector<float>& expression : expressions) {
@@ -51,8 +71,8 @@ void MotionKeys::Columns::hold(float time) {
   }
 }
 
-MotionKeys::MotionKeys(const Body& body, std::optional<std::size_t> face_node)
-    : body_(body), face_node_(face_node) {}
+MotionKeys::MotionKeys(const Body& body, bool fingers, std::optional<std::size_t> face_node)
+    : body_(body), fingers_(fingers), face_node_(face_node) {}
 
 void MotionKeys::add(const MotionFrame& frame) {
   if (!start_) {
@@ -75,11 +95,15 @@ void MotionKeys::add(const MotionFrame& frame) {
   if (!origin_) {
     origin_ = frame.pose.root;
   }
-  HumanoidMotion motion = humanoid_motion(body_, frame.pose, *origin_);
+  HumanoidMotion motion = humanoid_motion(body_, frame, *origin_);
   if (frame.face) {
     turn_head(*frame.face, motion);
   }
   columns_.add(time, motion);
+  if (fingers_) {
+    columns_.add_fingers(motion.fingers);
+    skeleton_ = frame.hands ? finger_skeleton(*frame.hands) : skeleton_;
+  }
   if (face_node_) {
     columns_.add_face(frame.face.value_or(FaceMotion{}));
   }
@@ -95,6 +119,7 @@ void MotionKeys::add_animation(GltfDocument& document) const {
     rest.hips = humanoid_skeleton(body_).position[0];
     rest.rotation.fill(Eigen::Quaterniond::Identity());
     columns.add(0.0F, rest);
+    columns.add_fingers(std::nullopt);
     columns.add_face(FaceMotion{});
   }
   const std::size_t input = add_accessor(document, columns.times, "SCALAR", GltfTarget::none, true);
@@ -108,6 +133,9 @@ void MotionKeys::add_animation(GltfDocument& document) const {
         add_accessor(document, columns.hips, "VEC3"));
   for (std::size_t b = 0; b < kMovingBoneCount; ++b) {
     track(b, "rotation", add_accessor(document, columns.rotations[b], "VEC4"));
+  }
+  for (std::size_t b = 0; fingers_ && b < kFingerBoneCount; ++b) {
+    track(finger_node(b), "rotation", add_accessor(document, columns.fingers[b], "VEC4"));
   }
   if (face_node_) {
     for (std::size_t i = 0; i < kAnimatedExpressionCount; ++i) {

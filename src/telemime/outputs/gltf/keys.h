@@ -18,8 +18,9 @@ inline constexpr std::size_t kMovingBoneCount = static_cast<std::size_t>(HumanBo
 /// A motion as the keys of a glTF animation.
 class MotionKeys {
  public:
-  /// With the first of the nodes of the face (add_face_nodes), expressions and gaze get tracks, too.
-  explicit MotionKeys(const Body& body, std::optional<std::size_t> face_node = std::nullopt);
+  /// With fingers, they get tracks; with the first of the nodes of the face (add_face_nodes), expressions and
+  /// gaze, too.
+  MotionKeys(const Body& body, bool fingers, std::optional<std::size_t> face_node);
 
   /// Adds a frame with finite numbers. A lost frame makes no key; the pose before it is held until the frame
   /// before the next key, so that nothing glides through the gap. A frame that is not later than the previous
@@ -38,21 +39,29 @@ class MotionKeys {
   /// tracked frame.
   const std::optional<Eigen::Vector3d>& origin() const { return origin_; }
 
+  /// The fingers of the last frame with hands: their lengths are learned while the person is tracked.
+  const std::optional<FingerSkeleton>& fingers() const { return skeleton_; }
+
  private:
   struct Columns {
     std::vector<float> times;  ///< s from the first frame
     std::vector<float> hips;
     std::array<std::vector<float>, kMovingBoneCount> rotations;  ///< x, y, z, w
 
+    std::array<std::vector<float>, kFingerBoneCount> fingers;  ///< the same; empty without
+
     std::array<std::vector<float>, kAnimatedExpressionCount> expressions;  ///< x is the weight
     std::vector<float> gaze;                                               ///< x, y, z, w
 
     void add(float time, const HumanoidMotion& motion);
+    void add_fingers(const std::optional<FingerRotations>& turned);
     void add_face(const FaceMotion& face);
     void hold(float time);
   };
 
   Body body_;
+  bool fingers_;
+  std::optional<FingerSkeleton> skeleton_;
   std::optional<std::size_t> face_node_;
   Columns columns_;
   std::optional<double> start_;  ///< time of the first frame

@@ -105,7 +105,20 @@ struct Pieces {
 std::size_t add_mannequin(GltfDocument& document, const HumanoidSkeleton& skeleton, double stature) {
   Pieces pieces;
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-    pieces.add(b, skeleton.position[b], skeleton.end[b], girth(static_cast<HumanBone>(b)), stature);
+    const auto bone = static_cast<HumanBone>(b);
+    Girth size = girth(bone);
+    if (skeleton.fingers && (bone == HumanBone::l_hand || bone == HumanBone::r_hand)) {
+      size.past = 0.006;  // a palm only
+    }
+    pieces.add(b, skeleton.position[b], skeleton.end[b], size, stature);
+  }
+  constexpr std::array<double, 3> kFingerRadius = {0.0058, 0.0052, 0.0046};
+  for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
+    const Vector3d& wrist = skeleton.position[static_cast<std::size_t>(
+        b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand)];
+    const double radius = kFingerRadius.at(b % 3) * (b / 3 % kFingerCount == 0 ? 1.15 : 1.0);
+    pieces.add(finger_node(b), wrist + skeleton.fingers->position[b], wrist + skeleton.fingers->end[b],
+               {Vector3d::UnitY(), radius, radius, 0.5 * radius}, stature);
   }
   const std::size_t material = add_to(
       document, "materials",

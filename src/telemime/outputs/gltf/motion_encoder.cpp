@@ -12,16 +12,19 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kFirstSnapshot = 32;
-/// Space in the JSON for numbers that get longer: some 100 by at most 9 digits each, and the position of the
-/// origin.
-constexpr std::size_t kRoomToGrow = 2048;
+/// Space in the JSON for numbers that get longer: some 150 by at most 9 digits each, the places of 30 finger
+/// bones, and the position of the origin.
+constexpr std::size_t kRoomToGrow = 4096;
 
 class GltfMotionEncoder final : public Encoder {
  public:
   explicit GltfMotionEncoder(bool mannequin) : mannequin_(mannequin) {}
 
   std::string begin(const StreamHeader& header) override {
-    const HumanoidSkeleton skeleton = humanoid_skeleton(header.body);
+    HumanoidSkeleton skeleton = humanoid_skeleton(header.body);
+    if (!header.fingers) {
+      skeleton.fingers.reset();
+    }
     fixed_ = make_gltf();
     add_humanoid(fixed_, skeleton);
     std::optional<std::size_t> face;
@@ -31,12 +34,13 @@ class GltfMotionEncoder final : public Encoder {
     } else {
       fixed_.json["extensionsUsed"] = {"VRMC_vrm_animation"};
       face = add_face_nodes(fixed_);
-      fixed_.json["extensions"]["VRMC_vrm_animation"] = {{"specVersion", "1.0"},
-                                                         {"humanoid", {{"humanBones", human_bones()}}},
-                                                         {"expressions", animated_expressions(*face)},
-                                                         {"lookAt", animated_look_at(*face)}};
+      fixed_.json["extensions"]["VRMC_vrm_animation"] = {
+          {"specVersion", "1.0"},
+          {"humanoid", {{"humanBones", human_bones(skeleton)}}},
+          {"expressions", animated_expressions(*face)},
+          {"lookAt", animated_look_at(*face)}};
     }
-    keys_.emplace(header.body, face);
+    keys_.emplace(header.body, header.fingers, face);
     written_ = fixed_.buffer.size();
     const std::string first = snapshot();
     return head_ + fixed_.buffer + first;
@@ -58,6 +62,9 @@ class GltfMotionEncoder final : public Encoder {
     GltfDocument document;
     document.json = fixed_.json;
     keys_->add_animation(document);
+    if (keys_->fingers()) {
+      set_fingers(document, *keys_->fingers());
+    }
     // The new accessors lie behind everything that was written before.
     const std::size_t first_view =
         fixed_.json.contains("bufferViews") ? fixed_.json["bufferViews"].size() : 0;

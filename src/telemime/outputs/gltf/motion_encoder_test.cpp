@@ -222,6 +222,40 @@ TEST_P(GltfMotionTest, VrmAnimationAloneHasTheFace) {
   }
 }
 
+TEST_P(GltfMotionTest, FingersAreWhereTheMotionFrameHasThem) {
+  StreamHeader header = header_;
+  header.fingers = true;
+  auto frames = random_frames(40);
+  Random random(9);
+  for (MotionFrame& frame : frames) {
+    frame.hands = testing_motion::random_hands(header.body, frame.pose, random);
+  }
+  const Glb glb = testing_glb::parse(testing_motion::encode_all(*GetParam()(), header, frames));
+  for (const MotionFrame& frame : frames) {
+    const auto nodes = testing_glb::play(glb, frame.time);
+    const auto place = [&](std::string_view name) {
+      return testing_glb::place_of(glb, nodes, testing_glb::node_named(glb, std::string(name)));
+    };
+    for (const Side side : {Side::left, Side::right}) {
+      const HandPoints& joints = (*frame.hands)[static_cast<std::size_t>(side)].joints;
+      const Eigen::Vector3d wrist = place(side == Side::left ? "leftHand" : "rightHand");
+      for (std::size_t b = finger_bone(side, 0, 0); b < finger_bone(side, kFingerCount, 0); ++b) {
+        const Eigen::Vector3d off = joints[hand_joint(b / 3 % kFingerCount, b % 3)] - joints[0];
+        EXPECT_LT((place(kFingerBoneNames[b]) - wrist - Eigen::Vector3d(off.x(), -off.y(), -off.z())).norm(),
+                  1e-4)
+            << kFingerBoneNames[b] << " in frame " << frame.frame;
+      }
+    }
+  }
+  if (GetParam() == &make_vrma_encoder) {
+    const auto& bones = glb.json["extensions"]["VRMC_vrm_animation"]["humanoid"]["humanBones"];
+    EXPECT_EQ(bones.size(), kHumanBoneCount + kFingerBoneCount);
+    EXPECT_EQ(bones["rightThumbMetacarpal"]["node"], testing_glb::node_named(glb, "rightThumbMetacarpal"));
+  } else {
+    EXPECT_EQ(glb.json["skins"][0]["joints"].size(), kHumanBoneCount + kFingerBoneCount);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, GltfMotionTest, testing::Values(&make_glb_encoder, &make_vrma_encoder),
                          [](const auto& kind) { return kind.param == &make_glb_encoder ? "Glb" : "Vrma"; });
 
