@@ -27,7 +27,7 @@ class TrcTest : public testing::Test {
   std::vector<std::string> lines(const std::vector<MotionFrame>& frames) const {
     return split(testing_motion::encode_all(*make_trc_encoder(), header_, frames), '\n');
   }
-  const StreamHeader header_ = testing_motion::header();
+  StreamHeader header_ = testing_motion::header();
   std::vector<MotionFrame> frames_ = testing_motion::gesture(header_, 4);
 };
 
@@ -83,6 +83,31 @@ TEST_F(TrcTest, ALostFrameHasEmptyCells) {
   // Every cell ends with a tab, so that a reader counts the empty ones.
   EXPECT_EQ(text[7], "2\t0.040000\t" + std::string(3 * kJointCount, '\t'));
   EXPECT_EQ(std::count(text[6].begin(), text[6].end(), '\t'), static_cast<std::ptrdiff_t>(kColumns));
+}
+
+TEST_F(TrcTest, FingersAreMarkersWhereTheyAreSeen) {
+  header_.fingers = true;
+  Random random(6);
+  for (MotionFrame& frame : frames_) {
+    frame.hands = testing_motion::random_hands(header_.body, frame.pose, random);
+    (*frame.hands)[1].visibility = 0.0;
+  }
+  const auto text = lines(frames_);
+  const std::size_t markers = kJointCount + 2 * (kHandJointCount - 1);
+  EXPECT_NE(text[2].find("\t" + std::to_string(markers) + "\tmm"), std::string::npos);
+  const auto names = split(text[3], '\t');
+  const std::size_t thumb = 2 + 3 * kJointCount;
+  EXPECT_EQ(names[thumb], "l_hand_thumb_cmc");
+  EXPECT_EQ(names[2 + 3 * (markers - 1)], "r_hand_little_tip");
+  const auto cells = split(text[7], '\t');
+  ASSERT_EQ(cells.size(), 2 + 3 * markers);
+  for (std::size_t j = 1; j < kHandJointCount; ++j) {
+    const std::size_t at = thumb + 3 * (j - 1);
+    const Eigen::Vector3d mm(std::stod(cells[at]), std::stod(cells[at + 1]), std::stod(cells[at + 2]));
+    const Eigen::Vector3d joint = 1000.0 * (*frames_[1].hands)[0].joints[j];
+    EXPECT_LT((mm - Eigen::Vector3d(joint.x(), -joint.y(), -joint.z())).norm(), 0.002);
+    EXPECT_EQ(cells[at + 3 * (kHandJointCount - 1)], "");
+  }
 }
 
 TEST_F(TrcTest, NoFrameIsAFile) {
