@@ -28,6 +28,8 @@ struct BapProfile {
   BapJoint trunk, neck;      ///< thesis Table 2-2: vl5 and skullbase
   BapJoint l_shoulder, r_shoulder;
   BapJoint l_wrist, r_wrist;
+  AxisOrder finger_order;  ///< of the first joint of each finger
+  bool palms_forward;  ///< the table's axes of the fingers hold with the palms to the front, not the thighs
 };
 
 /// iso, greta, vreng-3.1, vreng-3.2.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "telemime/outputs/bap/fingers.h"
 #include "telemime/outputs/bap/profile.h"
 #include "telemime/outputs/finite.h"
 #include "telemime/outputs/numbers.h"
@@ -23,15 +24,18 @@ std::string frame_rate(double fps) {
 
 class BapEncoder final : public Encoder {
  public:
-  explicit BapEncoder(const BapProfile& profile) : profile_(profile) {
-    const auto ids = bap_ids(profile);
-    for (int id = 1; id <= profile.mask_length; ++id) {
-      mask_ += std::binary_search(ids.begin(), ids.end(), id) ? "1" : "0";
-      mask_ += id < profile.mask_length ? " " : "\n";
-    }
-  }
+  explicit BapEncoder(const BapProfile& profile) : profile_(profile) {}
 
   std::string begin(const StreamHeader& header) override {
+    fingers_ = header.fingers;
+    const auto ids = bap_ids(profile_);
+    const auto& finger_ids = finger_bap_ids();
+    for (int id = 1; id <= profile_.mask_length; ++id) {
+      const bool sent = std::binary_search(ids.begin(), ids.end(), id) ||
+                        (fingers_ && std::binary_search(finger_ids.begin(), finger_ids.end(), id));
+      mask_ += sent ? "1" : "0";
+      mask_ += id < profile_.mask_length ? " " : "\n";
+    }
     std::string text =
         std::string(profile_.version) + " " + std::string(kName) + " " + frame_rate(header.fps) + " ";
     count_offset_ = text.size();
@@ -40,10 +44,17 @@ class BapEncoder final : public Encoder {
 
   std::string frame(const MotionFrame& raw) override {
     const MotionFrame frame = finite_(raw);
-    last_ = encode_bap(profile_, frame.pose, last_);
+    const Pose pose = frame.hands ? with_wrists(frame.pose, *frame.hands) : frame.pose;
+    last_ = encode_bap(profile_, pose, last_);
     std::string text = mask_ + std::to_string(frame.frame);
     for (const int value : last_) {
       text += " " + std::to_string(value);
+    }
+    if (fingers_ && frame.hands) {
+      last_fingers_ = encode_bap_fingers(profile_, *frame.hands, last_fingers_);
+    }
+    for (std::size_t i = 0; fingers_ && i < kFingerBapCount; ++i) {
+      text += " " + std::to_string(last_fingers_[i]);
     }
     ++count_;
     return text + "\n";
@@ -57,7 +68,9 @@ class BapEncoder final : public Encoder {
   const BapProfile& profile_;
   std::string mask_;
   FiniteFrames finite_;
+  bool fingers_ = false;
   BapValues last_{};
+  FingerBapValues last_fingers_{};
   std::size_t count_ = 0;
   std::size_t count_offset_ = 0;
 };
