@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "avatars/skinning.h"
 #include "avatars/tailor.h"
 #include "telemime/body/testing_poses.h"
 #include "telemime/core/errors.h"
@@ -60,6 +61,11 @@ void expect_tpose(const Glb& glb, double stature) {
     EXPECT_LT((left - Eigen::Vector3d(-right.x(), right.y(), right.z())).norm(), 1e-6) << name;
     EXPECT_GT(left.x(), 0.0) << name;  // facing +z, the person's left is +x
   }
+  for (const auto name : kFingerBoneNames) {
+    const double out =
+        at(std::string(name)).x() - at(name.starts_with("left") ? "leftHand" : "rightHand").x();
+    EXPECT_GT(name.starts_with("left") ? out : -out, 0.0) << name;
+  }
   const Eigen::Vector3d arm = at("leftHand") - at("leftUpperArm");
   EXPECT_LT(arm.tail<2>().norm(), 1e-6);
   EXPECT_GT(at("head").y(), 0.8 * stature);
@@ -89,7 +95,7 @@ float expect_sound(const Glb& glb, const nlohmann::json& primitive, bool closed)
     EXPECT_GT(positions[v].y(), -0.004F);
     top = std::max(top, positions[v].y());
   }
-  EXPECT_LT(*std::max_element(joints.begin(), joints.end()), kHumanBoneCount);
+  EXPECT_LT(*std::max_element(joints.begin(), joints.end()), kSkinBoneCount);
   std::size_t inward = 0;
   double volume = 0.0;
   for (std::size_t i = 0; i < indices.size(); i += 3) {

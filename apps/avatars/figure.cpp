@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
+
+#include "telemime/outputs/t_pose.h"
 
 namespace telemime {
 namespace {
@@ -84,29 +87,59 @@ std::vector<LoftRing> along_two(const std::array<LoftRing, n>& rings, double fir
   return result;
 }
 
-Field hand(const Body& body, const Vector3d& wrist, double s) {
+// Where a finger starts and ends, from the wrist: x in palm lengths, z and length in m; beside the thumb.
+struct Finger {
+  double x, z, z_end, length, radius;
+};
+constexpr std::array<Finger, kFingerCount - 1> kFingers = {{{0.97, 0.0300, 0.0370, 0.074, 0.0090},
+                                                            {1.02, 0.0105, 0.0125, 0.081, 0.0093},
+                                                            {0.99, -0.0095, -0.0115, 0.075, 0.0088},
+                                                            {0.91, -0.0285, -0.0350, 0.061, 0.0078}}};
+
+// The finger bones run in the middle of the fingers: bones of a half, three tenths and a fifth of the length.
+FingerSkeleton finger_bones(const Body& body, double s) {
+  constexpr double kLast = 0.8;
+  const double palm = body.hand_length[0];
+  const double wide = body.shape[Segment::l_hand].height;
+  FingerSkeleton bones;
+  const auto put = [&bones](std::size_t finger, const std::array<Vector3d, 4>& points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const Side side : {Side::left, Side::right}) {
+        const Vector3d mirror(side_sign(side), 1.0, 1.0);
+        bones.position[finger_bone(side, finger, i)] = points[i].cwiseProduct(mirror);
+        bones.end[finger_bone(side, finger, i)] = points[i + 1].cwiseProduct(mirror);
+      }
+    }
+  };
+  put(0, {s * Vector3d(0.022, -0.004, 0.018), s * Vector3d(0.058, -0.010, 0.052),
+          s * Vector3d(0.077, -0.012, 0.062), s * Vector3d(0.098, -0.014, 0.073)});
+  for (std::size_t f = 1; f < kFingerCount; ++f) {
+    const Finger& finger = kFingers.at(f - 1);
+    const auto at = [&](double along, double y) -> Vector3d {
+      return {finger.x * palm + along * finger.length * s, s * y,
+              std::lerp(finger.z, finger.z_end, along) * s * wide};
+    };
+    const Vector3d middle = at(0.5, -0.001);
+    const Vector3d tip = at(1.0, -0.008);
+    put(f, {at(0.0, 0.001), middle, middle + (kLast - 0.5) / 0.5 * (tip - middle), tip});
+  }
+  return bones;
+}
+
+Field hand(const Body& body, const Vector3d& wrist, const FingerSkeleton& bones, double s) {
   const double palm = body.hand_length[0];
   const SegmentScale& width = body.shape[Segment::l_hand];
   Field solid = loft(wrist, Vector3d::UnitX(), Vector3d::UnitZ(),
                      scaled(kPalm, palm, s * width.width, s * width.height));
-  // Where each finger starts and ends, from the wrist: x in palm lengths, z and length in m.
-  struct Finger {
-    double x, z, z_end, length, radius;
-  };
-  constexpr std::array<Finger, 4> kFingers = {{{0.97, 0.0300, 0.0370, 0.074, 0.0090},
-                                               {1.02, 0.0105, 0.0125, 0.081, 0.0093},
-                                               {0.99, -0.0095, -0.0115, 0.075, 0.0088},
-                                               {0.91, -0.0285, -0.0350, 0.061, 0.0078}}};
   std::vector<Field> fingers;
-  for (const Finger& f : kFingers) {
-    const Vector3d base = wrist + Vector3d((f.x - 0.12) * palm, 0.001 * s, f.z * s * width.height);
-    const double middle_z = 0.5 * (f.z + f.z_end);
-    const Vector3d middle =
-        wrist + Vector3d(f.x * palm + 0.5 * f.length * s, -0.001 * s, middle_z * s * width.height);
-    const Vector3d tip =
-        wrist + Vector3d(f.x * palm + (f.length - f.radius) * s, -0.008 * s, f.z_end * s * width.height);
-    fingers.push_back(blended({round_cone(base, middle, 1.08 * f.radius * s, 0.96 * f.radius * s),
-                               round_cone(middle, tip, 0.96 * f.radius * s, 0.80 * f.radius * s)},
+  for (std::size_t f = 1; f < kFingerCount; ++f) {
+    const double radius = kFingers.at(f - 1).radius * s;
+    const std::size_t first = finger_bone(Side::left, f, 0);
+    const Vector3d base = wrist + bones.position[first] - 0.12 * palm * Vector3d::UnitX();
+    const Vector3d middle = wrist + bones.position[first + 1];
+    const Vector3d tip = wrist + bones.end[first + 2] - radius * Vector3d::UnitX();
+    fingers.push_back(blended({round_cone(base, middle, 1.08 * radius, 0.96 * radius),
+                               round_cone(middle, tip, 0.96 * radius, 0.80 * radius)},
                               0.003 * s));
   }
   // Fingers are joined sharply with each other and softly with the palm: they must not grow webs.
@@ -117,13 +150,11 @@ Field hand(const Body& body, const Vector3d& wrist, double s) {
     }
     return value;
   };
-  const auto thumb_at = [&](double x, double y, double z) -> Vector3d {
-    return wrist + s * Vector3d(x, y, z);
-  };
-  Field thumb = blended(
-      {round_cone(thumb_at(0.022, -0.004, 0.018), thumb_at(0.058, -0.010, 0.052), 0.0165 * s, 0.0115 * s),
-       round_cone(thumb_at(0.058, -0.010, 0.052), thumb_at(0.092, -0.014, 0.070), 0.0112 * s, 0.0088 * s)},
-      0.006 * s);
+  const auto thumb_at = [&](std::size_t i) -> Vector3d { return wrist + bones.position[i]; };
+  const Vector3d thumb_tip = wrist + bones.end[2] - s * Vector3d(0.006, 0.0, 0.003);
+  Field thumb = blended({round_cone(thumb_at(0), thumb_at(1), 0.0165 * s, 0.0115 * s),
+                         round_cone(thumb_at(1), thumb_tip, 0.0112 * s, 0.0088 * s)},
+                        0.006 * s);
   return blended({blended({std::move(solid), std::move(all)}, 0.007 * s), std::move(thumb)}, 0.014 * s);
 }
 
@@ -191,7 +222,8 @@ Figure make_figure(const Body& body) {
   const double arm_scale = s * 0.5 * (upper.width + upper.height);
   figure.arms = mirror_x(loft(shoulder, Vector3d::UnitX(), Vector3d::UnitZ(),
                               along_two(kArm, body.upper_arm_length[0], body.forearm_length[0], arm_scale)));
-  figure.hands = mirror_x(hand(body, figure.at(l_hand), s));
+  figure.skeleton.fingers = finger_bones(body, s);
+  figure.hands = mirror_x(hand(body, figure.at(l_hand), *figure.skeleton.fingers, s));
 
   figure.neck = round_cone(c7 + s * Vector3d(0.0, -0.045, 0.006), figure.in_head(0.0, 0.010, -0.012),
                            0.056 * s, 0.053 * s);

@@ -9,41 +9,46 @@
 #include <vector>
 
 #include "avatars/skinning.h"
-#include "telemime/outputs/humanoid.h"
+#include "telemime/outputs/gltf/humanoid.h"
 
 namespace telemime {
 namespace {
 
 constexpr double kBend = 0.9;  // rad, of every joint
 
+// By node: HumanBone, then the fingers.
 struct BentSkeleton {
-  std::array<Eigen::Vector3d, kHumanBoneCount> joint;
-  std::array<Eigen::Quaterniond, kHumanBoneCount> rotation;  // world from bone
+  std::vector<Eigen::Vector3d> rest, joint;
+  std::vector<Eigen::Quaterniond> rotation;  // world from bone
 };
 
 BentSkeleton bend(const HumanoidSkeleton& skeleton) {
   // About an axis along no bone, so that every bone's surface is strained.
-  const Eigen::Vector3d axis = Eigen::Vector3d(0.5, 0.6, 0.62).normalized();
-  HumanoidMotion motion;
-  motion.hips = skeleton.position[0];
-  motion.rotation.fill(Eigen::Quaterniond(Eigen::AngleAxisd(kBend, axis)));
-  motion.rotation[0].setIdentity();
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(kBend, Eigen::Vector3d(0.5, 0.6, 0.62).normalized()));
   BentSkeleton result;
-  result.joint = humanoid_joints(skeleton, motion);
+  const auto add = [&](int parent, const Eigen::Vector3d& rest) {
+    const auto p = static_cast<std::size_t>(parent);
+    result.joint.push_back(
+        parent < 0 ? rest : Eigen::Vector3d(result.joint[p] + result.rotation[p] * (rest - result.rest[p])));
+    result.rotation.push_back(parent < 0 ? Eigen::Quaterniond::Identity() : result.rotation[p] * turn);
+    result.rest.push_back(rest);
+  };
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-    const int parent = kHumanBoneParent[b];
-    result.rotation[b] = parent < 0 ? motion.rotation[b]
-                                    : result.rotation[static_cast<std::size_t>(parent)] * motion.rotation[b];
+    add(kHumanBoneParent[b], skeleton.position[b]);
+  }
+  for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
+    const HumanBone hand = b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand;
+    add(b % 3 == 0 ? static_cast<int>(hand) : static_cast<int>(finger_node(b)) - 1,
+        skeleton.position[static_cast<std::size_t>(hand)] + skeleton.fingers->position[b]);
   }
   return result;
 }
 
-Eigen::Vector3d moved(const HumanoidSkeleton& skeleton, const BentSkeleton& to, const Eigen::Vector3d& point,
-                      const SkinWeights& skin) {
+Eigen::Vector3d moved(const BentSkeleton& to, const Eigen::Vector3d& point, const SkinWeights& skin) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < skin.bone.size(); ++i) {
     const std::size_t b = skin.bone[i];
-    sum += skin.weight[i] * (to.joint[b] + to.rotation[b] * (point - skeleton.position[b]));
+    sum += skin.weight[i] * (to.joint[b] + to.rotation[b] * (point - to.rest[b]));
   }
   return sum;
 }
@@ -57,7 +62,7 @@ void simplify(const Figure& figure, double error, Triangles& mesh) {
   const BentSkeleton to = bend(figure.skeleton);
   std::vector<Eigen::Vector3f> points;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    points.push_back(moved(figure.skeleton, to, vertex, skin_weights(figure, vertex)).cast<float>());
+    points.push_back(moved(to, vertex, skin_weights(figure, vertex)).cast<float>());
   }
   const std::size_t count = points.size();
   const float* const numbers = points.data()->data();

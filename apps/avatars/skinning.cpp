@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "telemime/outputs/gltf/humanoid.h"
+
 namespace telemime {
 namespace {
 
@@ -20,13 +22,16 @@ class Weights {
 
   /// Gives a share of what `from` has to `to`.
   void pass(HumanBone from, HumanBone to, double share) {
-    const double given = share * (*this)[from];
-    (*this)[from] -= given;
-    (*this)[to] += given;
+    pass(static_cast<std::size_t>(from), static_cast<std::size_t>(to), share);
+  }
+  void pass(std::size_t from, std::size_t to, double share) {
+    const double given = share * all_.at(from);
+    all_.at(from) -= given;
+    all_.at(to) += given;
   }
 
   SkinWeights strongest() const {
-    std::array<std::size_t, kHumanBoneCount> order{};
+    std::array<std::size_t, kSkinBoneCount> order{};
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return all_[a] > all_[b]; });
@@ -43,8 +48,48 @@ class Weights {
   }
 
  private:
-  std::array<double, kHumanBoneCount> all_{};
+  std::array<double, kSkinBoneCount> all_{};
 };
+
+double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  return (p - a - std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) * along).norm();
+}
+
+// The fingers take what the hand has: each point follows the finger that is nearest.
+void add_fingers(const FingerSkeleton& fingers, Side side, const Eigen::Vector3d& from_wrist, double s,
+                 Weights& w) {
+  constexpr double kJoint = 0.007;  // m, half of the skin that bends at a joint
+  const std::size_t hand =
+      static_cast<std::size_t>(side == Side::left ? HumanBone::l_hand : HumanBone::r_hand);
+  std::size_t nearest = 0;
+  std::array<double, kFingerCount> distance{};
+  double palm = 1.0;
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    distance[f] = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t b = finger_bone(side, f, i);
+      distance[f] =
+          std::min(distance[f], distance_to_segment(from_wrist, fingers.position[b], fingers.end[b]));
+    }
+    if (f > 0) {
+      const Eigen::Vector3d& knuckle = fingers.position[finger_bone(side, f, 0)];
+      palm = std::min(palm, distance_to_segment(from_wrist, Eigen::Vector3d::Zero(), knuckle));
+    }
+    nearest = distance[f] < distance[nearest] ? f : nearest;
+  }
+  // The ball of the thumb is between it and the palm.
+  const double mine = nearest == 0 ? ramp(palm - distance[0], -0.006 * s, 0.014 * s) : 1.0;
+  std::size_t from = hand;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t b = finger_bone(side, nearest, i);
+    const double along =
+        (from_wrist - fingers.position[b]).dot((fingers.end[b] - fingers.position[b]).normalized());
+    const double bend = kJoint * s * (i == 0 ? 1.6 : 1.0);
+    w.pass(from, finger_node(b), (i == 0 ? mine : 1.0) * ramp(along, -bend, bend));
+    from = finger_node(b);
+  }
+}
 
 }  // namespace
 
@@ -84,6 +129,9 @@ SkinWeights skin_weights(const Figure& f, const Eigen::Vector3d& p) {
   // Half of the wrist's twist is spread over the forearm's end.
   const double wrist = x - f.at(l_hand).x();
   w.pass(lower, left ? l_hand : r_hand, ramp(wrist, -0.055 * s, 0.022 * s));
+  if (f.skeleton.fingers && wrist > 0.0) {
+    add_fingers(*f.skeleton.fingers, left ? Side::left : Side::right, p - f.at(left ? l_hand : r_hand), s, w);
+  }
 
   const double leg = ramp(y_of(l_upper_leg) - p.y(), -0.035 * s, 0.085 * s);
   const double leftness = ramp(p.x(), -0.022 * s, 0.022 * s);

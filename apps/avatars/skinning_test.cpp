@@ -6,6 +6,7 @@
 #include <map>
 
 #include "telemime/core/random.h"
+#include "telemime/outputs/gltf/humanoid.h"
 
 namespace telemime {
 namespace {
@@ -34,8 +35,19 @@ TEST_F(SkinningTest, MiddlesOfBonesFollowThem) {
     const Vector3d middle = 0.5 * (figure_.skeleton.position[i] + figure_.skeleton.end[i]);
     EXPECT_GT(weights_at(figure_, middle)[bone], 0.95) << kHumanBoneNames[i];
   }
-  EXPECT_GT(weights_at(figure_, figure_.skeleton.end[static_cast<std::size_t>(l_hand)])[l_hand], 0.999);
+  EXPECT_GT(weights_at(figure_, figure_.at(l_hand) + Vector3d(0.05, 0.0, -0.01))[l_hand], 0.999);
   EXPECT_GT(weights_at(figure_, figure_.at(hips) + Vector3d(0.0, -0.01, 0.1))[hips], 0.6);
+}
+
+TEST_F(SkinningTest, FingersFollowTheirBonesAlone) {
+  const FingerSkeleton& fingers = figure_.skeleton.fingers.value();
+  for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
+    const Vector3d& wrist =
+        figure_.at(b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand);
+    const double far = b % 3 == 2 ? 0.9 : 0.5;
+    const Vector3d point = wrist + (1.0 - far) * fingers.position[b] + far * fingers.end[b];
+    EXPECT_GT(weights_at(figure_, point)[static_cast<HumanBone>(finger_node(b))], 0.9) << kFingerBoneNames[b];
+  }
 }
 
 TEST_F(SkinningTest, AJointSharesItsSkinEvenly) {
@@ -51,7 +63,7 @@ TEST_F(SkinningTest, WeightsSumToOneAndNeverJump) {
   Random random(3);
   const auto all = [&](const Vector3d& p) {
     const SkinWeights skin = skin_weights(figure_, p);
-    Eigen::Matrix<double, static_cast<int>(kHumanBoneCount), 1> w;
+    Eigen::Matrix<double, static_cast<int>(kSkinBoneCount), 1> w;
     w.setZero();
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_GE(skin.weight[i], 0.0);
@@ -63,8 +75,8 @@ TEST_F(SkinningTest, WeightsSumToOneAndNeverJump) {
     const Vector3d p(random.uniform(-0.9, 0.9), random.uniform(0.0, 1.75), random.uniform(-0.15, 0.2));
     const auto here = all(p);
     EXPECT_NEAR(here.sum(), 1.0, 1e-9);
-    if (std::abs(p.x()) < 0.045) {
-      continue;  // near the middle the two sides meet; the next test looks there
+    if (std::abs(p.x()) < 0.045 || std::abs(p.x()) > figure_.at(HumanBone::l_hand).x() - 0.001) {
+      continue;  // near the middle the two sides meet: another test looks there; and fingers part
     }
     const auto beside = all(p + Vector3d(0.0005, 0.0005, 0.0005));
     EXPECT_LT((here - beside).cwiseAbs().maxCoeff(), 0.06) << p.transpose();
