@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far an avatar's bones are from those that were tracked.
 
+import { VRMHumanBoneParentMap } from "@pixiv/three-vrm";
 import { MathUtils, Quaternion } from "three";
 import { PARENT } from "../mock/motion.mjs";
 
@@ -12,9 +13,13 @@ export const meanAndWorst = (errors) => ({
   worst: Math.max(...errors),
 });
 
+const FINGERS = /Thumb|Index|Middle|Ring|Little/;
+export const FINGER_BONES = Object.keys(VRMHumanBoneParentMap).filter((bone) => FINGERS.test(bone));
+const parentOf = (bone) => (FINGERS.test(bone) ? VRMHumanBoneParentMap[bone] : PARENT[bone]);
+
 /** The rotation of a bone in the world, from the sent rotations of it and its parents. */
 const turned = (bones, name) =>
-  new Quaternion(...(PARENT[name] ? turned(bones, PARENT[name]) : [])).multiply(
+  new Quaternion(...(parentOf(name) ? turned(bones, parentOf(name)) : [])).multiply(
     new Quaternion(...bones[name]),
   );
 
@@ -22,8 +27,6 @@ const otherSide = (bone) => bone.replace(/^(left|right)/, (side) => ({ left: "ri
 
 /** The mirror image of a rotation: M R M with M = diag(-1, 1, 1). */
 const mirrored = ([x, y, z, w]) => [x, -y, -z, w];
-
-const FINGERS = /Thumb|Index|Middle|Ring|Little/;
 
 /** The next pose that is drawn: its frame number and how the file's own bones are turned in the world. */
 const nextDrawn = (page, last) =>
@@ -41,12 +44,24 @@ const nextDrawn = (page, last) =>
     last,
   );
 
+/** How far the fingers that are drawn now are from these rotations at most, degrees. */
+export async function fingerError(page, sent) {
+  const drawn = await page.evaluate(() => window.telemime.boneRotations());
+  const world = (bone) => new Quaternion(...drawn[bone].world);
+  const errors = FINGER_BONES.map((bone) => {
+    const local = world(parentOf(bone)).invert().multiply(world(bone));
+    return angleBetween(local.toArray(), sent[bone]);
+  });
+  return Math.max(...errors);
+}
+
 /**
  * Differences between the turns of the avatar's own bones in the world and those that were sent, of `count` drawn
- * frames, as `{ mean, worst }` in degrees. `poses`: the messages by frame.
+ * frames, as `{ mean, worst }` in degrees, with the same of the fingers as `fingers`. `poses`: the messages by frame.
  */
 export async function boneErrors(page, poses, count, { mirror = false } = {}) {
   const errors = [];
+  const fingers = [];
   // Poses that were drawn before the avatar or a setting changed do not count.
   let drawn = await nextDrawn(page, (await nextDrawn(page, null)).frame);
   for (let n = 0; n < count;) {
@@ -57,8 +72,9 @@ export async function boneErrors(page, poses, count, { mirror = false } = {}) {
     for (const name of Object.keys(pose.bones)) {
       if (!(name in drawn.bones) && FINGERS.test(name)) continue; // an avatar without fingers
       const sent = turned(pose.bones, mirror ? otherSide(name) : name);
-      errors.push(angleBetween(mirror ? mirrored(sent) : sent, drawn.bones[name]));
+      const error = angleBetween(mirror ? mirrored(sent) : sent, drawn.bones[name]);
+      (FINGERS.test(name) ? fingers : errors).push(error);
     }
   }
-  return meanAndWorst(errors);
+  return { ...meanAndWorst(errors), fingers: meanAndWorst(fingers) };
 }

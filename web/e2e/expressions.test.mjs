@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Avatars of VRM 1.0 and VRM 0.x show the expressions of the stream: the poses of a real run with known faces in them.
+// Avatars of VRM 1.0 and VRM 0.x show the expressions and the fingers of the stream: the poses of a real run with known faces
+// and hands in them.
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { about } from "../mock/motion.mjs";
 import { strangersVrm0 } from "./avatars.mjs";
+import { FINGER_BONES, fingerError } from "./bones.mjs";
 import { LIGHT, LONG, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
 
 const NAMES = "happy angry sad relaxed surprised aa ih ou ee oh blink blinkLeft blinkRight".split(" ");
@@ -16,16 +19,30 @@ const FACES = [
 ];
 const LARGEST_ERROR = 0.02;
 
+/** Both hands with every finger bone bent by `degrees` towards the palm, thumbs half as much across it. */
+const bent = (degrees) =>
+  Object.fromEntries(
+    FINGER_BONES.map((bone) => {
+      const side = bone.startsWith("left") ? -1 : 1;
+      const turn = bone.includes("Thumb") ? about("y", (-side * degrees) / 2) : about("z", side * degrees);
+      return [bone, turn.toArray()];
+    }),
+  );
+const HANDS = { open: bent(0), fist: bent(80) };
+const LARGEST_TURN = 2; // degrees
+
 let browser, program, page, close;
 let face = {};
+let hands = HANDS.open;
 
-/** The face of a message, with the present one instead. */
+/** A message with the present face and hands instead of its own. */
 function replaced(text) {
   const message = JSON.parse(text);
   if (message.type !== "pose" || message.state !== "tracking") return text;
   const { gaze = [0, 0], ...shown } = face;
   const vrm = Object.fromEntries(NAMES.map((name) => [name, shown[name] ?? 0]));
   message.face = { confidence: 1, gaze, arkit: Array(52).fill(0), vrm };
+  Object.assign(message.bones, hands);
   return JSON.stringify(message);
 }
 
@@ -61,6 +78,20 @@ async function shows({ gaze = [0, 0], ...wanted }, names) {
   );
 }
 
+/** Opens and closes the hands, and waits until the avatar shows it. */
+async function opensAndCloses() {
+  for (const [name, sent] of Object.entries(HANDS)) {
+    hands = sent;
+    let error = Infinity;
+    for (const end = Date.now() + PATIENCE; error > LARGEST_TURN && Date.now() < end;) {
+      await page.waitForTimeout(100);
+      error = await fingerError(page, sent);
+    }
+    console.log(`${name} hands: fingers at most ${error.toFixed(4)} degrees off`);
+    assert.ok(error <= LARGEST_TURN, name);
+  }
+}
+
 test("expressions of a VRM 1.0 avatar", LONG, async () => {
   await hasAvatar(page, "Plain");
   const known = await page.evaluate(() => Object.keys(window.telemime.expressions()));
@@ -68,6 +99,8 @@ test("expressions of a VRM 1.0 avatar", LONG, async () => {
   for (const name of names) assert.ok(known.includes(name), name);
   for (face of FACES) await shows(face, names);
 });
+
+test("hands of a VRM 1.0 avatar", LONG, opensAndCloses);
 
 test("expressions of a VRM 0.x avatar", LONG, async () => {
   await drop(page, await strangersVrm0(program, program.folder));
@@ -77,3 +110,5 @@ test("expressions of a VRM 0.x avatar", LONG, async () => {
   for (const name of names) assert.ok(known.includes(name), name);
   for (face of FACES) await shows(face, names);
 });
+
+test("hands of a VRM 0.x avatar", LONG, opensAndCloses);

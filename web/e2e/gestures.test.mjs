@@ -61,9 +61,10 @@ for (const [gesture, args] of inputs()) {
       const { version } = await page.evaluate(() => window.telemime.avatar);
       const error = await boneErrors(page, listener.poses, FRAMES);
       console.log(
-        `${gesture}, VRM ${version}: bones ${error.mean.toFixed(4)} degrees off, at most ${error.worst.toFixed(4)}`,
+        `${gesture}, VRM ${version}: bones ${error.mean.toFixed(4)} degrees off, at most ${error.worst.toFixed(4)}; fingers ${error.fingers.mean.toFixed(4)}, at most ${error.fingers.worst.toFixed(4)}`,
       );
       assert.ok(error.mean <= 2);
+      assert.ok(!(error.fingers.mean > 2), "fingers"); // not a number without tracked hands
     }
     order.reverse(); // the next begins with the one that is shown
     listener.close();
