@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A recording as Blender imports it: blender --background --python blender_import.py -- FOLDER
 
-Prints how far joints are from pose.jsonl, and exits with 1 where that is more than 10 mm."""
+Prints how far joints are from pose.jsonl, those of the fingers seen from the wrist, and exits with 1 where that is more
+than 10 mm."""
 
 import builtins
 import json
@@ -21,6 +22,20 @@ HUMANOID = {
     "head": "head", "leftUpperArm": "l_shoulder", "rightUpperArm": "r_shoulder", "leftLowerArm": "l_elbow",
     "rightLowerArm": "r_elbow", "leftHand": "l_wrist", "rightHand": "r_wrist",
 }
+FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")
+
+
+def bvh_fingers(side):
+    """The hand and its finger bones, each with the index of its joint in `hands` of pose.jsonl."""
+    hand = f"{side.capitalize()}Hand"
+    return hand, {f"{hand}{'Pinky' if finger == 'Little' else finger}{i + 1}": 1 + 4 * f + i
+                  for f, finger in enumerate(FINGERS) for i in range(3)}
+
+
+def humanoid_fingers(side):
+    bones = {"Thumb": ("Metacarpal", "Proximal", "Distal")}
+    return f"{side}Hand", {side + finger + bones.get(finger, ("Proximal", "Intermediate", "Distal"))[i]: 1 + 4 * f + i
+                           for f, finger in enumerate(FINGERS) for i in range(3)}
 
 
 def empty_scene(fps):
@@ -65,7 +80,7 @@ def node(bone):
     return bpy.data.objects[bone].matrix_world.translation
 
 
-def compare(name, frames, first, fps, bones, world, place=pose_bone):
+def compare(name, frames, first, fps, bones, fingers, world, place=pose_bone):
     """Largest distances; world: joint in the camera frame, mm, to Blender's world, m."""
     scene, worst = bpy.context.scene, {}
     for frame in frames:
@@ -75,6 +90,13 @@ def compare(name, frames, first, fps, bones, world, place=pose_bone):
         for bone, joint in bones.items():
             far = 1000.0 * (place(bone) - world(frame["joints"][joint])).length
             worst[joint] = max(worst.get(joint, 0.0), far)
+        for side in ("left", "right") if "hands" in frame else ():
+            joints = [Vector(p) for p in frame["hands"][side]["joints"]]
+            hand, bones_of = fingers(side)
+            for bone, index in bones_of.items():
+                x, y, z = (joints[index] - joints[0]) / 1000.0
+                off = place(bone) - place(hand) - blender_from_y_up((x, -y, -z))
+                worst[f"{side} fingers"] = max(worst.get(f"{side} fingers", 0.0), 1000.0 * off.length)
     words = ", ".join(f"{joint} {far:.2f}" for joint, far in worst.items())
     print(f"{name} in Blender {bpy.app.version_string}, {len(frames)} frames, at most, mm: {words}")
     return max(worst.values()) < NEAR
@@ -97,7 +119,7 @@ def check_bvh(folder, frames, fps):
     empty_scene(fps)
     import_bvh(folder / "motion.bvh")
     print(f"scene: {bpy.context.scene.render.fps / bpy.context.scene.render.fps_base:.3f} frames a second")
-    near = compare("BVH", frames, 1, fps, BVH, lambda p: blender_from_y_up([p[0], -p[1], -p[2]]) / 1000.0)
+    near = compare("BVH", frames, 1, fps, BVH, bvh_fingers, lambda p: blender_from_y_up([p[0], -p[1], -p[2]]) / 1000.0)
     return forward(frames, 1, fps, BVH) and near
 
 
@@ -122,7 +144,7 @@ def check_glb(folder, frames, fps):
     world = import_gltf(folder / "motion.glb")
     rest = armature().data.bones
     assert rest["leftHand"].head_local.x > 0.4 > -0.4 > rest["rightHand"].head_local.x, "no T-pose at rest"
-    near = compare("GLB", frames, 0, fps, HUMANOID, world)
+    near = compare("GLB", frames, 0, fps, HUMANOID, humanoid_fingers, world)
     return forward(frames, 0, fps, HUMANOID) and near
 
 
@@ -130,7 +152,7 @@ def check_vrma(folder, frames, fps):
     """A VRMA is a glTF file, which Blender's own importer opens; what makes it a VRM animation it leaves alone."""
     empty_scene(fps)
     world = import_gltf(folder / "motion.vrma")
-    near = compare("VRMA", frames, 0, fps, HUMANOID, world, node)
+    near = compare("VRMA", frames, 0, fps, HUMANOID, humanoid_fingers, world, node)
     return forward(frames, 0, fps, HUMANOID, node) and near
 
 

@@ -53,6 +53,38 @@ export const BVH = {
   RightHand: "r_wrist",
 };
 
+const FINGERS = ["Thumb", "Index", "Middle", "Ring", "Little"];
+const VRM_BONES = ["Proximal", "Intermediate", "Distal"];
+const VRM_THUMB = ["Metacarpal", "Proximal", "Distal"];
+const fingerBones = (name) =>
+  ["left", "right"].flatMap((side) =>
+    FINGERS.flatMap((finger, f) => [0, 1, 2].map((i) => [name(side, finger, i), side, 1 + 4 * f + i])),
+  );
+/** The finger bones of the files, each with its side and the index of its joint in `hands` of pose.jsonl. */
+export const HUMANOID_FINGERS = fingerBones(
+  (side, finger, i) => `${side}${finger}${(finger === "Thumb" ? VRM_THUMB : VRM_BONES)[i]}`,
+);
+export const BVH_FINGERS = fingerBones(
+  (side, finger, i) =>
+    `${side === "left" ? "Left" : "Right"}Hand${finger === "Little" ? "Pinky" : finger}${i + 1}`,
+);
+
+/** Adds how far finger bones are from pose.jsonl, seen from the wrist. `place`: of a bone, mm, y up. */
+export function addFingers(far, frame, bones, hand, place) {
+  for (const [bone, side, joint] of frame.hands ? bones : []) {
+    const { joints } = frame.hands[side];
+    const wrist = place(hand(side));
+    const [x, y, z] = joints[joint].map((v, i) => v - joints[0][i]);
+    far.add(
+      `${side} fingers`,
+      distance(
+        place(bone).map((v, i) => v - wrist[i]),
+        [x, -y, -z],
+      ),
+    );
+  }
+}
+
 export const distance = (a, b) => Math.hypot(...a.map((v, i) => v - b[i]));
 
 /** The JSON of a binary glTF file. */

@@ -6,8 +6,11 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import {
   BVH,
+  BVH_FINGERS,
   Distances,
   HUMANOID,
+  HUMANOID_FINGERS,
+  addFingers,
   bytes,
   distance,
   gltfJson,
@@ -100,6 +103,13 @@ test("BVH in three.js", () => {
         ),
       );
     }
+    addFingers(
+      far,
+      frame,
+      BVH_FINGERS,
+      (side) => (side === "left" ? "LeftHand" : "RightHand"),
+      (name) => place(bone(name)).map((v) => 10 * v),
+    );
   });
   console.log(`BVH in three.js, ${tracked.length} frames, ${far}`);
   assert.ok(far.worst < NEAR);
@@ -120,6 +130,13 @@ test("GLB in three.js; left is +x at rest, toward the camera is +z", async () =>
     for (const [name, joint] of Object.entries(HUMANOID)) {
       far.add(joint, 1000 * distance(place(bone(name)), world(frame.joints[joint])));
     }
+    addFingers(
+      far,
+      frame,
+      HUMANOID_FINGERS,
+      (side) => `${side}Hand`,
+      (name) => place(bone(name)).map((v) => 1000 * v),
+    );
     for (const [side, letter] of [
       ["left", "l"],
       ["right", "r"],
@@ -151,6 +168,13 @@ test("VRMA by three-vrm-animation, on an avatar of the person's own measures", a
     for (const [name, joint] of Object.entries(HUMANOID)) {
       far.add(joint, 1000 * distance(place(vrm.humanoid.getRawBoneNode(name)), world(frame.joints[joint])));
     }
+    addFingers(
+      far,
+      frame,
+      HUMANOID_FINGERS,
+      (side) => `${side}Hand`,
+      (name) => place(vrm.humanoid.getRawBoneNode(name)).map((v) => 1000 * v),
+    );
   });
   console.log(`VRMA by three-vrm-animation, ${tracked.length} frames, ${far}`);
   assert.ok(far.worst < NEAR);
