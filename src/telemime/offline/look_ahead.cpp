@@ -231,7 +231,15 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
   }
   // The person's shape, and all frames from where they came into the picture once more with it.
   result.person = fit_person(run.tracker, std::move(scouting));
-  before.neutral_face = run.state.neutral_face;  // as all of these frames show it
+  // As all of these frames show them. Files have hands of one size, which is then the same from the first
+  // frame.
+  before.neutral_face = run.state.neutral_face;
+  before.hands.sizes = run.state.hands.sizes;
+  before.hands.frames = run.state.hands.frames;
+  if (before.hands.sizes) {
+    before.hands.sizes->palm *=
+        result.person->start.person.shape.stature / run.state.model.body.shape.stature;
+  }
   run.state = std::move(before);
   run.state.known_start = result.person->start;
   for (FrameRecord& record : result.records) {
