@@ -15,11 +15,11 @@ from mathutils import Vector
 
 NEAR = 10.0  # mm
 BVH = {
-    "Head": "head", "LeftArm": "l_shoulder", "RightArm": "r_shoulder", "LeftForeArm": "l_elbow",
+    "Neck": "neck", "LeftArm": "l_shoulder", "RightArm": "r_shoulder", "LeftForeArm": "l_elbow",
     "RightForeArm": "r_elbow", "LeftHand": "l_wrist", "RightHand": "r_wrist",
 }
 HUMANOID = {
-    "head": "head", "leftUpperArm": "l_shoulder", "rightUpperArm": "r_shoulder", "leftLowerArm": "l_elbow",
+    "neck": "neck", "leftUpperArm": "l_shoulder", "rightUpperArm": "r_shoulder", "leftLowerArm": "l_elbow",
     "rightLowerArm": "r_elbow", "leftHand": "l_wrist", "rightHand": "r_wrist",
 }
 FINGERS = ("Thumb", "Index", "Middle", "Ring", "Little")

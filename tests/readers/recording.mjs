@@ -35,7 +35,7 @@ export function poseFrames() {
 
 /** Our joints by the names that the files have for them. */
 export const HUMANOID = {
-  head: "head",
+  neck: "neck",
   leftUpperArm: "l_shoulder",
   rightUpperArm: "r_shoulder",
   leftLowerArm: "l_elbow",
@@ -44,7 +44,7 @@ export const HUMANOID = {
   rightHand: "r_wrist",
 };
 export const BVH = {
-  Head: "head",
+  Neck: "neck",
   LeftArm: "l_shoulder",
   RightArm: "r_shoulder",
   LeftForeArm: "l_elbow",
