@@ -236,6 +236,17 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
       (left_seen * gaze_of({seen, rest}, Side::left) + right_seen * gaze_of({seen, rest}, Side::right)) /
       (left_seen + right_seen);
   cover_hidden_side(left_seen, right_seen, face);
+  // Two eyes that are seen look equally far up. Where the network only guesses, behind dark glasses, they do
+  // not.
+  const double apart =
+      std::abs(gaze_of({seen, rest}, Side::left).y() - gaze_of({seen, rest}, Side::right).y());
+  const double guessed = std::min(left_seen, right_seen) * ramp(apart, 8.0 * kDegree, 20.0 * kDegree);
+  face.gaze *= 1.0 - guessed;
+  for (const auto* const looks : {&kLookOut, &kLookIn, &kLookUp, &kLookDown}) {
+    for (const Side side : {Side::left, Side::right}) {
+      face[(*looks)[side]] *= 1.0 - guessed;
+    }
+  }
   // The points are a parallel projection along the ray to the head.
   const Eigen::Vector3d ray = camera.ray(fit.translation.head<2>());
   face.head = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;

@@ -305,6 +305,18 @@ TEST(FaceExpression, HeadBesideTheAxisIsTurnedWithItsRay) {
   EXPECT_NEAR(std::atan2(nose.x(), -nose.z()), -std::atan(0.5), 0.01);
 }
 
+TEST(FaceExpression, GuessedEyesDoNotLookAbout) {
+  // One eye looks up and the other down, as guessed behind dark glasses; its lids and the mouth still count.
+  TestFace face;
+  face.points[kLeftIris] += Eigen::Vector3d(0.0, -4.0, 0.0);
+  face.points[kRightIris] += Eigen::Vector3d(0.0, 4.0, 0.0);
+  const FaceMotion seen = motion_of(face);
+  EXPECT_LT(seen.gaze.norm(), 1e-6);
+  for (const Expression e : {eye_look_up_left, eye_look_down_left, eye_look_up_right, eye_look_down_right}) {
+    EXPECT_EQ(seen[e], 0.0) << name_of(e);
+  }
+}
+
 TEST(FaceExpression, HiddenEyeDoesNotMatter) {
   for (const double sign : {-1.0, 1.0}) {
     const Side hidden = sign > 0.0 ? Side::right : Side::left;
