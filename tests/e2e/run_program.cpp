@@ -11,7 +11,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
-#include <stdexcept>
 
 #include "support/synthetic_clip.h"
 

@@ -3,7 +3,6 @@
 // not finite.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "equivalence/every_backend.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each cue and each heuristic of a particle filter contributes: each left out, each heuristic also
 // alone.
-#include <algorithm>
 
 #include "lab/experiments/experiments.h"
 #include "telemime/tracking/heuristics/all.h"

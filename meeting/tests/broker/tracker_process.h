@@ -4,7 +4,6 @@
 #include <signal.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "broker.h"

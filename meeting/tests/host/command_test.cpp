@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "e2e/run_program.h"
 #include "meeting/protocol/testing.h"

@@ -2,7 +2,6 @@
 #include "telemime/body/limits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "telemime/core/files.h"

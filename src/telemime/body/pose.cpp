@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/pose.h"
 
-#include <utility>
-
 namespace telemime {
 
 PoseVector Pose::vector() const {

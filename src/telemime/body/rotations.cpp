@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/rotations.h"
 
-#include <algorithm>
 #include <numbers>
 
 namespace telemime {

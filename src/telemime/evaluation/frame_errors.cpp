@@ -2,7 +2,6 @@
 #include "telemime/evaluation/frame_errors.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <vector>
 
 namespace telemime {

@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <vector>
 
 #include "telemime/core/errors.h"
 #include "telemime/image/light_change.h"

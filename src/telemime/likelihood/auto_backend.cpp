@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <tuple>
-#include <vector>
 
 #include "telemime/core/errors.h"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/nets/find_pose.h"
 
-#include <vector>
-
 #include "telemime/nets/pose_detector.h"
 
 namespace telemime {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <span>
 #include <string>
 #include <vector>
 

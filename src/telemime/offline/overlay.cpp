@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 #include <vector>
 
 #include "telemime/render/renderer.h"

@@ -2,7 +2,6 @@
 #include "telemime/search/calibration.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "telemime/core/errors.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/scene.h"
 
-#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "telemime/body/rotations.h"
 #include "telemime/tracker/face_smoother.h"

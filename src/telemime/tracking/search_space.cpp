@@ -2,7 +2,6 @@
 #include "telemime/tracking/search_space.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include "telemime/body/rotations.h"
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "telemime/body/rotations.h"
 #include "telemime/body/testing_poses.h"
 #include "telemime/tracking/testing_scene.h"

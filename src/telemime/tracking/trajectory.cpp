@@ -2,7 +2,6 @@
 #include "telemime/tracking/trajectory.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "telemime/body/arm_flips.h"

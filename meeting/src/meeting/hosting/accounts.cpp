@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/hosting/accounts.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include "meeting/hosting/crypto.h"

@@ -3,7 +3,6 @@
 
 #include <mosquitto.h>
 
-#include <string_view>
 #include <utility>
 
 #include "meeting/protocol/messages.h"

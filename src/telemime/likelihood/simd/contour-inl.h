@@ -8,8 +8,6 @@
 #define TELEMIME_SIMD_CONTOUR_INL_H
 #endif
 
-#include <cmath>
-
 #include "telemime/likelihood/simd/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();

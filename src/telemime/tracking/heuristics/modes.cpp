@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracking/heuristics/modes.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "telemime/tracking/posterior.h"
