@@ -32,7 +32,7 @@ bool send_all(int socket, const std::string& bytes) {
 
 }  // namespace
 
-MjpegServer::MjpegServer() {
+MjpegServer::MjpegServer(Protocol protocol) : protocol_(protocol) {
   listen();
   thread_ = std::thread([this] { serve(); });
 }
@@ -49,7 +49,8 @@ MjpegServer::~MjpegServer() {
 }
 
 std::string MjpegServer::url() const {
-  return "http://127.0.0.1:" + std::to_string(port_) + "/video";
+  return (protocol_ == Protocol::http ? "http" : "rtsp") + std::string("://127.0.0.1:") +
+         std::to_string(port_) + "/video";
 }
 
 void MjpegServer::show(std::vector<std::string> parts, double rate) {
@@ -127,27 +128,93 @@ void MjpegServer::take_client() {
   const int yes = 1;
   ::setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
   std::string request;
-  while (request.find("\r\n\r\n") == std::string::npos) {
-    char buffer[1024];
-    const ssize_t n = ::recv(client_, buffer, sizeof buffer, 0);
-    if (n <= 0) {
+  do {
+    request.clear();
+    while (request.find("\r\n\r\n") == std::string::npos) {
+      char buffer[1024];
+      const ssize_t n = ::recv(client_, buffer, sizeof buffer, 0);
+      if (n <= 0) {
+        drop(client_);
+        return;
+      }
+      request.append(buffer, static_cast<std::size_t>(n));
+    }
+    if (!answer(request)) {
       drop(client_);
       return;
     }
-    request.append(buffer, static_cast<std::size_t>(n));
-  }
-  if (!send_all(client_,
-                "HTTP/1.0 200 OK\r\nCache-Control: no-cache\r\n"
-                "Content-Type: multipart/x-mixed-replace; boundary=part\r\n\r\n")) {
-    drop(client_);
-  }
+  } while (protocol_ == Protocol::rtsp && !request.starts_with("PLAY "));
   const std::lock_guard lock(mutex_);
   ++connections_;
 }
 
+bool MjpegServer::answer(const std::string& request) {
+  if (protocol_ == Protocol::http) {
+    return send_all(client_,
+                    "HTTP/1.0 200 OK\r\nCache-Control: no-cache\r\n"
+                    "Content-Type: multipart/x-mixed-replace; boundary=part\r\n\r\n");
+  }
+  const std::size_t number = request.find("CSeq:");
+  std::string text = "RTSP/1.0 200 OK\r\n" + request.substr(number, request.find("\r\n", number) - number) +
+                     "\r\nSession: 1\r\n";
+  if (request.starts_with("SETUP ")) {
+    text += "Transport: RTP/AVP/TCP;unicast;interleaved=0-1\r\n";
+  }
+  const std::string body = request.starts_with("DESCRIBE ")
+                               ? "v=0\r\no=- 1 1 IN IP4 127.0.0.1\r\ns=test\r\nt=0 0\r\n"
+                                 "m=video 0 RTP/AVP 26\r\na=control:video\r\n"
+                               : "";
+  if (!body.empty()) {
+    text += "Content-Type: application/sdp\r\nContent-Length: " + std::to_string(body.size()) + "\r\n";
+  }
+  return send_all(client_, text + "\r\n" + body);
+}
+
+// A JPEG image in one packet, as RFC 2435 has it: without its header, but with its two quantisation tables.
+std::string MjpegServer::rtp_packet(const std::string& jpeg) {
+  const auto word = [&](std::size_t at) {
+    return 256U * static_cast<unsigned char>(jpeg.at(at)) + static_cast<unsigned char>(jpeg.at(at + 1));
+  };
+  const auto big_endian = [](std::uint32_t value, int bytes) {
+    std::string text;
+    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
+      text += static_cast<char>(value >> static_cast<unsigned>(shift));
+    }
+    return text;
+  };
+  std::string tables;
+  std::string size;
+  std::size_t at = 2;
+  for (unsigned marker = 0; marker != 0xFFDA; at += 2 + word(at + 2)) {
+    marker = word(at);
+    if (marker == 0xFFDB) {  // each table follows its number
+      for (std::size_t table = at + 5; table < at + 2 + word(at + 2); table += 65) {
+        tables += jpeg.substr(table, 64);
+      }
+    } else if (marker == 0xFFC0) {
+      size = big_endian(word(at + 7) / 8, 1) + big_endian(word(at + 5) / 8, 1);
+    }
+  }
+  const auto ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(Steady::now().time_since_epoch()).count();
+  const std::string packet =
+      big_endian(0x809A, 2) +  // version 2; the last one of an image; JPEG
+      big_endian(packets_++, 2) + big_endian(static_cast<std::uint32_t>(90 * ms), 4) + big_endian(1, 4) +
+      big_endian(0, 4) + big_endian(0x01FF, 2) +  // 4:2:0, own tables
+      size + big_endian(static_cast<std::uint32_t>(tables.size()), 4) + tables + jpeg.substr(at);
+  return "$" + big_endian(static_cast<std::uint32_t>(packet.size()), 3) + packet;
+}
+
 void MjpegServer::send_part(const std::string& part) {
-  if (client_ >= 0 && !send_all(client_, "--part\r\nContent-Type: image/jpeg\r\nContent-Length: " +
-                                             std::to_string(part.size()) + "\r\n\r\n" + part + "\r\n")) {
+  if (client_ < 0) {
+    return;
+  }
+  const std::string bytes =
+      protocol_ == Protocol::rtsp
+          ? rtp_packet(part)
+          : "--part\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(part.size()) +
+                "\r\n\r\n" + part + "\r\n";
+  if (!send_all(client_, bytes)) {
     drop(client_);
   }
 }

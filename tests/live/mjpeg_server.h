@@ -11,11 +11,14 @@
 
 namespace telemime::live_testing {
 
-/// A network camera for tests: Motion JPEG over HTTP (multipart/x-mixed-replace) at a free port of this
-/// computer. All changes also apply to the open connection.
+/// A network camera for tests: Motion JPEG over HTTP (multipart/x-mixed-replace) or over RTSP (RTP in its TCP
+/// connection, RFC 2326 and 2435; the parts are then JPEG files) at a free port of this computer. All changes
+/// also apply to the open connection.
 class MjpegServer {
  public:
-  MjpegServer();
+  enum class Protocol { http, rtsp };
+
+  explicit MjpegServer(Protocol protocol = Protocol::http);
   MjpegServer(const MjpegServer&) = delete;
   MjpegServer& operator=(const MjpegServer&) = delete;
   ~MjpegServer();
@@ -39,7 +42,9 @@ class MjpegServer {
   void listen();
   void take_client();
   void drop(int& socket) const;
+  bool answer(const std::string& request);
   void send_part(const std::string& part);
+  std::string rtp_packet(const std::string& jpeg);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
@@ -50,7 +55,10 @@ class MjpegServer {
   bool stop_ = false;
   int connections_ = 0;
 
+  const Protocol protocol_;
+
   // Used by the server's thread only.
+  std::uint16_t packets_ = 0;  ///< of RTP
   std::uint16_t port_ = 0;
   int listener_ = -1;
   int client_ = -1;

@@ -40,6 +40,7 @@ int level(const cv::Mat& image) {
 
 class Stream : public ::testing::Test {
  protected:
+  explicit Stream(MjpegServer::Protocol protocol = MjpegServer::Protocol::http) : server_(protocol) {}
   // With short time-outs, so that the tests are quick.
   void open() {
     LiveOptions options;
@@ -136,28 +137,6 @@ TEST_F(Stream, ReconnectsToSilentServer) {
   EXPECT_TRUE(reported(Kind::gone, "no images"));
 }
 
-TEST_F(Stream, EachStallIsToldOnce) {
-  open();
-  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
-  for (int stall = 1; stall <= 2; ++stall) {
-    news_.clear();
-    // Silent while the source connects three times more.
-    const int connections = server_.connections();
-    server_.fall_silent();
-    auto resumed = std::async(std::launch::async, [&] {
-      server_.wait_for_connection(connections + 3);
-      server_.show(six(), 100.0);
-    });
-    ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
-    const auto told = [&](Kind kind) {
-      return std::count_if(news_.begin(), news_.end(), [&](const auto& n) { return n.kind == kind; });
-    };
-    EXPECT_EQ(told(Kind::gone), 1) << stall;
-    EXPECT_EQ(told(Kind::better), 1) << stall;
-    ASSERT_TRUE(read_until([](const Frame& f) { return level(f.image) > 0; })) << "images go on";
-  }
-}
-
 TEST_F(Stream, StopsAtOnceWithoutAnswer) {
   open();
   ASSERT_TRUE(read_until([](const Frame&) { return true; }));
@@ -204,6 +183,46 @@ TEST_F(Stream, DropsAndReportsDamagedImages) {
   server_.show(six(), 100.0);
   ASSERT_TRUE(read_until_reported(Kind::better, "no longer damaged"));
   EXPECT_NE(source_->complaint().find("damaged images were dropped"), std::string::npos);
+}
+
+class EveryStream : public Stream, public ::testing::WithParamInterface<MjpegServer::Protocol> {
+ protected:
+  EveryStream() : Stream(GetParam()) {}
+};
+
+INSTANTIATE_TEST_SUITE_P(Protocols, EveryStream,
+                         ::testing::Values(MjpegServer::Protocol::http, MjpegServer::Protocol::rtsp));
+
+TEST_P(EveryStream, EachStallIsToldOnce) {
+  open();
+  ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+  for (int stall = 1; stall <= 2; ++stall) {
+    news_.clear();
+    // Silent while the source connects three times more.
+    const int connections = server_.connections();
+    server_.fall_silent();
+    auto resumed = std::async(std::launch::async, [&] {
+      server_.wait_for_connection(connections + 3);
+      server_.show(six(), 100.0);
+    });
+    ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+    const auto told = [&](Kind kind) {
+      return std::count_if(news_.begin(), news_.end(), [&](const auto& n) { return n.kind == kind; });
+    };
+    EXPECT_EQ(told(Kind::gone), 1) << stall;
+    EXPECT_EQ(told(Kind::better), 1) << stall;
+    ASSERT_TRUE(read_until([](const Frame& f) { return level(f.image) > 0; })) << "images go on";
+  }
+}
+
+TEST_P(EveryStream, ComesBackAfterHangingUp) {
+  open();
+  for (int time = 0; time < 2; ++time) {
+    ASSERT_TRUE(read_until([](const Frame&) { return true; }));
+    news_.clear();
+    server_.hang_up();
+    ASSERT_TRUE(read_until_reported(Kind::better, "is back"));
+  }
 }
 
 }  // namespace
