@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <regex>
 #include <string>
 
 #include "telemime/core/files.h"
@@ -62,6 +63,21 @@ TEST_F(FileOutputTest, AFileIsValidAfterEveryFrame) {
     EXPECT_EQ(bap_file.stated_frames, static_cast<std::int64_t>(f + 1));
     EXPECT_EQ(bap_file.frames.size(), f + 1);
     EXPECT_EQ(json_file.complaint, "");
+  }
+}
+
+// Readers that others wrote take "Frames:        165" or "007" for something else.
+TEST_F(FileOutputTest, NumbersInTextAreNotPadded) {
+  std::vector<MotionFrame> frames = frames_;
+  frames[4].state = TrackState::lost;
+  const std::regex padded(R"(([ \t] |: {2,}|^ +|, {2,})[-+.0-9]|(^|[^.0-9A-Za-z_])[-+]?0[0-9]|[+][0-9])",
+                          std::regex::ECMAScript | std::regex::multiline);
+  for (const OutputFormat& format : kOutputFormats) {
+    const std::string text = testing_motion::encode_all(*format.make({}), header_, frames);
+    std::smatch found;
+    if (!text.starts_with("glTF")) {
+      EXPECT_FALSE(std::regex_search(text, found, padded)) << format.name << ": \"" << found.str() << '"';
+    }
   }
 }
 
