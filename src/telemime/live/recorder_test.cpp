@@ -15,8 +15,12 @@
 #include <nlohmann/json.hpp>
 
 #include "telemime/core/files.h"
+#include "telemime/core/random.h"
 #include "telemime/core/scratch_folder.h"
+#include "telemime/outputs/gltf/testing_glb.h"
 #include "telemime/outputs/readers/jsonl.h"
+#include "telemime/outputs/testing_bap.h"
+#include "telemime/outputs/testing_bvh.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/testing_web.h"
 
@@ -123,6 +127,37 @@ TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
   const std::lock_guard lock(mutex_);
   EXPECT_NE(infos_.find("recording 1 is full"), std::string::npos) << infos_;
   EXPECT_EQ(warnings_ + errors_, "");
+}
+
+TEST_F(Records, DurationsAgreeForAnyTimes) {
+  const auto r = started();
+  Random random(5);
+  double time = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    MotionFrame frame = testing_motion::frame_of(header_.body, header_.camera, Pose{}, i, header_.fps);
+    frame.time = 7.0 + time;
+    r->write(frame);
+    time += i == 59 ? 0.0 : 0.001 + 2.0 / header_.fps * random.uniform() + (i == 30 ? 6.0 : 0.0);
+  }
+  ASSERT_TRUE(stops(*r, 1));
+  const Recording recording = r->ended().front();
+  const double step = 1.0 / header_.fps + 0.002;
+  const auto lasts = [&](std::size_t frames) { return static_cast<double>(frames - 1) / header_.fps; };
+  const auto text = [&](const char* name) { return read_text_file(recording.folder / name); };
+  EXPECT_NEAR(recording.seconds, time, 2.0 * step);
+  EXPECT_NEAR(lasts(testing_bvh::parse_bvh(text("motion.bvh")).frames.size()), time, step);
+  EXPECT_NEAR(lasts(testing_bap::parse_bap(text("motion.bap")).frames.size()), time, step);
+  for (const char* name : {"motion.glb", "motion.vrma"}) {
+    const testing_glb::Glb glb = testing_glb::parse(text(name));
+    const std::size_t input = glb.json["animations"][0]["samplers"][0]["input"];
+    EXPECT_NEAR(testing_glb::numbers<float>(glb, input).back(), time, step) << name;
+  }
+  for (const char* table : {"motion.trc", "pose.csv"}) {
+    const std::string rows = text(table);
+    const std::string last = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
+    EXPECT_NEAR(std::stod(last.substr(last.find_first_of(",\t") + 1)), time, step) << table;
+  }
+  EXPECT_NEAR(read_pose_jsonl(recording.folder / "pose.jsonl").frames.back().time, time, step);
 }
 
 TEST_F(Records, AfterALongGapItGoesOnInTheNext) {

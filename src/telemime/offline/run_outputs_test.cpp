@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "telemime/core/scratch_folder.h"
+#include "telemime/outputs/gltf/testing_glb.h"
 #include "telemime/outputs/readers/jsonl.h"
 #include "telemime/outputs/testing_bap.h"
 #include "telemime/outputs/testing_bvh.h"
@@ -68,6 +69,15 @@ TEST(RunOutputs, DurationsAgreeForAnyTimes) {
       EXPECT_NEAR(static_cast<double>(bvh.frames.size() - 1) * bvh.frame_time, time, step) << fps;
       const testing_bap::BapFile bap = testing_bap::parse_bap(text("motion.bap"));
       EXPECT_NEAR(static_cast<double>(bap.frames.size() - 1) / bap.fps, time, step) << fps;
+      for (const char* name : {"motion.glb", "motion.vrma"}) {
+        const testing_glb::Glb glb = testing_glb::parse(text(name));
+        for (const auto& sampler : glb.json["animations"][0]["samplers"]) {
+          EXPECT_NEAR(testing_glb::numbers<float>(glb, sampler["input"]).back(), time, step) << name << fps;
+        }
+      }
+      const std::string table = text("pose.csv");
+      const std::string row = table.substr(table.rfind('\n', table.size() - 2) + 1);
+      EXPECT_NEAR(std::stod(row.substr(row.find(',') + 1)), time, 1e-5);
       const PoseFile poses = parse_pose_jsonl(text("pose.jsonl"), "pose.jsonl");
       EXPECT_EQ(poses.frames.size(), 60U) << "the true ones";
       EXPECT_NEAR(poses.frames.back().time, time, 1e-5);
