@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "telemime/core/time_base.h"
 #include "track/quick_run.h"
 
 namespace telemime {

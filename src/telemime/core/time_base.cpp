@@ -26,6 +26,7 @@ constexpr std::array kUsualRates = {5.0,
                                     100.0,
                                     120.0,
                                     240.0};
+constexpr double kExact = 0.05;           // of 1/25 s: time stamps of cameras are not more exact
 constexpr double kLeastStep = 1e-6;       // s; no camera is as fast
 constexpr double kPause = 0.5;            // s; no step of a usual rate
 constexpr double kLongestPause = 3600.0;  // s
@@ -41,6 +42,11 @@ double rounded_rate(double rate) {
 }
 
 }  // namespace
+
+double units_between(double before, double now) {
+  const double units = kUnitsPerSecond * (now - before);
+  return std::abs(units - 1.0) < kExact || !(units > 0.0) ? 1.0 : units;
+}
 
 std::optional<double> rate_of(const std::vector<double>& stamps) {
   std::vector<double> steps;

@@ -9,6 +9,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/stopwatch.h"
+#include "telemime/core/time_base.h"
 #include "telemime/image/edges.h"
 #include "telemime/image/light_change.h"
 #include "telemime/image/person_shape.h"
@@ -247,6 +248,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     head_.restart();
     silhouette_.release();
   }
+  elapsed_ = last_time_ ? units_between(*last_time_, frame.time) : 1.0;
   last_time_ = frame.time;
 
   // Head: track the face; a head that the background explains is rejected. A covered lens shows none.

@@ -103,8 +103,9 @@ class FeatureExtractor {
   cv::Mat silhouette_;               ///< of the previous frame
   cv::Mat motion_image_;             ///< image of the last camera motion check
   cv::Mat motion_mask_;              ///< background mask of that image
-  int frames_since_motion_ = 0;
+  double since_motion_ = 0.0;        ///< 1/25 s
   std::optional<double> last_time_;  ///< of the last frame, s
+  double elapsed_ = 1.0;             ///< between the last two frames, 1/25 s
   double camera_step_ = 0.0;         ///< motion of the camera in the last check, pixels at 160 columns
   int frames_without_skin_ = 0;      ///< consecutive frames in which the head region had little skin or hair
 };

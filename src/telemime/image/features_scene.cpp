@@ -249,10 +249,11 @@ double FeatureExtractor::known_background_share() const {
 }
 
 void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
-  if (config_.motion_every == 0 || ++frames_since_motion_ < config_.motion_every) {
+  since_motion_ += elapsed_;
+  if (config_.motion_every == 0 || since_motion_ < config_.motion_every) {
     return;
   }
-  frames_since_motion_ = 0;
+  since_motion_ = 0.0;
   if (!motion_image_.empty()) {
     const auto shared = shared_motion(motion_image_, grey, motion_mask_ & background_mask_);
     camera_step_ = shared ? shared->pixels * kMotionWidth / config_.width : 0.0;

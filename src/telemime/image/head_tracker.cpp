@@ -55,8 +55,8 @@ void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect2d& found, bo
   }
   face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
   detected_before_ = true;
-  since_detected_ = 0;
-  since_sure_ = 0;
+  since_detected_ = 0.0;
+  since_sure_ = 0.0;
 }
 
 double HeadTracker::track(const cv::Mat& grey) {
@@ -92,7 +92,7 @@ void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double bl
     face_->side += 0.3 * blend * (square.width - face_->side);
   }
   face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
-  since_sure_ = 0;
+  since_sure_ = 0.0;
 }
 
 std::optional<TrackedFace> HeadTracker::take_over(const cv::Mat& grey, const cv::Rect2d& square) {
@@ -106,7 +106,7 @@ std::optional<TrackedFace> HeadTracker::detect(const cv::Mat& grey, const cv::Re
                                                const FaceTest& is_face) {
   const int smallest = std::max(20, static_cast<int>(config_.smallest_face * grey.rows));
   const auto found = detector_.find(grey, search, smallest, grey.rows, is_face);
-  since_search_ = 0;
+  since_search_ = 0.0;
   misses_ = 0;
   face_.reset();
   replaced_.reset();
@@ -117,19 +117,19 @@ std::optional<TrackedFace> HeadTracker::detect(const cv::Mat& grey, const cv::Re
 }
 
 std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey, const cv::Rect& search,
-                                               const FaceTest& is_face) {
+                                               const FaceTest& is_face, double elapsed) {
   replaced_.reset();
   if (!face_) {
-    ++since_search_;
+    since_search_ += elapsed;
     return since_search_ >= config_.search_every ? detect(grey, search, is_face) : std::nullopt;
   }
   // Track by correlation.
   face_->detected = false;
   face_->match = track(grey);
-  ++since_detected_;
+  since_detected_ += elapsed;
   const bool doubtful = face_->match < config_.lost_match + 0.2;
-  since_sure_ = face_->match < config_.lost_match ? since_sure_ + 1 : 0;
-  // Detect near the tracked face every few frames, or if the correlation is low.
+  since_sure_ = face_->match < config_.lost_match ? since_sure_ + elapsed : 0.0;
+  // Detect near the tracked face at intervals, or if the correlation is low.
   if (doubtful || since_detected_ >= config_.detect_every) {
     // Enlarge the search after failed detections: the track may have drifted or have the wrong size.
     const double growth = 1.0 + 0.25 * std::min(misses_, 4);
@@ -139,7 +139,7 @@ std::optional<TrackedFace> HeadTracker::update(const cv::Mat& grey, const cv::Re
         cv::Point(static_cast<int>(face_->centre.x + reach), static_cast<int>(face_->centre.y + reach)));
     const auto found = detector_.find(grey, window, static_cast<int>(face_->side * 0.75 / growth),
                                       static_cast<int>(face_->side * 1.3 * growth), is_face);
-    since_detected_ = 0;
+    since_detected_ = 0.0;
     if (found) {
       set_detection(grey, *found, misses_ >= 2);
       misses_ = 0;

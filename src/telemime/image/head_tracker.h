@@ -25,7 +25,7 @@ struct HeadTrackerConfig {
   double smallest_face = 0.07;
 };
 
-/// Tracks one face: by a face detector every few frames, by correlation of the face image in between.
+/// Tracks one face: by a face detector at intervals, by correlation of the face image in between.
 class HeadTracker {
  public:
   /// `cascades`: folder of OpenCV's face cascades, see find_cascade. Throws Error(config) if they are
@@ -33,8 +33,9 @@ class HeadTracker {
   HeadTracker(const HeadTrackerConfig& config, const std::filesystem::path& cascades);
 
   /// The face in the next image (CV_8UC1; all images have the same size); empty if there is none. A face that
-  /// is not tracked yet is searched in `search` only.
-  std::optional<TrackedFace> update(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
+  /// is not tracked yet is searched in `search` only. `elapsed`: 1/25 s since the last image.
+  std::optional<TrackedFace> update(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face,
+                                    double elapsed = 1.0);
 
   /// Resets the track and detects the largest face in `search` that satisfies `is_face`.
   std::optional<TrackedFace> detect(const cv::Mat& grey, const cv::Rect& search, const FaceTest& is_face);
@@ -77,10 +78,10 @@ class HeadTracker {
   std::optional<TrackedFace> replaced_;
   cv::Mat face_image_;
   bool detected_before_ = false;  ///< the face of this track was detected at least once
-  int since_detected_ = 0;
-  int misses_ = 0;  ///< consecutive detections without a result
-  int since_sure_ = 0;
-  int since_search_ = 1 << 20;
+  double since_detected_ = 0.0;   ///< this and the times below in 1/25 s
+  int misses_ = 0;                ///< consecutive detections without a result
+  double since_sure_ = 0.0;
+  double since_search_ = 1e6;
 };
 
 }  // namespace telemime

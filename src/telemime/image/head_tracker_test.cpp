@@ -89,6 +89,20 @@ TEST_F(HeadTrackerTest, LostSquareKeepsOnlyItsSize) {
   EXPECT_NEAR(heads.replaced()->side, wider(), 1e-9);
 }
 
+// At any rate, the face is detected at the same times.
+TEST_F(HeadTrackerTest, IntervalsAreTimes) {
+  for (const double rate : {12.5, 25.0, 100.0}) {
+    HeadTracker heads = tracker();
+    ASSERT_TRUE(heads.detect(grey_, whole(), any_face).has_value());
+    int detections = 0;
+    for (int i = 0; i < static_cast<int>(rate); ++i) {
+      const auto face = heads.update(grey_, whole(), any_face, 25.0 / rate);
+      detections += face && face->detected ? 1 : 0;
+    }
+    EXPECT_NEAR(detections, 5, rate < 25.0 ? 1 : 0) << rate;
+  }
+}
+
 TEST_F(HeadTrackerTest, DetectedFaceReplacesNothing) {
   HeadTracker heads = tracker();
   ASSERT_TRUE(heads.detect(grey_, whole(), any_face).has_value());

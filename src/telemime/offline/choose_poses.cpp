@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/core/time_base.h"
 #include "telemime/tracking/posterior.h"
 
 namespace telemime {

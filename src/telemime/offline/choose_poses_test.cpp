@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "telemime/body/testing_poses.h"
+#include "telemime/core/time_base.h"
 #include "telemime/tracking/testing_scene.h"
 
 namespace telemime {

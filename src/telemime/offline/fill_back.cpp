@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/core/time_base.h"
+
 namespace telemime {
 namespace {
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "telemime/core/time_base.h"
+
 namespace telemime {
 
 TwoWaySmoothing make_two_way_smoothing(const SmoothingOptions& options, const Body& body,

@@ -25,8 +25,6 @@ struct SmoothingOptions {
 SettingTable settings_of(SmoothingOptions& options);
 
 /// Settings of time count in 1/25 s.
-inline constexpr double kUnitsPerSecond = 25.0;
-inline constexpr double kTimeUnit = 1.0 / kUnitsPerSecond;  ///< s
 
 /// The longest time between two frames (s) that counts as motion: nothing is known across a longer pause.
 inline constexpr double kLongestGap = 1.0;

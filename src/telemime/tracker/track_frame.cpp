@@ -11,6 +11,7 @@
 #include "telemime/body/face_expression.h"
 #include "telemime/core/in_parallel.h"
 #include "telemime/core/stopwatch.h"
+#include "telemime/core/time_base.h"
 #include "telemime/tracker/lost_and_found.h"
 #include "telemime/tracking/posterior.h"
 
@@ -18,7 +19,6 @@ namespace telemime {
 namespace {
 
 constexpr double kFaceless = 31.25;  // 1/25 s with a head but no face, until the outline of the head is used
-constexpr double kExact = 0.05;      // of a step: time stamps of cameras are not more exact
 constexpr double kLeastSteps = 0.2;  // between two frames
 constexpr double kMostSteps = 8.0;   // after a longer gap the motion model says nothing
 constexpr double kNearest = 0.01;    // m, of a joint that is projected
@@ -289,11 +289,6 @@ FrameRecord track_frame(const Frame& frame, TrackingRun& run) {
   record.features = extract(frame, colour_request(run.state), run.scene);
   record.estimate = estimate(record.features, run.tracker, run.state);
   return record;
-}
-
-double units_between(double before, double now) {
-  const double units = kUnitsPerSecond * (now - before);
-  return std::abs(units - 1.0) < kExact || !(units > 0.0) ? 1.0 : units;
 }
 
 double steps_between(double before, double now) {

@@ -54,10 +54,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
 /// Both, one after the other.
 FrameRecord track_frame(const Frame& frame, TrackingRun& run);
 
-/// Time between two frames in 1/25 s: exactly 1 where it is about that or not known. Times in s.
-double units_between(double before, double now);
-
-/// The same as the motion model takes it: at least 0.2 and at most 8.
+/// units_between as the motion model takes it: at least 0.2 and at most 8.
 double steps_between(double before, double now);
 
 /// Sets joints and pixels of a frame from its pose, and places its hands.
