@@ -141,7 +141,7 @@ TEST(LiveAndFile, FilesAreEqualWithSameSmoothing) {
 
 // The default of `telemime live`: a room as it is, nobody steps out of the picture, no guide.
 TEST(LiveWithoutGuide, TheAvatarMovesWithinThreeSeconds) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full", "selfie_segmentation"};
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
   if (const std::string missing = missing_models(TELEMIME_BUILD_MODELS, names); !missing.empty()) {
     std::cout << missing << '\n';
     GTEST_SKIP() << missing;

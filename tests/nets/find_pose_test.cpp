@@ -20,7 +20,6 @@
 #include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/hand_landmarks.h"
 #include "telemime/nets/models/table.h"
-#include "telemime/nets/person_mask.h"
 #include "telemime/nets/pose_detector.h"
 
 namespace telemime {
@@ -35,8 +34,8 @@ class FindPose : public ::testing::Test {
  protected:
   void SetUp() override {
     const std::vector<std::string> names = {
-        "pose_detection", "pose_landmark_full", "pose_landmark_lite",         "selfie_segmentation",
-        "hand_recrop",    "hand_landmark_full", "face_detection_short_range", "face_landmark_with_attention"};
+        "pose_detection",     "pose_landmark_full",         "pose_landmark_lite",          "hand_recrop",
+        "hand_landmark_full", "face_detection_short_range", "face_landmark_with_attention"};
     if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
       std::cout << missing << '\n';
       GTEST_SKIP() << missing;
@@ -131,20 +130,17 @@ TEST_F(FindPose, SameFrameSameLandmarks) {
   }
 }
 
-TEST_F(FindPose, MasksCoverThePersonAlone) {
+TEST_F(FindPose, MaskCoversThePersonAlone) {
   const cv::Mat frame = frames_of(kDemo / "video.mp4", 1)[0];
   PoseNetworks networks = load_pose_networks(kModels, PoseModel::full, true);
-  Network segmenter = load_person_segmenter(kModels, MaskModel::square);
   const auto found = find_pose(frame, networks);
   ASSERT_TRUE(found);
   const auto& points = found->points;
   const Eigen::Vector2d chest =
       0.5 * (points[PoseLandmarkIndex::left_shoulder].pixel + points[PoseLandmarkIndex::right_hip].pixel);
-  for (const cv::Mat& mask : {found->mask, find_person_mask(frame, segmenter)}) {
-    ASSERT_EQ(mask.size(), frame.size());
-    EXPECT_GT(mask.at<std::uint8_t>(cv::Point(cvRound(chest.x()), cvRound(chest.y()))), 200);
-    EXPECT_LT(mask.at<std::uint8_t>(5, 5), 50);
-  }
+  ASSERT_EQ(found->mask.size(), frame.size());
+  EXPECT_GT(found->mask.at<std::uint8_t>(cv::Point(cvRound(chest.x()), cvRound(chest.y()))), 200);
+  EXPECT_LT(found->mask.at<std::uint8_t>(5, 5), 50);
 }
 
 TEST_F(FindPose, HandsBeginAtTheWristsOfThePose) {

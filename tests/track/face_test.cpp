@@ -34,7 +34,7 @@ std::vector<MotionFrame> tracked(bool face, int threads) {
 }
 
 TEST(SlowFace, PoseIsTheSameWithAndWithoutIt) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full", "selfie_segmentation",
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full",
                                           "face_detection_short_range", "face_landmark_with_attention"};
   if (const std::string missing = missing_models(TELEMIME_BUILD_MODELS, names); !missing.empty()) {
     std::cout << missing << '\n';

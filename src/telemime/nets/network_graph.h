@@ -27,7 +27,6 @@ struct NetworkTensor {
 enum class NodeKind {
   convolution,            ///< weights [out, height, width, in], bias [out]
   depthwise_convolution,  ///< weights [1, height, width, channels], bias [channels]
-  deconvolution,          ///< weights [out, height, width, in], bias [out]
   fully_connected,        ///< weights [out, in], bias [out]
   add,
   multiply,
@@ -37,7 +36,6 @@ enum class NodeKind {
   reshape,
   sigmoid,
   clamp,
-  hard_swish,
   prelu,  ///< slopes [channels]
   depth_to_space,
   concatenate,

@@ -136,16 +136,13 @@ void append_sum_or_product(const FileOperator& from, NetworkGraph& graph) {
 }
 
 void append_pool(const FileOperator& from, NetworkGraph& graph) {
-  const bool average = from.code == 1;
-  NetworkNode node = node_of(average ? NodeKind::average_pool : NodeKind::max_pool, from, 1);
+  NetworkNode node = node_of(NodeKind::max_pool, from, 1);
   const TensorShape& image = image_shape(graph, node.inputs[0]);
   node.window = {.height = small_option(from, 4, 1),
                  .width = small_option(from, 3, 1),
                  .stride_height = small_option(from, 2, 1),
                  .stride_width = small_option(from, 1, 1)};
   clip(node, option<std::int8_t>(from, 5));
-  require(!average || (node.window.height == image[1] && node.window.width == image[2]),
-          "an average over a part of an image");
   set_padding(node.window, image, option<std::int8_t>(from, 0));
   graph.nodes.push_back(node);
 }
@@ -227,17 +224,6 @@ void append_slice(const FileOperator& from, NetworkGraph& graph) {
   graph.nodes.push_back(node);
 }
 
-// Inputs: image, weights, bias; options: padding, stride of the width and of the height.
-void append_transposed_convolution(const FileOperator& from, NetworkGraph& graph) {
-  NetworkNode node = node_of(NodeKind::deconvolution, from, 3);
-  const TensorShape& weights = image_shape(graph, node.inputs[1]);
-  require(from.custom_options.size() >= 3 && weights[1] == 2 && weights[2] == 2 &&
-              from.custom_options[1] == 2 && from.custom_options[2] == 2,
-          "a transposed convolution that does not double the size");
-  node.window = {.height = 2, .width = 2, .stride_height = 2, .stride_width = 2};
-  graph.nodes.push_back(node);
-}
-
 template <NodeKind kind>
 void append_simple(const FileOperator& from, NetworkGraph& graph) {
   NetworkNode node = node_of(kind, from, 1);
@@ -249,29 +235,25 @@ void append_simple(const FileOperator& from, NetworkGraph& graph) {
 
 struct Operator {
   int code;
-  std::string_view custom;
   void (*append)(const FileOperator&, NetworkGraph&);
 };
-constexpr std::array<Operator, 19> kOperators = {{
-    {0, "", append_sum_or_product},
-    {1, "", append_pool},
-    {2, "", append_concatenation},
-    {3, "", append_convolution},
-    {4, "", append_convolution},
-    {5, "", append_depth_to_space},
-    {9, "", append_fully_connected},
-    {14, "", append_simple<NodeKind::sigmoid>},
-    {17, "", append_pool},
-    {18, "", append_sum_or_product},
-    {19, "", append_simple<NodeKind::clamp>},
-    {22, "", append_simple<NodeKind::reshape>},
-    {23, "", append_resize},
-    {34, "", append_pad},
-    {40, "", append_mean},
-    {45, "", append_slice},
-    {54, "", append_prelu},
-    {117, "", append_simple<NodeKind::hard_swish>},
-    {kCustom, "Convolution2DTransposeBias", append_transposed_convolution},
+constexpr std::array<Operator, 16> kOperators = {{
+    {0, append_sum_or_product},
+    {2, append_concatenation},
+    {3, append_convolution},
+    {4, append_convolution},
+    {5, append_depth_to_space},
+    {9, append_fully_connected},
+    {14, append_simple<NodeKind::sigmoid>},
+    {17, append_pool},
+    {18, append_sum_or_product},
+    {19, append_simple<NodeKind::clamp>},
+    {22, append_simple<NodeKind::reshape>},
+    {23, append_resize},
+    {34, append_pad},
+    {40, append_mean},
+    {45, append_slice},
+    {54, append_prelu},
 }};
 
 }  // namespace
@@ -281,9 +263,8 @@ bool copies_constant(const FileOperator& from) {
 }
 
 void append_nodes(const FileOperator& from, NetworkGraph& graph) {
-  const auto found = std::find_if(kOperators.begin(), kOperators.end(), [&](const Operator& candidate) {
-    return candidate.code == from.code && (from.code != kCustom || candidate.custom == from.custom);
-  });
+  const auto found = std::find_if(kOperators.begin(), kOperators.end(),
+                                  [&](const Operator& candidate) { return candidate.code == from.code; });
   if (found == kOperators.end()) {
     unsupported(from.code == kCustom ? "its own operator " + from.custom
                                      : "operator " + std::to_string(from.code));

@@ -17,7 +17,6 @@ struct FileOperator {
   std::vector<int> inputs;
   int output = 0;
   std::optional<FlatTable> options;
-  std::vector<int> custom_options;
 };
 
 /// Whether the operator only gives a constant another number format, so that its output is its input.

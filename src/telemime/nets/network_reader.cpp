@@ -87,8 +87,7 @@ class GraphBuilder {
                     .custom = codes_[code].custom,
                     .inputs = {},
                     .output = outputs[0],
-                    .options = from.table(4),
-                    .custom_options = {}};
+                    .options = from.table(4)};
     for (const std::int32_t input : from.numbers<std::int32_t>(1)) {
       if (input == -1) {
         break;  // an operator's optional inputs are its last ones
@@ -99,9 +98,6 @@ class GraphBuilder {
       op.inputs.push_back(same_as_[input]);
     }
     require(!op.inputs.empty(), "an operator has no input");
-    if (!op.custom.empty()) {
-      op.custom_options = read_integers(from.bytes(5));
-    }
     return op;
   }
 

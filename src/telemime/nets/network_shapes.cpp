@@ -80,11 +80,6 @@ TensorShape output_shape(const NetworkGraph& graph, const NetworkNode& node, con
       require_image(in);
       check_weights(graph, node, {1, w.height, w.width, in[3]});
       return windowed(in, w, in[3]);
-    case NodeKind::deconvolution:
-      require_image(in);
-      check_weights(graph, node, {declared.back(), w.height, w.width, in[3]});
-      return {1, (in[1] - 1) * w.stride_height + w.height, (in[2] - 1) * w.stride_width + w.width,
-              declared.back()};
     case NodeKind::fully_connected:
       require(in.size() == 2 && in[0] == 1, "a fully connected layer has another input than a vector");
       check_weights(graph, node, {declared.back(), in[1]});
@@ -128,7 +123,6 @@ TensorShape output_shape(const NetworkGraph& graph, const NetworkNode& node, con
     }
     case NodeKind::sigmoid:
     case NodeKind::clamp:
-    case NodeKind::hard_swish:
       return in;
   }
   return in;

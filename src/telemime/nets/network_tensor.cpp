@@ -81,6 +81,14 @@ std::vector<float> densified(const FlatTable& sparsity, const TensorShape& shape
   return dense;
 }
 
+std::vector<int> read_integers(std::span<const std::byte> bytes) {
+  std::vector<int> values(bytes.size() / sizeof(std::int32_t));
+  if (!values.empty()) {
+    std::memcpy(values.data(), bytes.data(), sizeof(std::int32_t) * values.size());
+  }
+  return values;
+}
+
 }  // namespace
 
 std::size_t element_count(const TensorShape& shape) {
@@ -89,14 +97,6 @@ std::size_t element_count(const TensorShape& shape) {
     count *= static_cast<std::size_t>(size);
   }
   return count;
-}
-
-std::vector<int> read_integers(std::span<const std::byte> bytes) {
-  std::vector<int> values(bytes.size() / sizeof(std::int32_t));
-  if (!values.empty()) {
-    std::memcpy(values.data(), bytes.data(), sizeof(std::int32_t) * values.size());
-  }
-  return values;
 }
 
 NetworkTensor read_tensor(const FlatTable& from, const std::vector<FlatTable>& buffers) {

@@ -10,9 +10,6 @@
 
 namespace telemime {
 
-/// The 32-bit integers in these bytes.
-std::vector<int> read_integers(std::span<const std::byte> bytes);
-
 /// A tensor of a TensorFlow Lite file. Constants in half precision or sparse form become plain numbers.
 /// Throws Error(config) if its shape is unusable or its numbers do not fill it.
 NetworkTensor read_tensor(const FlatTable& from, const std::vector<FlatTable>& buffers);

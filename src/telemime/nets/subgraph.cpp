@@ -75,7 +75,6 @@ class SubgraphBuilder {
     switch (node.kind) {
       case NodeKind::convolution:
       case NodeKind::depthwise_convolution:
-      case NodeKind::deconvolution:
         return define_convolution(node, in, weights, bias, out);
       case NodeKind::fully_connected:
         return xnn_define_fully_connected(to, node.lowest, node.highest, in, weights, bias, out, 0);
@@ -101,8 +100,6 @@ class SubgraphBuilder {
         return xnn_define_sigmoid(to, in, out, 0);
       case NodeKind::clamp:
         return xnn_define_clamp(to, node.lowest, node.highest, in, out, 0);
-      case NodeKind::hard_swish:
-        return xnn_define_hardswish(to, in, out, 0);
       case NodeKind::prelu:
         return xnn_define_prelu(to, in, weights, out, 0);
       case NodeKind::depth_to_space:
@@ -124,11 +121,6 @@ class SubgraphBuilder {
     const std::size_t read = channels(node.inputs[0]);
     const std::size_t made = channels(node.output);
     xnn_subgraph_t to = subgraph_.get();
-    if (node.kind == NodeKind::deconvolution) {
-      return xnn_define_deconvolution_2d(to, w.top, w.right, w.bottom, w.left, 0, 0, w.height, w.width,
-                                         w.stride_height, w.stride_width, w.dilation_height, w.dilation_width,
-                                         1, read, made, node.lowest, node.highest, in, weights, bias, out, 0);
-    }
     if (node.kind == NodeKind::depthwise_convolution) {
       return xnn_define_depthwise_convolution_2d(
           to, w.top, w.right, w.bottom, w.left, w.height, w.width, w.stride_height, w.stride_width,
