@@ -70,10 +70,16 @@ TEST_F(FileOutputTest, AFileIsValidAfterEveryFrame) {
 TEST_F(FileOutputTest, NumbersInTextAreNotPadded) {
   std::vector<MotionFrame> frames = frames_;
   frames[4].state = TrackState::lost;
+  StreamHeader header = header_;
+  header.fingers = true;
+  Random random(3);
+  for (MotionFrame& frame : frames) {
+    frame.hands = testing_motion::random_hands(header.body, frame.pose, random);
+  }
   const std::regex padded(R"(([ \t] |: {2,}|^ +|, {2,})[-+.0-9]|(^|[^.0-9A-Za-z_])[-+]?0[0-9]|[+][0-9])",
                           std::regex::ECMAScript | std::regex::multiline);
   for (const OutputFormat& format : kOutputFormats) {
-    const std::string text = testing_motion::encode_all(*format.make({}), header_, frames);
+    const std::string text = testing_motion::encode_all(*format.make({}), header, frames);
     std::smatch found;
     if (!text.starts_with("glTF")) {
       EXPECT_FALSE(std::regex_search(text, found, padded)) << format.name << ": \"" << found.str() << '"';

@@ -27,7 +27,9 @@ void append_offset(std::string& text, const std::string& indent, const Eigen::Ve
   for (const double value : offset) {
     std::string number;
     append_fixed(number, value, kDecimals);
-    text.append(std::max(kOffsetWidth, number.size() + 1) - number.size(), ' ').append(number);
+    // More decimals rather than spaces, which some readers take for empty values.
+    number.append(std::max(kOffsetWidth, number.size()) - number.size(), '0');
+    text.append(" ").append(number);
   }
   text += '\n';
 }
