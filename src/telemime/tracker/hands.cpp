@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/hand_fit.h"
+
 namespace telemime {
 namespace {
 
@@ -23,9 +25,9 @@ double distance_to_arm(const HandLandmarks& hand, Side side, const HandScene& sc
          kOtherHand * (side == Side::right ? 1.0 - hand.is_right : hand.is_right);
 }
 
-// Sizes are means of all frames, the average hand counting as some of them; after enough frames they stay.
-void learn_sizes(const HandScene& scene, const HandPoints& points, const HandFit& fit, Side side,
-                 HandState& state) {
+// The palm is the mean of all frames, the average hand counting as some of them; after enough frames it
+// stays.
+void learn_palm(const HandScene& scene, double seen, HandState& state) {
   constexpr double kAverage = 25.0;  // frames
   constexpr double kEnough = 250.0;
   constexpr double kMost = 0.25;  // that a palm differs from the average, as a logarithm
@@ -33,42 +35,70 @@ void learn_sizes(const HandScene& scene, const HandPoints& points, const HandFit
     return;
   }
   state.frames += 1.0;
-  const double share = 1.0 / (kAverage + state.frames);
   const double average = average_hand(scene.body.shape.stature).palm;
-  const HandSizes measured = measured_sizes(points, fit, side);
-  HandSizes& sizes = *state.sizes;
-  const double palm = std::log(fit.scale * sizes.palm / average);
-  const double learned = std::log(sizes.palm / average);
-  sizes.palm = average * std::exp(learned + share * (std::clamp(palm, -kMost, kMost) - learned));
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
-    sizes.base[f] += share * (measured.base[f] - sizes.base[f]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      sizes.bone[f][i] += share * (measured.bone[f][i] - sizes.bone[f][i]);
+  const double learned = std::log(state.sizes->palm / average);
+  const double palm = std::clamp(std::log(seen / average), -kMost, kMost);
+  state.sizes->palm = average * std::exp(learned + (palm - learned) / (kAverage + state.frames));
+}
+
+// The hand of this arm behind a finding. A network that takes the palm for the back sees the other hand, its
+// depths reversed: both are tried, and how well they fit, which hand the network sees, and how the palm was
+// turned before decide.
+std::optional<LikelyHand> likelier_hand(const HandLandmarks& hand, Side side, double depth,
+                                        const HandScene& scene, const HandState& state) {
+  constexpr double kSide = 4.0;  // weight of the network's opinion
+  constexpr double kLeastChance = 0.02;
+  constexpr double kCertain = 0.9;
+  constexpr double kTurn = 1.0;        // rad, that a palm turns between two frames
+  constexpr double kMostOfTurn = 6.0;  // of the cost
+  const double own =
+      std::clamp(side == Side::right ? hand.is_right : 1.0 - hand.is_right, kLeastChance, 1.0 - kLeastChance);
+  const auto& last = state.last[static_cast<std::size_t>(side)];
+  const auto tried = [&](double sign, double chance) {
+    HandLandmarks seen = hand;
+    for (HandLandmark& p : seen.points) {
+      p.world.z() *= sign;
     }
+    auto result = likeliest_hand(*state.sizes, metric_points(seen, scene.camera, depth), side);
+    if (result) {
+      result->cost -= kSide * std::log(chance);
+      if (last && last->motion.seen) {
+        const double turn =
+            last->motion.seen->angularDistance(Eigen::Quaterniond(result->fit.frame_from_hand));
+        result->cost += std::min(kMostOfTurn, (turn / kTurn) * (turn / kTurn));
+      }
+    }
+    return result;
+  };
+  const auto as_seen = tried(1.0, own);
+  const double off = as_seen ? as_seen->fit.error / kWorst : 1.0;
+  if (own > kCertain && off < 1.0 / 3.0) {
+    return as_seen;
   }
+  const auto reversed = tried(-1.0, 1.0 - own);
+  return as_seen && (!reversed || as_seen->cost <= reversed->cost) ? as_seen : reversed;
 }
 
 // The model on a finding; empty if it is not a hand.
 std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const HandScene& scene,
                                  HandState& state) {
-  constexpr double kGood = 0.8;     // presence from which on sizes are learned
+  constexpr double kGood = 0.8;     // presence from which on the palm is learned
   constexpr double kNoise = 0.008;  // m
   const double depth =
       std::max(kNearest, scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]].z());
-  const HandPoints points = metric_points(hand, scene.camera, depth);
-  const auto fit = fit_hand(*state.sizes, points, side);
-  const double error = fit ? fit->error : kWorst;
-  if (!fit || !(error < kWorst)) {
+  const auto likely = likelier_hand(hand, side, depth, scene, state);
+  const double error = likely ? likely->fit.error : kWorst;
+  if (!likely || !(error < kWorst)) {
     return std::nullopt;
   }
   if (hand.presence > kGood) {
-    learn_sizes(scene, points, *fit, side, state);
+    learn_palm(scene, likely->fit.scale * state.sizes->palm, state);
   }
   const double off = error / kWorst;
   HandMotion motion;
   motion.sizes = *state.sizes;
-  motion.angles = fit->angles;
-  motion.seen = Eigen::Quaterniond(fit->frame_from_hand).normalized();
+  motion.angles = likely->fit.angles;
+  motion.seen = Eigen::Quaterniond(likely->fit.frame_from_hand).normalized();
   motion.visibility = std::clamp(hand.presence * (1.0 - off * off), 0.0, 1.0);
   motion.spread = std::hypot(kNoise, error);
   return motion;

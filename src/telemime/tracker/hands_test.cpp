@@ -71,10 +71,38 @@ TEST_F(Hands, SeenHandsHaveTheAnglesOfThePoints) {
       observe_hands({seen(Side::left, angles), seen(Side::right, angles)}, scene(0.0), state);
   for (const HandMotion& hand : hands) {
     EXPECT_GT(hand.visibility, 0.8);
-    EXPECT_LT(largest_difference(hand.angles, angles), 0.1);
+    EXPECT_LT(largest_difference(hand.angles, angles), 0.2) << "drawn to rest a little";
     EXPECT_LT(hand.spread, 0.02);
   }
   EXPECT_LT((hands[0].joints[0] - kinematics_.joints[Joint::l_wrist]).norm(), 1e-12);
+}
+
+TEST_F(Hands, PalmTakenForABackIsMirrored) {
+  const HandAngles angles = some_angles(0.6);
+  SeenHand left = seen(Side::left, angles);
+  left.found->is_right = 0.9;
+  for (HandLandmark& p : left.found->points) {
+    p.world.z() = -p.world.z();
+  }
+  HandState state;
+  const HandMotions hands = observe_hands({left, SeenHand{}}, scene(0.0), state);
+  EXPECT_GT(hands[0].visibility, 0.8);
+  EXPECT_LT(largest_difference(hands[0].angles, angles), 0.25);
+}
+
+TEST_F(Hands, CrossedHandsKeepTheirSides) {
+  HandState state;
+  const SeenHand left = seen(Side::left, some_angles(0.8));
+  const SeenHand right = seen(Side::right, resting_hand());
+  for (int t = 0; t < 10; ++t) {
+    // Found in turn where the other was looked for, and taken for the other.
+    std::array<SeenHand, 2> found = {left, right};
+    if (t % 2 == 1) {
+      std::swap(found[0], found[1]);
+    }
+    const HandMotions hands = observe_hands(found, scene(0.04 * t), state);
+    EXPECT_GT(hands[0].angles[6], hands[1].angles[6] + 0.4);
+  }
 }
 
 TEST_F(Hands, HandBelongsToTheNearestArm) {
@@ -196,7 +224,7 @@ TEST_F(Hands, HandThatAppearsDoesNotJump) {
                      kinematics_, kStep);
     EXPECT_LT(largest_difference(hands[0].angles, before), 0.35 * way);
   }
-  EXPECT_LT(largest_difference(hands[0].angles, angles), 0.6 * way) << "but it moves on";
+  EXPECT_LT(largest_difference(hands[0].angles, angles), 0.7 * way) << "but it moves on";
 }
 
 TEST_F(Hands, SmootherKeepsAHandThatIsStill) {
