@@ -292,27 +292,4 @@ std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points
   return fit;
 }
 
-HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side) {
-  static const HandSizes average = average_hand(1.0);
-  constexpr double kMost = 1.0 / 3.0;
-  HandSizes sizes = average;
-  const auto hand = [&](std::size_t i) -> Eigen::Vector3d {
-    return mirrored_if(side, Eigen::Vector3d(fit.frame_from_hand.transpose() * (points[i] - points[0])));
-  };
-  const double palm = (points[hand_joint(2, 0)] - points[0]).norm();
-  if (!(palm > 0.0)) {
-    return sizes;
-  }
-  sizes.palm = palm;
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
-    const Eigen::Vector3d off = hand(hand_joint(f, 0)) / palm - average.base[f];
-    sizes.base[f] += off * std::min(1.0, kMost * average.base[f].norm() / std::max(1e-12, off.norm()));
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double length = (hand(hand_joint(f, i + 1)) - hand(hand_joint(f, i))).norm() / palm;
-      sizes.bone[f][i] *= std::clamp(length / average.bone[f][i], 1.0 - kMost, 1.0 + kMost);
-    }
-  }
-  return sizes;
-}
-
 }  // namespace telemime

@@ -101,8 +101,4 @@ struct HandFit {
 /// than a point.
 std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side);
 
-/// The sizes that 21 points show, given their fit: the palm in the unit of the points, the others in shares
-/// of it, each within a third of the average. The average hand if the palm has no length.
-HandSizes measured_sizes(const HandPoints& points, const HandFit& fit, Side side);
-
 }  // namespace telemime
