@@ -5,12 +5,13 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "telemime/body/testing_poses.h"
 
 namespace telemime {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+using testing_poses::kDegree;
 
 Eigen::Quaterniond turned(double yaw, double pitch, double roll) {
   using Eigen::AngleAxisd;
