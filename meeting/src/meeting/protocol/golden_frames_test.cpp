@@ -123,7 +123,7 @@ PoseDetail detail_of(const Json& meaning) {
     read_all(fingers, detail.fingers.emplace());
   }
   if (const Json& face = meaning.at("face"); !face.is_null()) {
-    PoseDetail::Face& read = detail.face.emplace();
+    FaceDetail& read = detail.face.emplace();
     read.confidence = face.at("confidence").get<std::uint8_t>();
     read_all(face.at("gaze"), read.gaze);
     read_all(face.at("arkit"), read.arkit);

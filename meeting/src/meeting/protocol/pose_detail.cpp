@@ -76,8 +76,8 @@ FingerRotations rotations_of(const PoseDetail::Fingers& fingers) {
   return out;
 }
 
-PoseDetail::Face quantised(const FaceMotion& face) {
-  PoseDetail::Face out;
+FaceDetail quantised(const FaceMotion& face) {
+  FaceDetail out;
   out.confidence = weight(face.confidence);
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const double degrees = face.gaze[static_cast<Eigen::Index>(axis)] * kDegreesPerRadian;
@@ -157,7 +157,7 @@ Outcome<PoseDetail, DetailFault> decode_pose_detail(std::span<const std::uint8_t
     }
   }
   if ((sections & kWithFace) != 0) {
-    PoseDetail::Face& face = detail.face.emplace();
+    FaceDetail& face = detail.face.emplace();
     face.confidence = static_cast<std::uint8_t>(reader.take(1));
     take_all(face.gaze);
     take_all(face.arkit);

@@ -22,23 +22,24 @@ inline constexpr std::size_t kFingerAngleCount = 50;
 inline constexpr std::size_t kFaceBytes = 3 + kExpressionCount + kVrmExpressionCount;
 inline constexpr std::size_t kLongestPoseDetail = 256;
 
+/// Of a face: confidence and weights in 1/255, gaze in half degrees to the person's left and up.
+struct FaceDetail {
+  std::uint8_t confidence = 0;
+  std::array<std::int8_t, 2> gaze{};
+  std::array<std::uint8_t, kExpressionCount> arkit{};   ///< by kExpressionNames
+  std::array<std::uint8_t, kVrmExpressionCount> vrm{};  ///< by kVrmExpressionNames
+  bool operator==(const FaceDetail&) const = default;
+};
+
 /// Fingers and face of one pose frame, as they are sent: version 2 of the message `pose`
 /// (meeting/docs/protocol.md), which clients of version 1 drop.
 struct PoseDetail {
-  /// Of a face: confidence and weights in 1/255, gaze in half degrees to the person's left and up.
-  struct Face {
-    std::uint8_t confidence = 0;
-    std::array<std::int8_t, 2> gaze{};
-    std::array<std::uint8_t, kExpressionCount> arkit{};   ///< by kExpressionNames
-    std::array<std::uint8_t, kVrmExpressionCount> vrm{};  ///< by kVrmExpressionNames
-    bool operator==(const Face&) const = default;
-  };
   using Fingers = std::array<std::int8_t, kFingerAngleCount>;
 
   std::uint16_t session = 1;  ///< of the pose frame, like the sequence
   std::uint32_t sequence = 0;
   std::optional<Fingers> fingers;  ///< degrees, see quantised(); at most kMostFingerDegrees
-  std::optional<Face> face;
+  std::optional<FaceDetail> face;
 };
 
 inline constexpr int kMostFingerDegrees = 120;
@@ -48,7 +49,7 @@ inline constexpr int kMostFingerDegrees = 120;
 PoseDetail::Fingers quantised(const FingerRotations& fingers);
 FingerRotations rotations_of(const PoseDetail::Fingers& fingers);
 
-PoseDetail::Face quantised(const FaceMotion& face);
+FaceDetail quantised(const FaceMotion& face);
 
 /// Why bytes are not a detail: the first of these reasons that applies.
 enum class DetailFault {

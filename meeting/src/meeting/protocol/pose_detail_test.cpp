@@ -92,7 +92,7 @@ TEST(PoseDetail, FaceIsWithinTwoHundredths) {
   Random random(3);
   for (int i = 0; i < 500; ++i) {
     const FaceMotion face = testing_motion::random_face(random);
-    const PoseDetail::Face sent = quantised(face);
+    const FaceDetail sent = quantised(face);
     const auto vrm = vrm_expressions(face);
     for (std::size_t e = 0; e < kExpressionCount; ++e) {
       EXPECT_NEAR(sent.arkit[e] / 255.0, face.expressions[e], 0.002);

@@ -38,8 +38,7 @@ inline constexpr double kStillRate = 2.0;
 
 /// A pose frame with its detail.
 struct DetailedFrame {
-  DetailedFrame(PoseFrame frame = {}, PoseDetail rest = {})
-      : pose(std::move(frame)), detail(std::move(rest)) {}
+  DetailedFrame(PoseFrame frame = {}, const PoseDetail& rest = {}) : pose(std::move(frame)), detail(rest) {}
   PoseFrame pose;
   PoseDetail detail;
 };
