@@ -37,7 +37,7 @@ BentSkeleton bend(const HumanoidSkeleton& skeleton) {
     add(kHumanBoneParent[b], skeleton.position[b]);
   }
   for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
-    const HumanBone hand = b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand;
+    const HumanBone hand = hand_of_finger_bone(b);
     add(b % 3 == 0 ? static_cast<int>(hand) : static_cast<int>(finger_node(b)) - 1,
         skeleton.position[static_cast<std::size_t>(hand)] + skeleton.fingers->position[b]);
   }

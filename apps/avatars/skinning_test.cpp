@@ -42,8 +42,7 @@ TEST_F(SkinningTest, MiddlesOfBonesFollowThem) {
 TEST_F(SkinningTest, FingersFollowTheirBonesAlone) {
   const FingerSkeleton& fingers = figure_.skeleton.fingers.value();
   for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
-    const Vector3d& wrist =
-        figure_.at(b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand);
+    const Vector3d& wrist = figure_.at(hand_of_finger_bone(b));
     const double far = b % 3 == 2 ? 0.9 : 0.5;
     const Vector3d point = wrist + (1.0 - far) * fingers.position[b] + far * fingers.end[b];
     EXPECT_GT(weights_at(figure_, point)[static_cast<HumanBone>(finger_node(b))], 0.9) << kFingerBoneNames[b];

@@ -50,13 +50,15 @@ bool is_spread(std::size_t angle) {
 }
 
 Residuals residuals(const HandSizes& sizes, const HandPoints& points, Side side, const State& state) {
-  const HandPoints model = model_points(sizes, state, side);
   Residuals r;
+  // Points: where the network saw them, without the tilt.
+  const HandPoints model = model_points(sizes, state, side);
   for (std::size_t i = 0; i < kHandJointCount; ++i) {
     Vector3d off = points[i] - model[i];
     off.z() -= state.tilt.dot(points[i].head<2>());
     r.segment<3>(static_cast<Eigen::Index>(3 * i)) = off.cwiseQuotient(Vector3d(kAcross, kAcross, kDepth));
   }
+  // Angles: from rest, and of neighbouring fingers from each other.
   static const HandAngles rest = resting_hand();
   HandAngles off{};
   Eigen::Index row = kPointRows;
@@ -69,6 +71,7 @@ Residuals residuals(const HandSizes& sizes, const HandPoints& points, Side side,
       r[row++] = (off[kFirstFingerAngle[f] + joint] - off[kFirstFingerAngle[f + 1] + joint]) / kTogether;
     }
   }
+  // Place, size and tilt.
   r.segment<3>(row) = state.place.cwiseQuotient(kPlace);
   r[row + 3] = state.size / kSize;
   r.tail<2>() = state.tilt / kTilt;
@@ -94,20 +97,22 @@ State moved(const State& state, const Step& step) {
 
 }  // namespace
 
-std::optional<LikelyHand> likeliest_hand(const HandSizes& sizes, const HandPoints& points, Side side) {
+std::optional<HandFit> likeliest_hand(const HandSizes& sizes, const HandPoints& points, Side side) {
   constexpr int kSteps = 6;
   constexpr double kDelta = 1e-5;
   constexpr double kLargest = 0.5;  // step
   constexpr double kEnough = 1e-3;  // share of the cost by which a step must lower it
-  const auto start = fit_hand(sizes, points, side);
-  if (!start) {
+  // From the turn of the palm and a hand at rest.
+  const auto turn = palm_rotation(sizes, points, side);
+  if (!turn) {
     return std::nullopt;
   }
-  State state{.turn = start->frame_from_hand};
+  State state{.turn = *turn};
   Residuals r = residuals(sizes, points, side, state);
   double cost = r.squaredNorm();
   double damping = 1e-3;
   for (int i = 0; i < kSteps; ++i) {
+    // The slopes of the residuals, by differences.
     Slopes slopes;
     for (Eigen::Index k = 0; k < kUnknowns; ++k) {
       // Away from the nearer limit.
@@ -120,7 +125,8 @@ std::optional<LikelyHand> likeliest_hand(const HandSizes& sizes, const HandPoint
     }
     const Eigen::Matrix<double, kUnknowns, kUnknowns> normal = slopes.transpose() * slopes;
     const Step down = -slopes.transpose() * r;
-    double before = cost;
+    // A step that lowers the cost: more damping makes it shorter.
+    const double before = cost;
     for (int tries = 0; tries < 4 && cost == before; ++tries, damping *= 8.0) {
       Eigen::Matrix<double, kUnknowns, kUnknowns> damped = normal;
       damped.diagonal() *= 1.0 + damping;
@@ -138,13 +144,11 @@ std::optional<LikelyHand> likeliest_hand(const HandSizes& sizes, const HandPoint
       break;
     }
   }
-  LikelyHand result;
-  result.cost = cost;
-  result.fit = {.frame_from_hand = state.turn,
-                .angles = state.angles,
-                .scale = std::exp(state.size),
-                .error = kAcross * std::sqrt(r.head<kPointRows>().squaredNorm() / kHandJointCount)};
-  return result;
+  return HandFit{.frame_from_hand = state.turn,
+                 .angles = state.angles,
+                 .scale = std::exp(state.size),
+                 .error = kAcross * std::sqrt(r.head<kPointRows>().squaredNorm() / kHandJointCount),
+                 .cost = cost};
 }
 
 }  // namespace telemime

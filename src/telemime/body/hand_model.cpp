@@ -14,10 +14,6 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kThumb = 0;
 
-std::size_t angle_count(std::size_t finger) {
-  return kFirstFingerAngle[finger + 1] - kFirstFingerAngle[finger];
-}
-
 Eigen::Vector3d mirrored_if(Side side, const Eigen::Vector3d& p) {
   return side == Side::right ? Eigen::Vector3d(-p.x(), p.y(), p.z()) : p;
 }
@@ -67,66 +63,6 @@ FingerPoints finger_points(const HandSizes& sizes, std::size_t finger, const dou
 
 double within(double value, const AngleRange& range) {
   return std::clamp(value, range.min, range.max);
-}
-
-// The angles from the directions of the bones, one after the other.
-void angles_of_directions(const FingerPoints& target, const Eigen::Vector3d& base, std::size_t finger,
-                          double* a) {
-  const AngleRange* const limits = &hand_limits()[kFirstFingerAngle[finger]];
-  Eigen::Matrix3d axes = base_axes(finger);
-  const auto bone = [&](int i) -> Eigen::Vector3d {
-    return axes.transpose() *
-           (target.col(i) - (i == 0 ? base : Eigen::Vector3d(target.col(i - 1)))).normalized();
-  };
-  const auto bend = [](const Eigen::Vector3d& d) { return std::atan2(-d.x(), -d.y()); };
-  const Eigen::Vector3d first = bone(0);
-  a[0] = within(bend(first), limits[0]);
-  a[1] = within(std::asin(std::clamp(first.z(), -1.0, 1.0)), limits[1]);
-  axes *= rotation_z(-a[0]) * rotation_x(-a[1]);
-  const double second = bend(bone(1));
-  axes *= rotation_z(-second);
-  const double third = bend(bone(2));
-  if (finger == kThumb) {
-    a[2] = within(second, limits[2]);
-    a[3] = within(third, limits[3]);
-  } else {
-    a[2] = within((second + kDipOfPip * third) / (1.0 + kDipOfPip * kDipOfPip), limits[2]);
-  }
-}
-
-// Gauss-Newton with a little damping: each step within the limits, kept if it fits better.
-double refine_finger(const HandSizes& sizes, const FingerPoints& target, std::size_t finger, double* a) {
-  constexpr int kSteps = 4;
-  constexpr double kDelta = 1e-4;
-  constexpr double kDamping = 1e-3;
-  const auto n = static_cast<Eigen::Index>(angle_count(finger));
-  const AngleRange* const limits = &hand_limits()[kFirstFingerAngle[finger]];
-  FingerPoints error = target - finger_points(sizes, finger, a);
-  for (int step = 0; step < kSteps; ++step) {
-    Eigen::MatrixXd jacobian(9, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      std::array<double, 4> moved{};
-      std::copy_n(a, n, moved.begin());
-      moved[static_cast<std::size_t>(k)] += kDelta;
-      const FingerPoints change = target - error;
-      const FingerPoints slope = (finger_points(sizes, finger, moved.data()) - change) / kDelta;
-      jacobian.col(k) = slope.reshaped();
-    }
-    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
-    normal.diagonal().array() += kDamping;
-    const Eigen::VectorXd change = normal.ldlt().solve(jacobian.transpose() * error.reshaped());
-    std::array<double, 4> next{};
-    for (Eigen::Index k = 0; k < n; ++k) {
-      next[static_cast<std::size_t>(k)] = within(a[k] + change[k], limits[k]);
-    }
-    const FingerPoints better = target - finger_points(sizes, finger, next.data());
-    if (!(better.squaredNorm() < error.squaredNorm())) {
-      break;
-    }
-    std::copy_n(next.begin(), n, a);
-    error = better;
-  }
-  return error.squaredNorm();
 }
 
 constexpr double kHandToPalm = 1.0 / 0.446;  // hand length over palm length, Buchholz et al.
@@ -243,7 +179,7 @@ HandPoints hand_points(const HandSizes& sizes, const HandAngles& angles, Side si
   return points;
 }
 
-std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side) {
+std::optional<Eigen::Matrix3d> palm_rotation(const HandSizes& sizes, const HandPoints& points, Side side) {
   constexpr double kSmallest = 1e-9;
   // The palm: wrist and four knuckles, in shares of the palm's length.
   constexpr std::array<std::size_t, 5> kPalm = {0, 5, 9, 13, 17};
@@ -261,35 +197,14 @@ std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points
   }
   from.colwise() -= from.rowwise().mean().eval();
   to.colwise() -= to.rowwise().mean().eval();
-  const double scale = to.norm() / from.norm();
-  if (!(scale > kSmallest)) {
+  if (!(to.norm() > kSmallest * from.norm())) {
     return std::nullopt;
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(to * from.transpose(),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
   sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  const Eigen::Matrix3d rotation = svd.matrixU() * sign * svd.matrixV().transpose();
-  // The fingers, from where the sizes have their bases.
-  HandFit fit;
-  double squares = 0.0;
-  for (std::size_t f = 0; f < kFingerCount; ++f) {
-    FingerPoints target;
-    const Eigen::Vector3d base = mirrored_if(side, points[hand_joint(f, 0)]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      target.col(static_cast<Eigen::Index>(i)) =
-          sizes.base[f] +
-          rotation.transpose() * (mirrored_if(side, points[hand_joint(f, i + 1)]) - base) / scale;
-    }
-    double* const angles = &fit.angles[kFirstFingerAngle[f]];
-    angles_of_directions(target, sizes.base[f], f, angles);
-    squares += refine_finger(sizes, target, f, angles);
-  }
-  fit.frame_from_hand = mirrored_if(side, rotation);
-  fit.scale = scale / sizes.palm;
-  fit.error =
-      sizes.palm * std::sqrt((squares + (to / scale - rotation * from).squaredNorm()) / kHandJointCount);
-  return fit;
+  return mirrored_if(side, Eigen::Matrix3d(svd.matrixU() * sign * svd.matrixV().transpose()));
 }
 
 }  // namespace telemime

@@ -88,17 +88,8 @@ std::array<std::array<Eigen::Matrix3d, 3>, kFingerCount> finger_rotations(const 
 HandPoints hand_points(const HandSizes& sizes, const HandAngles& angles, Side side,
                        const Eigen::Isometry3d& frame_from_hand);
 
-/// The hand that fits 21 points best.
-struct HandFit {
-  Eigen::Matrix3d frame_from_hand;
-  HandAngles angles;
-  double scale = 1.0;  ///< of the points per m of the sizes
-  double error = 0.0;  ///< root mean square distance from the points, m of the sizes
-};
-
-/// Fits the model to points in any unit: the palm in closed form (Kabsch 1976), each finger by its directions
-/// and a few steps of Gauss-Newton within the limits. Empty if the points are not finite or are no larger
-/// than a point.
-std::optional<HandFit> fit_hand(const HandSizes& sizes, const HandPoints& points, Side side);
+/// How the palm behind 21 points in any unit is turned, frame from hand: by the wrist and the four knuckles
+/// alone, in closed form (Kabsch 1976). Empty if a point is not finite or the palm is no larger than a point.
+std::optional<Eigen::Matrix3d> palm_rotation(const HandSizes& sizes, const HandPoints& points, Side side);
 
 }  // namespace telemime

@@ -22,7 +22,7 @@ void add_hand(const HandSizes& sizes, Side side, FingerSkeleton& skeleton) {
 
 std::string motion_builder_name(std::size_t bone) {
   constexpr std::array<const char*, kFingerCount> kFingers = {"Thumb", "Index", "Middle", "Ring", "Pinky"};
-  return (bone < finger_bone(Side::right, 0, 0) ? "LeftHand" : "RightHand") +
+  return (side_of_finger_bone(bone) == Side::left ? "LeftHand" : "RightHand") +
          std::string(kFingers.at(bone / 3 % kFingerCount)) + std::to_string(bone % 3 + 1);
 }
 

@@ -17,6 +17,9 @@ inline constexpr std::size_t kFingerBoneCount = 30;
 constexpr std::size_t finger_bone(Side side, std::size_t finger, std::size_t bone) {
   return 15 * static_cast<std::size_t>(side) + 3 * finger + bone;
 }
+constexpr Side side_of_finger_bone(std::size_t bone) {
+  return bone < finger_bone(Side::right, 0, 0) ? Side::left : Side::right;
+}
 
 /// Their names in VRM 1.0.
 inline constexpr std::array<std::string_view, kFingerBoneCount> kFingerBoneNames = {
@@ -38,6 +41,7 @@ struct FingerSkeleton {
   /// From the parent's joint: that of the bone before, or the wrist.
   Eigen::Vector3d offset(std::size_t bone) const;
 };
+/// The fingers of hands of these sizes.
 FingerSkeleton finger_skeleton(const HandSizes& left, const HandSizes& right);
 FingerSkeleton finger_skeleton(const HandMotions& hands);
 

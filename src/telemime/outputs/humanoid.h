@@ -46,6 +46,11 @@ inline constexpr std::array<std::string_view, kHumanBoneCount> kHumanBoneNames =
 inline constexpr std::array<int, kHumanBoneCount> kHumanBoneParent = {-1, 0,  1,  2, 3,  2,  5, 6,  7, 2,
                                                                       9,  10, 11, 0, 13, 14, 0, 16, 17};
 
+/// The bone on which a finger bone is.
+constexpr HumanBone hand_of_finger_bone(std::size_t finger_bone) {
+  return side_of_finger_bone(finger_bone) == Side::left ? HumanBone::l_hand : HumanBone::r_hand;
+}
+
 /// A body in the T-pose of VRM 1.0: facing +z, x to its own left, y up, soles at y = 0, arms along x, palms
 /// down; m. At rest all bones have the axes of the world.
 struct HumanoidSkeleton {

@@ -44,8 +44,8 @@ void learn_palm(const HandScene& scene, double seen, HandState& state) {
 // The hand of this arm behind a finding. A network that takes the palm for the back sees the other hand, its
 // depths reversed: both are tried, and how well they fit, which hand the network sees, and how the palm was
 // turned before decide.
-std::optional<LikelyHand> likelier_hand(const HandLandmarks& hand, Side side, double depth,
-                                        const HandScene& scene, const HandState& state) {
+std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, double depth,
+                                     const HandScene& scene, const HandState& state) {
   constexpr double kSide = 4.0;  // weight of the network's opinion
   constexpr double kLeastChance = 0.02;
   constexpr double kCertain = 0.9;
@@ -63,15 +63,14 @@ std::optional<LikelyHand> likelier_hand(const HandLandmarks& hand, Side side, do
     if (result) {
       result->cost -= kSide * std::log(chance);
       if (last && last->motion.seen) {
-        const double turn =
-            last->motion.seen->angularDistance(Eigen::Quaterniond(result->fit.frame_from_hand));
+        const double turn = last->motion.seen->angularDistance(Eigen::Quaterniond(result->frame_from_hand));
         result->cost += std::min(kMostOfTurn, (turn / kTurn) * (turn / kTurn));
       }
     }
     return result;
   };
   const auto as_seen = tried(1.0, own);
-  const double off = as_seen ? as_seen->fit.error / kWorst : 1.0;
+  const double off = as_seen ? as_seen->error / kWorst : 1.0;
   if (own > kCertain && off < 1.0 / 3.0) {
     return as_seen;
   }
@@ -87,18 +86,18 @@ std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const Han
   const double depth =
       std::max(kNearest, scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]].z());
   const auto likely = likelier_hand(hand, side, depth, scene, state);
-  const double error = likely ? likely->fit.error : kWorst;
+  const double error = likely ? likely->error : kWorst;
   if (!likely || !(error < kWorst)) {
     return std::nullopt;
   }
   if (hand.presence > kGood) {
-    learn_palm(scene, likely->fit.scale * state.sizes->palm, state);
+    learn_palm(scene, likely->scale * state.sizes->palm, state);
   }
   const double off = error / kWorst;
   HandMotion motion;
   motion.sizes = *state.sizes;
-  motion.angles = likely->fit.angles;
-  motion.seen = Eigen::Quaterniond(likely->fit.frame_from_hand).normalized();
+  motion.angles = likely->angles;
+  motion.seen = Eigen::Quaterniond(likely->frame_from_hand).normalized();
   motion.visibility = std::clamp(hand.presence * (1.0 - off * off), 0.0, 1.0);
   motion.spread = std::hypot(kNoise, error);
   return motion;

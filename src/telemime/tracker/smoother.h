@@ -22,9 +22,8 @@ struct SmoothingOptions {
   int look_ahead = 12;
 };
 
-SettingTable settings_of(SmoothingOptions& options);
-
 /// Settings of time count in 1/25 s.
+SettingTable settings_of(SmoothingOptions& options);
 
 /// The longest time between two frames (s) that counts as motion: nothing is known across a longer pause.
 inline constexpr double kLongestGap = 1.0;

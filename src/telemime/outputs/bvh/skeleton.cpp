@@ -108,7 +108,7 @@ void add_fingers(const FingerSkeleton& fingers, std::vector<BvhJoint>& joints) {
     joints[static_cast<std::size_t>(hand)].end_site.reset();
   }
   for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
-    const BvhBone hand = b < finger_bone(Side::right, 0, 0) ? BvhBone::l_hand : BvhBone::r_hand;
+    const BvhBone hand = side_of_finger_bone(b) == Side::left ? BvhBone::l_hand : BvhBone::r_hand;
     BvhJoint bone = joint(motion_builder_name(b), hand, fingers.offset(b));
     if (b % 3 != 0) {
       bone.parent = static_cast<int>(joints.size()) - 1;

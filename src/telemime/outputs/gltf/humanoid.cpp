@@ -15,11 +15,6 @@ std::array<float, 3> numbers(const Eigen::Vector3d& place) {
   return {p.x(), p.y(), p.z()};
 }
 
-std::size_t hand_of(std::size_t finger_bone_index) {
-  return static_cast<std::size_t>(finger_bone_index < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand
-                                                                                     : HumanBone::r_hand);
-}
-
 }  // namespace
 
 void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton) {
@@ -32,7 +27,7 @@ void add_humanoid(GltfDocument& document, const HumanoidSkeleton& skeleton) {
       }
     }
     for (std::size_t child = 0; skeleton.fingers && child < kFingerBoneCount; child += 3) {
-      if (hand_of(child) == b) {
+      if (static_cast<std::size_t>(hand_of_finger_bone(child)) == b) {
         children.push_back(finger_node(child));
       }
     }
@@ -64,7 +59,8 @@ void set_fingers(GltfDocument& document, const FingerSkeleton& fingers) {
 std::size_t add_humanoid_skin(GltfDocument& document, const HumanoidSkeleton& skeleton) {
   std::vector<Eigen::Vector3d> places(skeleton.position.begin(), skeleton.position.end());
   for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
-    places.emplace_back(skeleton.position[hand_of(b)] + skeleton.fingers->position[b]);
+    places.emplace_back(skeleton.position[static_cast<std::size_t>(hand_of_finger_bone(b))] +
+                        skeleton.fingers->position[b]);
   }
   std::vector<float> matrices;
   auto joints = nlohmann::ordered_json::array();

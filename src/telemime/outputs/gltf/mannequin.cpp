@@ -114,8 +114,7 @@ std::size_t add_mannequin(GltfDocument& document, const HumanoidSkeleton& skelet
   }
   constexpr std::array<double, 3> kFingerRadius = {0.0058, 0.0052, 0.0046};
   for (std::size_t b = 0; skeleton.fingers && b < kFingerBoneCount; ++b) {
-    const Vector3d& wrist = skeleton.position[static_cast<std::size_t>(
-        b < finger_bone(Side::right, 0, 0) ? HumanBone::l_hand : HumanBone::r_hand)];
+    const Vector3d& wrist = skeleton.position[static_cast<std::size_t>(hand_of_finger_bone(b))];
     const double radius = kFingerRadius.at(b % 3) * (b / 3 % kFingerCount == 0 ? 1.15 : 1.0);
     pieces.add(finger_node(b), wrist + skeleton.fingers->position[b], wrist + skeleton.fingers->end[b],
                {Vector3d::UnitY(), radius, radius, 0.5 * radius}, stature);
