@@ -12,7 +12,7 @@ export default defineConfig({
   publicDir: "web/public",
   plugins: [
     {
-      name: "pages-at-the-top", // the program serves web/dist at "/": index.html, meeting.html
+      name: "pages-at-the-top", // the program serves web/dist at "/": index.html, avatar.html, meeting.html
       enforce: "post",
       generateBundle(_, bundle) {
         for (const file of Object.values(bundle)) {
@@ -29,7 +29,11 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 1200,
     rollupOptions: {
-      input: { live: "web/index.html", ...(meeting ? { meeting: "meeting/web/meeting.html" } : {}) },
+      input: {
+        live: "web/index.html",
+        avatar: "web/avatar.html",
+        ...(meeting ? { meeting: "meeting/web/meeting.html" } : {}),
+      },
     },
   },
   worker: { format: "es" },

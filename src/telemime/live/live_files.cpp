@@ -10,6 +10,8 @@
 namespace telemime {
 namespace {
 
+constexpr std::string_view kAvatarPage = "/avatar.html";
+
 // Number and file name in "/recordings/3/motion.bvh".
 std::optional<std::pair<int, std::string>> recorded_name(std::string_view path) {
   constexpr std::string_view kFolder = "/recordings/";
@@ -37,11 +39,13 @@ bool has_hash(std::string_view path) {
 }
 
 std::optional<WebContent> page_file(std::string_view path) {
-  const std::string_view wanted = path == "/" ? "/index.html" : path;
+  const std::string_view wanted = path == "/" ? "/index.html" : path == "/avatar" ? kAvatarPage : path;
   for (const PageFile& file : page_table()) {
     if (file.path == wanted) {
-      return WebContent{std::make_shared<const std::string>(file.bytes), web_type(wanted), "",
-                        has_hash(wanted)};
+      WebContent content{std::make_shared<const std::string>(file.bytes), web_type(wanted), "",
+                         has_hash(wanted)};
+      content.connects = wanted == kAvatarPage ? "http: https:" : "";  // the avatar may be anywhere
+      return content;
     }
   }
   return std::nullopt;
@@ -63,7 +67,8 @@ std::optional<WebContent> live_file(const std::string& path, const AvatarFolder&
     content.file = *file;
     return content;
   }
-  return page_file(path);
+  auto page = page_file(path);
+  return page || path != "/avatar" ? page : page_file("/");  // built without pages: the note that says so
 }
 
 std::optional<WebContent> room_file(const std::string& path, const AvatarFolder& avatars) {
@@ -74,7 +79,7 @@ std::optional<WebContent> room_file(const std::string& path, const AvatarFolder&
     auto page = page_file("/meeting.html");
     return page ? page : page_file("/");  // built without pages: the note that says so
   }
-  return path == "/index.html" ? std::nullopt : page_file(path);
+  return path == "/index.html" || path.starts_with("/avatar") ? std::nullopt : page_file(path);
 }
 
 }  // namespace telemime

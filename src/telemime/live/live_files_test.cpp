@@ -29,9 +29,21 @@ TEST(PageFiles, EveryFileIsThereUnderItsPathAlone) {
   EXPECT_FALSE(page_file("/none"));
 }
 
+TEST(PageFiles, OnlyTheAvatarsPageReadsOtherServers) {
+  for (const PageFile& file : page_table()) {
+    EXPECT_EQ(page_file(file.path)->connects.empty(), file.path != "/avatar.html") << file.path;
+  }
+  if (page_table().size() > 1) {  // built with the pages
+    EXPECT_EQ(*page_file("/avatar")->bytes, *page_file("/avatar.html")->bytes);
+  }
+  const AvatarFolder none({});
+  EXPECT_FALSE(room_file("/avatar", none)) << "meetings have no tracker to show";
+  EXPECT_FALSE(room_file("/avatar.html", none));
+}
+
 TEST(PageFiles, ThePageNamesOnlyFilesThatAreThere) {
   int named = 0;
-  for (const char* const name : {"/", "/meeting.html"}) {
+  for (const char* const name : {"/", "/avatar", "/meeting.html"}) {
     const std::optional<WebContent> file = page_file(name);
     if (!file) {
       continue;  // built without the pages (TELEMIME_WEB): there is one, and it names none

@@ -279,9 +279,10 @@ struct LiveProgram::State {
     }
   }
 
-  // A page asks the user for the empty room.
+  // A page that shows the camera asks the user for the empty room; that of the avatar alone does not.
   void check_guide(LivePhase phase) {
-    switch (guide_timeout.update(phase == LivePhase::empty_room, server->clients(), clock.now())) {
+    const std::size_t pages = server->wanted(kPicture) ? server->clients() : 0;
+    switch (guide_timeout.update(phase == LivePhase::empty_room, pages, clock.now())) {
       case GuideTimeout::Step::none:
         break;
       case GuideTimeout::Step::ask:
@@ -329,7 +330,7 @@ struct LiveProgram::State {
   SavedOutputs saved_outputs{options.settings, senders,
                              [this](MessageLevel level, const std::string& words) { notify(level, words); }};
   Recorder recorder;
-  AvatarFolder avatars{options.avatars};
+  AvatarFolder avatars{options.avatars, options.more_avatars};
   LiveAnswers answers;
   std::atomic<const LiveSession*> ready = nullptr;
   std::atomic<std::int64_t> poses = 0;

@@ -24,6 +24,7 @@ struct LiveRequest {
   double page_wait = 60.0;        ///< s without an open page, after which tracking starts without the guide
   WebServerOptions web;           ///< where the page is served
   std::filesystem::path avatars;  ///< folder of the page's avatars; empty: none
+  std::filesystem::path more_avatars;  ///< a second one, of the user
   SenderKinds sender_kinds = telemime::sender_kinds();
   std::vector<std::string> send;   ///< URLs of senders
   std::filesystem::path settings;  ///< file of the settings for later runs; empty: nothing is saved

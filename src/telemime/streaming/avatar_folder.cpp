@@ -2,10 +2,8 @@
 #include "telemime/streaming/avatar_folder.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "telemime/core/errors.h"
 
@@ -25,25 +23,27 @@ bool is_look_name(std::string_view name) {
 
 }  // namespace
 
-AvatarFolder::AvatarFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-  if (folder_.empty()) {
-    return;
-  }
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == kType && is_look_name(name)) {
-      names_.push_back(name);
+AvatarFolder::AvatarFolder(const std::filesystem::path& folder, const std::filesystem::path& more) {
+  for (const auto& place : {folder, more}) {
+    std::error_code error;
+    for (const auto& entry : place.empty() ? std::filesystem::directory_iterator()
+                                           : std::filesystem::directory_iterator(place, error)) {
+      const std::string name = entry.path().stem().string();
+      if (entry.path().extension() == kType && is_look_name(name)) {
+        files_[name] = entry.path();
+      }
+    }
+    if (error) {
+      throw Error(ErrorKind::usage,
+                  "the avatars in " + place.string() + " cannot be read: " + error.message(),
+                  "Choose a folder that contains LOOK.vrm files.");
     }
   }
-  if (error) {
-    throw Error(ErrorKind::usage,
-                "the avatars in " + folder_.string() + " cannot be read: " + error.message(),
-                "Choose a folder that contains LOOK.vrm files.");
+  for (const auto& [name, file] : files_) {
+    if (!name.ends_with(kLight)) {
+      looks_.push_back(name);
+    }
   }
-  std::sort(names_.begin(), names_.end());
-  std::copy_if(names_.begin(), names_.end(), std::back_inserter(looks_),
-               [](const std::string& name) { return !name.ends_with(kLight); });
   std::stable_partition(looks_.begin(), looks_.end(), [](const std::string& l) { return l == kDefaultLook; });
 }
 
@@ -52,16 +52,16 @@ std::optional<WebContent> AvatarFolder::file(const std::string& path) const {
     return std::nullopt;
   }
   std::string name = path.substr(kPath.size(), path.size() - kPath.size() - kType.size());
-  const auto exists = [&] { return std::binary_search(names_.begin(), names_.end(), name); };
-  if (!exists() && name.ends_with(kLight)) {
+  if (!files_.contains(name) && name.ends_with(kLight)) {
     name.resize(name.size() - kLight.size());
   }
-  if (!exists()) {
+  const auto found = files_.find(name);
+  if (found == files_.end()) {
     return std::nullopt;
   }
   WebContent content;
   content.type = "model/gltf-binary";
-  content.file = folder_ / (name + std::string(kType));
+  content.file = found->second;
   return content;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,13 +11,15 @@
 
 namespace telemime {
 
-/// The avatars in a folder, one VRM file for each look: LOOK.vrm, and LOOK-light.vrm with fewer triangles for
-/// computers without a graphics card. A look's name consists of 1 to 32 lower-case letters, digits, "_" and
+/// The avatars in one or two folders, one VRM file for each look: LOOK.vrm, and LOOK-light.vrm with fewer
+/// triangles for computers without a graphics card. A look's name consists of 1 to 32 lower-case letters,
+/// digits, "_" and
 /// "-"; other files are ignored.
 class AvatarFolder {
  public:
-  /// Lists the folder once. An empty path: no avatars. Throws Error(usage) when the folder cannot be read.
-  explicit AvatarFolder(std::filesystem::path folder);
+  /// Lists the folders once; a look of `more` hides one of the same name. An empty path: no avatars. Throws
+  /// Error(usage) when a folder cannot be read.
+  explicit AvatarFolder(const std::filesystem::path& folder, const std::filesystem::path& more = {});
 
   /// The looks to choose from, without the light variants: "plain" first, then by name.
   const std::vector<std::string>& looks() const { return looks_; }
@@ -26,8 +29,7 @@ class AvatarFolder {
   std::optional<WebContent> file(const std::string& path) const;
 
  private:
-  std::filesystem::path folder_;
-  std::vector<std::string> names_;  ///< of all files without ".vrm", sorted
+  std::map<std::string, std::filesystem::path> files_;  ///< by their names without ".vrm"
   std::vector<std::string> looks_;
 };
 

@@ -49,6 +49,20 @@ TEST_F(Avatars, OtherFilesAreNotServed) {
   EXPECT_THROW(AvatarFolder(folder_.path() / "none"), Error);
 }
 
+TEST_F(Avatars, SecondFolderAddsAndReplaces) {
+  put("x.vrm");
+  put("y.vrm");
+  ScratchFolder more;
+  for (const char* const name : {"y.vrm", "z.vrm"}) {
+    std::ofstream(more.file(name)) << "glTF";
+  }
+  const AvatarFolder both(folder_.path(), more.path());
+  EXPECT_EQ(both.looks(), (std::vector<std::string>{"x", "y", "z"}));
+  EXPECT_EQ(both.file("/avatars/y.vrm")->file.parent_path(), more.path());
+  EXPECT_EQ(both.file("/avatars/x.vrm")->file.parent_path(), folder_.path());
+  EXPECT_THROW(AvatarFolder(folder_.path(), more.path() / "none"), Error);
+}
+
 TEST_F(Avatars, LooksBeginWithThePlainOne) {
   for (const char* const name : {"robot", "plain", "plain-light", "casual"}) {
     put(name + std::string(".vrm"));

@@ -25,7 +25,7 @@ std::string_view view(boost::beast::string_view text) {
 /// What a page of this server may do. glTF loaders fetch blob: and data: addresses of textures. The
 /// WebSocket's address is listed because 'self' does not cover ws: in every browser. Inline styles are
 /// allowed because they cannot run code.
-std::string content_policy(std::string_view host) {
+std::string content_policy(std::string_view host, std::string_view connects = {}) {
   std::string policy =
       "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' blob: data:; "
       "font-src 'self' data:; media-src 'self' blob:; worker-src 'self' blob:; manifest-src 'self'; "
@@ -33,6 +33,7 @@ std::string content_policy(std::string_view host) {
   if (!host.empty()) {
     policy.append(" ws://").append(host);
   }
+  policy.append(connects.empty() ? "" : " ").append(connects);
   return policy + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
@@ -117,7 +118,7 @@ WebResponse web_content(WebContent content, const WebRequest& request, const Web
   message.version(request.version());
   message.keep_alive(request.keep_alive());
   const std::string_view host = view(request[http::field::host]);
-  set_guards(message, handlers.policy ? handlers.policy(host) : content_policy(host));
+  set_guards(message, handlers.policy ? handlers.policy(host) : content_policy(host, content.connects));
   message.set(http::field::content_type, content.type);
   message.set(http::field::cache_control,
               content.immutable ? "public, max-age=31536000, immutable" : "no-store");

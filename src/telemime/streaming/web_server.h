@@ -24,7 +24,8 @@ struct WebContent {
   /// Not empty: a file instead of `bytes`. It is read while it is sent, and parts of it may be requested
   /// (Range). The status is 404 if it cannot be read.
   std::filesystem::path file = {};
-  unsigned status = 200;  ///< HTTP status, only with `bytes`
+  unsigned status = 200;           ///< HTTP status, only with `bytes`
+  std::string_view connects = {};  ///< more that this page may connect to, for its policy: "https:"
 };
 
 /// The content of a POST.

@@ -34,7 +34,9 @@ TEST(WebServer, AnswersWithTheContentAndItsGuards) {
   WebHandlers handlers;
   handlers.get = [](const std::string& path) -> std::optional<WebContent> {
     const auto bytes = shared("bytes of " + path);
-    return WebContent{bytes, "text/x-test", path == "/save" ? "mo\"ti\non.bvh" : "", path == "/hashed"};
+    WebContent content{bytes, "text/x-test", path == "/save" ? "mo\"ti\non.bvh" : "", path == "/hashed"};
+    content.connects = path == "/open" ? "https:" : "";
+    return content;
   };
   const WebServer server(any_port(), handlers);
   const WebReply page = ask(server.port(), "/a%20b?c");
@@ -52,6 +54,9 @@ TEST(WebServer, AnswersWithTheContentAndItsGuards) {
   EXPECT_NE(policy.find(" ws://localhost:" + std::to_string(server.port()) + ";"), std::string::npos)
       << policy;
   EXPECT_NE(policy.find("frame-ancestors 'none'"), std::string::npos) << policy;
+  EXPECT_EQ(policy.find("https:"), std::string::npos) << policy;
+  const std::string open = ask(server.port(), "/open").header("Content-Security-Policy");
+  EXPECT_NE(open.find(std::to_string(server.port()) + " https:;"), std::string::npos) << open;
 
   EXPECT_EQ(ask(server.port(), "/hashed").header("Cache-Control"), "public, max-age=31536000, immutable");
   EXPECT_EQ(ask(server.port(), "/save").header("Content-Disposition"),

@@ -4,11 +4,20 @@
 import { PerspectiveCamera, Scene, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Shown } from "./driver";
+import { extentOf, type Framing } from "./framing";
 import type { Avatar } from "./load";
 import { Painter } from "./painter";
 import { floor, lights, shadow } from "./surroundings";
 
 const FOV = 26; // degrees, vertical
+
+const USUAL = { hipHeight: 0.95, headHeight: 1.45, top: 1.7 }; // m
+
+export interface StageOptions {
+  framing?: Framing;
+  /** The avatar alone: no floor, no shadow, and nothing turns the view. */
+  alone?: boolean;
+}
 const SLOW_BREATH = 0.1; // s between pictures of an avatar at rest, without a graphics card
 /** Keys that turn the view, rad, and that change the distance. */
 const TURN: Record<string, [number, number]> = {
@@ -34,16 +43,21 @@ export class Stage {
   private paused = true; // nothing had to be drawn for a while
 
   /** Throws when the browser has no WebGL. */
-  constructor(canvas: HTMLCanvasElement, box: HTMLElement) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    box: HTMLElement,
+    private readonly options: StageOptions = {},
+  ) {
     this.painter = new Painter(canvas, box, (aspect) => this.resized(aspect));
-    this.scene.add(...lights(), floor(), this.shadow);
+    this.scene.add(...lights(), ...(options.alone ? [] : [floor(), this.shadow]));
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.minDistance = 0.4;
     this.controls.maxDistance = 12;
     this.controls.addEventListener("change", () => (this.dirty = true));
     this.controls.addEventListener("start", () => (this.touched = true));
-    canvas.addEventListener("keydown", (e) => this.key(e));
+    this.controls.enabled = !options.alone;
+    if (!options.alone) canvas.addEventListener("keydown", (e) => this.key(e));
     this.painter.resize();
     this.resetView();
   }
@@ -58,19 +72,15 @@ export class Stage {
     this.resetView();
   }
 
-  /** From the front, with the upper body and raised hands in the picture. */
+  /** From the front, framed as the options say. */
   resetView(): void {
     this.touched = false;
     this.frameAvatar();
   }
 
   private frameAvatar(): void {
-    const hips = this.avatar?.hipHeight ?? 0.95;
-    const top = this.avatar?.top ?? 1.7;
-    const arm = 0.5 * top; // about half of the span
-    const low = hips * 0.78;
-    const high = top + 0.1 * top;
-    const half = Math.max((high - low) / 2, (arm * 1.22) / Math.max(0.5, this.camera.aspect));
+    const { low, high, side } = extentOf(this.options.framing ?? "bust", this.avatar ?? USUAL);
+    const half = Math.max((high - low) / 2, side / Math.max(0.5, this.camera.aspect));
     const distance = half / Math.tan(((FOV / 2) * Math.PI) / 180);
     const middle = (low + high) / 2;
     this.controls.target.set(0, middle, 0);

@@ -3,10 +3,8 @@
 
 import type { PoseDriver } from "../avatar/driver";
 import type { Avatar } from "../avatar/load";
-import type { Stage } from "../avatar/stage";
+import type { Stage, StageOptions } from "../avatar/stage";
 import { byId } from "../shared/dom";
-import type { CameraView } from "../views/camera";
-import type { TopView } from "../views/top";
 import type { Command } from "./protocol";
 
 interface Stamped {
@@ -24,13 +22,13 @@ export class Loop {
   private fresh: Stamped | null = null; // the newest pose that is not drawn yet
   private drawn: Stamped | null = null; // drawn and not reported yet
 
-  /** `complain` shows an error to the user. */
+  /** `flat`: the views beside the avatar; `complain` shows an error to the user. */
   constructor(
     private readonly driver: PoseDriver,
-    private readonly camera: CameraView,
-    private readonly top: TopView,
+    private readonly flat: readonly { draw(): void }[],
     private readonly send: (c: Command) => boolean,
     private readonly complain: (words: string) => void,
+    private readonly options: StageOptions = {},
   ) {
     // A separate task: it runs after the picture has been handed over.
     this.after.port1.onmessage = () => this.report();
@@ -47,7 +45,7 @@ export class Loop {
     }
     try {
       const [canvas, view] = [byId("avatar-canvas", HTMLCanvasElement), byId("avatar-view", HTMLElement)];
-      this.stage = new loaded.Stage(canvas, view);
+      this.stage = new loaded.Stage(canvas, view, this.options);
       this.driver.direct = this.stage.painter.software;
     } catch {
       this.complain("The avatar cannot be shown: WebGL is off in this browser. Everything else works.");
@@ -84,8 +82,7 @@ export class Loop {
       requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
       this.ticks++;
       this.showAvatar();
-      this.camera.draw();
-      this.top.draw();
+      for (const view of this.flat) view.draw();
     };
     requestAnimationFrame(tick);
   }

@@ -40,7 +40,7 @@ const toasts = new Toasts();
 const line = new LiveState();
 const announce = (words: string) => line.announce(words);
 const banner = new Banner(() => connection.tryNow());
-const loop = new Loop(driver, camera, top, send, (words) => toasts.show("error", words));
+const loop = new Loop(driver, [camera, top], send, (words) => toasts.show("error", words));
 const avatars = new Avatars(
   {
     // The 3-D library is the largest part of the page. It is loaded separately.

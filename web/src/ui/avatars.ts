@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The choice of the avatar: one of the program's, or a file of the user that is chosen or dropped on the page.
 
+import { fromProgram } from "../avatar/fetch";
 import { AvatarError, checkSize } from "../avatar/inspect";
 import type { Avatar } from "../avatar/load";
 import { getAvatar, listAvatars, putAvatar, removeAvatar, type StoredEntry } from "../avatar/store";
 import { button, byId, h, labelOf, sizeText } from "../shared/dom";
-import { drawsInSoftware } from "../shared/graphics";
 import { trashButton } from "../shared/icons";
 import type { Level } from "../shared/notices";
 
@@ -93,9 +93,7 @@ export class Avatars {
     this.wanted = id;
     this.list();
     try {
-      const got = id.startsWith("own:")
-        ? await this.fromStore(id.slice(4))
-        : await this.fromProgram(id.slice(5));
+      const got = id.startsWith("own:") ? await this.fromStore(id.slice(4)) : await fromProgram(id.slice(5));
       if (turn !== this.turn) return false; // another one has been chosen
       const shown = await this.put(id, got.name, got.data, turn);
       if (shown && remember) this.uses.remember(id);
@@ -156,13 +154,6 @@ export class Avatars {
     return [...this.looks.map((l) => `look:${l}`), ...this.own.map((o) => `own:${o.id}`)];
   }
 
-  private async fromProgram(look: string): Promise<{ name: string; data: ArrayBuffer }> {
-    const light = drawsInSoftware() ? "-light" : "";
-    const answer = await fetch(`/avatars/${encodeURIComponent(look + light)}.vrm`);
-    if (!answer.ok) throw new AvatarError(`Telemime has no avatar "${labelOf(look)}".`);
-    return { name: labelOf(look), data: await answer.arrayBuffer() };
-  }
-
   private async fromStore(id: string): Promise<{ name: string; data: ArrayBuffer }> {
     const kept = await getAvatar(id);
     if (!kept) throw new AvatarError("This avatar is no longer stored in this browser. Load the file again.");
@@ -194,7 +185,7 @@ export class Avatars {
       ? (document.activeElement as HTMLElement).dataset.id
       : undefined;
     const rows = [
-      ...this.looks.map((l) => this.row(`look:${l}`, labelOf(l), "Included with Telemime", null)),
+      ...this.looks.map((l) => this.row(`look:${l}`, labelOf(l), "From Telemime", null)),
       ...this.own.map((o) => this.row(`own:${o.id}`, o.name, `Your file, ${sizeText(o.bytes)}`, o.id)),
     ];
     box.replaceChildren(...rows);
