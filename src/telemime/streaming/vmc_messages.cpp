@@ -1,79 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/streaming/vmc_messages.h"
 
-#include <lo/lo.h>
-
-#include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <new>
+#include <utility>
 
 #include "telemime/outputs/vrm_expressions.h"
 
 namespace telemime {
 namespace {
 
-constexpr std::size_t kBundleHead = 16;  // "#bundle" and a time tag
-constexpr std::size_t kSizeField = 4;
-constexpr lo_timetag kAtOnce = {0U, 1U};
-
-using MessagePtr = std::unique_ptr<void, decltype(&lo_message_free)>;
-
-struct Message {
-  const char* path;
-  MessagePtr content;
-  std::size_t size() const { return lo_message_length(content.get(), path); }
-};
-
 struct Place {
   Eigen::Vector3d position;
   Eigen::Quaterniond rotation;
 };
 
-/// liblo allocates by malloc and returns a copy of the bytes.
-std::string taken(void* bytes, std::size_t size) {
-  const std::unique_ptr<void, decltype(&std::free)> owner(bytes, std::free);
-  if (bytes == nullptr) {
-    throw std::bad_alloc();
-  }
-  return {static_cast<const char*>(bytes), size};
-}
-
-Message empty_message(const char* path) {
-  Message message{path, MessagePtr(lo_message_new(), lo_message_free)};
-  if (!message.content) {
-    throw std::bad_alloc();
-  }
-  lo_message_incref(message.content.get());  // our reference; a bundle adds its own and releases it
-  return message;
-}
-
-Message ok_message(bool tracking) {
-  Message message = empty_message("/VMC/Ext/OK");
+Osc ok_message(bool tracking) {
   const std::int32_t loaded = 1;
   const std::int32_t calibrated = 3;
   const std::int32_t mode = 0;
+  Osc message("/VMC/Ext/OK");
   for (const std::int32_t value : {loaded, calibrated, mode, tracking ? 1 : 0}) {
-    lo_message_add_int32(message.content.get(), value);
+    message.integer(value);
   }
-  return message;
-}
-
-Message time_message(double time) {
-  Message message = empty_message("/VMC/Ext/T");
-  lo_message_add_float(message.content.get(), static_cast<float>(time));
   return message;
 }
 
 /// A name and its place in Unity's frame: mirrored in the plane x = 0.
-Message place_message(const char* path, const std::string& name, const Place& place) {
-  Message message = empty_message(path);
+Osc place_message(const char* path, const std::string& name, const Place& place) {
   const auto& [p, q] = place;
-  lo_message_add_string(message.content.get(), name.c_str());
+  Osc message(path);
+  message.text(name);
   for (const double value : {-p.x(), p.y(), p.z(), q.x(), -q.y(), -q.z(), q.w()}) {
-    lo_message_add_float(message.content.get(), static_cast<float>(value + 0.0));  // + 0.0: no -0
+    message.number(value);
   }
   return message;
 }
@@ -99,7 +58,7 @@ const HumanoidSkeleton& average_skeleton() {
 }
 
 void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, const VmcOptions& options,
-                std::vector<Message>& messages) {
+                std::vector<Osc>& messages) {
   const Eigen::Vector3d rest = skeleton.offset(HumanBone::hips);
   const Eigen::Vector3d moved = motion.hips - rest;
   const Eigen::Vector3d still = Eigen::Vector3d::Zero();
@@ -116,20 +75,16 @@ void add_places(const HumanoidSkeleton& skeleton, const HumanoidMotion& motion, 
   }
 }
 
-void add_fingers(const FingerSkeleton& skeleton, const FingerRotations& fingers,
-                 std::vector<Message>& messages) {
+void add_fingers(const FingerSkeleton& skeleton, const FingerRotations& fingers, std::vector<Osc>& messages) {
   for (std::size_t b = 0; b < kFingerBoneCount; ++b) {
     messages.push_back(place_message("/VMC/Ext/Bone/Pos", unity_name(kFingerBoneNames[b]),
                                      {skeleton.offset(b), fingers[b]}));
   }
 }
 
-void add_expressions(const FaceMotion& face, VmcExpressions names, std::vector<Message>& messages) {
+void add_expressions(const FaceMotion& face, VmcExpressions names, std::vector<Osc>& messages) {
   const auto add = [&messages](std::string_view name, double weight) {
-    Message message = empty_message("/VMC/Ext/Blend/Val");
-    lo_message_add_string(message.content.get(), std::string(name).c_str());
-    lo_message_add_float(message.content.get(), static_cast<float>(weight));
-    messages.push_back(std::move(message));
+    messages.emplace_back("/VMC/Ext/Blend/Val").text(std::string(name)).number(weight);
   };
   if (names == VmcExpressions::arkit) {
     for (std::size_t i = 0; i < kExpressionCount; ++i) {
@@ -141,68 +96,16 @@ void add_expressions(const FaceMotion& face, VmcExpressions names, std::vector<M
       add(names == VmcExpressions::vrm0 ? kVrm0ExpressionNames[i] : kVrmExpressionNames[i], weights[i]);
     }
   }
-  messages.push_back(empty_message("/VMC/Ext/Blend/Apply"));
-}
-
-std::string bundle_of(const std::vector<const Message*>& messages) {
-  // lo_bundle_free never releases the copies of the paths (liblo 0.31).
-  const std::unique_ptr<void, decltype(&lo_bundle_free_recursive)> bundle(lo_bundle_new(kAtOnce),
-                                                                          lo_bundle_free_recursive);
-  if (!bundle) {
-    throw std::bad_alloc();
-  }
-  for (const Message* message : messages) {
-    lo_bundle_add_message(bundle.get(), message->path, message->content.get());
-  }
-  std::size_t size = 0;
-  void* const bytes = lo_bundle_serialise(bundle.get(), nullptr, &size);
-  return taken(bytes, size);
-}
-
-// As few bundles as there can be, each with the first `common` messages.
-std::vector<std::string> bundled(const std::vector<Message>& messages, std::size_t common,
-                                 std::size_t largest) {
-  std::vector<const Message*> bundle;
-  std::size_t size = kBundleHead;
-  const auto add = [&](const Message& message) {
-    bundle.push_back(&message);
-    size += kSizeField + message.size();
-  };
-  const auto begin = [&] {
-    bundle.clear();
-    size = kBundleHead;
-    std::for_each(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(common), add);
-  };
-  begin();
-  std::vector<std::string> datagrams;
-  for (std::size_t i = common; i < messages.size(); ++i) {
-    if (size + kSizeField + messages[i].size() > largest && bundle.size() > common) {
-      datagrams.push_back(bundle_of(bundle));
-      begin();
-    }
-    add(messages[i]);
-  }
-  datagrams.push_back(bundle_of(bundle));
-  return datagrams;
-}
-
-std::vector<std::string> single(const std::vector<Message>& messages) {
-  std::vector<std::string> datagrams;
-  for (const Message& message : messages) {
-    std::size_t size = 0;
-    void* const bytes = lo_message_serialise(message.content.get(), message.path, nullptr, &size);
-    datagrams.push_back(taken(bytes, size));
-  }
-  return datagrams;
+  messages.emplace_back("/VMC/Ext/Blend/Apply");
 }
 
 }  // namespace
 
 std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const HumanoidMotion* motion,
                                        const FaceMotion* face, double time, const VmcOptions& options) {
-  std::vector<Message> messages;
+  std::vector<Osc> messages;
   messages.push_back(ok_message(motion != nullptr));
-  messages.push_back(time_message(time));
+  messages.emplace_back("/VMC/Ext/T").number(time);
   const std::size_t common = messages.size();
   if (motion != nullptr) {
     add_places(skeleton, *motion, options, messages);
@@ -214,7 +117,7 @@ std::vector<std::string> vmc_datagrams(const HumanoidSkeleton& skeleton, const H
   if (face != nullptr) {
     add_expressions(*face, options.expressions, messages);
   }
-  return options.bundles ? bundled(messages, common, options.largest) : single(messages);
+  return options.bundles ? osc_bundles(messages, common, options.largest) : osc_single(messages);
 }
 
 }  // namespace telemime

@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "telemime/outputs/humanoid.h"
+#include "telemime/streaming/osc.h"
 
 namespace telemime {
-
-/// An Ethernet frame of 1500 bytes minus the headers of IPv6 and UDP: the protocol requires bundles that fit
-/// in one.
-inline constexpr std::size_t kVmcLargestDatagram = 1452;
-/// Within this computer: less than the least size of the loopback device (16 KiB) that systems have.
-inline constexpr std::size_t kVmcLargestLocalDatagram = 16'000;
 
 /// The names in which expressions are sent.
 enum class VmcExpressions { vrm0, vrm1, arkit };
@@ -24,7 +19,7 @@ struct VmcOptions {
   bool all_positions = true;  ///< false: all bones but the hips are those of an average adult
   bool root_moves = false;    ///< the root moves with the person instead of the hips
   VmcExpressions expressions = VmcExpressions::vrm0;
-  std::size_t largest = kVmcLargestDatagram;  ///< bundle, bytes
+  std::size_t largest = kLargestDatagram;  ///< bundle, bytes: the protocol requires that it fits in one
 };
 
 /// One frame as datagrams of the VMC protocol 3.1, Performer to Marionette: /VMC/Ext/OK (calibrated; tracking

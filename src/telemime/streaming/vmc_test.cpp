@@ -158,11 +158,11 @@ TEST_F(Vmc, EachBundleIsCompleteInItself) {
   const Pose pose = random_pose();
   const HumanoidMotion motion = humanoid_motion(header_.body, pose, pose.root);
   for (const std::size_t largest :
-       {std::size_t{200}, std::size_t{600}, kVmcLargestDatagram, kVmcLargestLocalDatagram}) {
+       {std::size_t{200}, std::size_t{600}, kLargestDatagram, kLargestLocalDatagram}) {
     VmcOptions options;
     options.largest = largest;
     const auto datagrams = vmc_datagrams(skeleton_, &motion, nullptr, 2.5, options);
-    EXPECT_EQ(datagrams.size() == 1, largest == kVmcLargestLocalDatagram);
+    EXPECT_EQ(datagrams.size() == 1, largest == kLargestLocalDatagram);
     Marionette all;
     for (const std::string& datagram : datagrams) {
       EXPECT_LE(datagram.size(), largest) << "fits an Ethernet frame with the heads of IP and UDP";
