@@ -21,6 +21,8 @@ if(TARGET telemime)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/avatars/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime/avatars")
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/integrations/blender" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime"
+        FILES_MATCHING PATTERN "*.py")
 if(TELEMIME_MODELS)
   install(DIRECTORY "${PROJECT_BINARY_DIR}/models/" DESTINATION "${CMAKE_INSTALL_DATADIR}/telemime/models"
           FILES_MATCHING PATTERN "*.tflite")

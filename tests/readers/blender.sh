@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Opens the recording in Blender, where there is one: blender.sh FOLDER. Status 77: skipped, with the reason.
+# Runs a script in Blender, where there is one: blender.sh SCRIPT.py FOLDER, the folder of the recording. Status 77: skipped, with the
+# reason.
 set -euo pipefail
 blender="${TELEMIME_BLENDER:-blender}"
 if ! command -v "$blender" > /dev/null; then
@@ -8,4 +9,4 @@ if ! command -v "$blender" > /dev/null; then
   exit 77
 fi
 exec "$blender" --background --factory-startup --python-exit-code 1 \
-  --python "$(dirname "$0")/blender_import.py" -- "$1"
+  --python "$(dirname "$0")/$1" -- "$2"

@@ -166,4 +166,5 @@ def main():
     sys.exit(0 if all(checks) else 1)
 
 
-main()
+if __name__ == "__main__":
+    main()

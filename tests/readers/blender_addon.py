@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The add-on for Blender: blender --background --python blender_addon.py -- FOLDER
+
+Imports the recording of FOLDER, and receives a live run of the program (TELEMIME_PROGRAM); joints must be within 10 mm of
+pose.jsonl and of the pose messages that the program sends to pages. Exits with 1 where they are not."""
+
+import asyncio
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+import bpy
+from mathutils import Quaternion, Vector
+
+here = Path(__file__).resolve().parent
+sys.path[:0] = [str(here), str(here.parents[1] / "integrations/blender"), str(here.parents[1] / "scripts")]
+import blender_import as reader  # noqa: E402
+import telemime  # noqa: E402
+from web_socket import WebSocket  # noqa: E402
+
+LIVE_FRAMES = 60
+
+
+def from_camera(p):
+    return Vector((p[0], p[2], -p[1])) / 1000.0
+
+
+def empty_scene():
+    telemime.unregister() if hasattr(bpy.types.Scene, "telemime") else None
+    reader.empty_scene(24.0)
+    telemime.register()
+
+
+def check_import(folder, frames, fps):
+    """Scale, rate and names; as filmed, and on the floor."""
+    empty_scene()
+    assert bpy.ops.import_anim.telemime(filepath=str(folder / "motion.bvh"), place="CAMERA") == {"FINISHED"}
+    render = bpy.context.scene.render
+    assert abs(render.fps / render.fps_base - fps) < 1e-4, "the rate of the scene"
+    assert bpy.context.scene.frame_end == 1 + round(frames[-1]["time"] * fps), "the length of the scene"
+    near = reader.compare("import", frames, 1, fps, reader.HUMANOID, reader.humanoid_fingers, from_camera)
+    near = reader.forward(frames, 1, fps, reader.HUMANOID) and near
+    empty_scene()
+    bpy.context.scene.telemime.names = "MIXAMO"
+    assert bpy.ops.import_anim.telemime(filepath=str(folder / "motion.bvh")) == {"FINISHED"}
+    rig = reader.armature()
+    assert {"Hips", "LeftForeArm", "RightHandPinky3"} <= {b.name for b in rig.data.bones}, "the names of Mixamo"
+    bpy.context.scene.frame_set(1)
+    hips, foot = rig.pose.bones["Hips"].head, rig.pose.bones["LeftFoot"].head
+    assert abs(hips.x) < 1e-3 and abs(hips.y) < 1e-3 and 0.0 < foot.z < 0.15, f"on the floor: {hips}, {foot}"
+    return near
+
+
+def lowered_rig(skeleton, turn):
+    """A rig with Rigify's names, centimetres, bones of any roll and arms that hang at 45 degrees; turned about z."""
+    bones = dict(skeleton.bones)
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        pivot = bones[side + "UpperArm"][1]
+        down = Quaternion((0, 1, 0), sign * 0.25 * 3.14159265)
+        for name, (parent, head) in bones.items():
+            if name.startswith(side) and not name.endswith(("Shoulder", "ShoulderBlade", "Leg", "Foot")):
+                bones[name] = (parent, pivot + down @ (head - pivot))
+    lowered = telemime.Skeleton({n: (p and p.replace("Blade", ""), 100.0 * h) for n, (p, h) in bones.items()
+                                 if not n.endswith("Blade")})
+    rig = telemime.build_rig(None, lowered, "RIGIFY")
+    bpy.ops.object.mode_set(mode="EDIT")
+    for i, bone in enumerate(rig.data.edit_bones):
+        bone.roll = 0.7 * i
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.scale = (0.01, 0.01, 0.01)
+    rig.rotation_euler = (0.0, 0.0, turn)
+    bpy.context.view_layer.update()
+    return rig
+
+
+def check_other_rig(folder, frames, fps):
+    """Upper arms and forearms of another rig point where those of the person do."""
+    worst = 0.0
+    skeleton, _, _ = telemime.read_bvh(folder / "motion.bvh")
+    for turn in (0.0, 2.0):
+        empty_scene()
+        rig = lowered_rig(skeleton, turn)
+        bpy.context.scene.telemime.target = rig
+        assert bpy.ops.import_anim.telemime(filepath=str(folder / "motion.bvh")) == {"FINISHED"}
+        heading = Quaternion((0, 0, 1), turn)
+        for frame in frames[::10]:
+            bpy.context.scene.frame_set(1 + round(frame["time"] * fps))
+            for side, s in (("l", "L"), ("r", "R")):
+                for bone, a, b in ((f"upper_arm.{s}", "shoulder", "elbow"), (f"forearm.{s}", "elbow", "wrist")):
+                    p = rig.pose.bones[bone]
+                    got = (rig.matrix_world.to_3x3() @ (p.tail - p.head)).normalized()
+                    joints = frame["joints"]
+                    want = (from_camera(joints[f"{side}_{b}"]) - from_camera(joints[f"{side}_{a}"])).normalized()
+                    worst = max(worst, (heading @ want).angle(got))
+    print(f"a rig with lowered arms: directions of its arms are at most {worst * 57.3:.2f} degrees off")
+    return worst < 0.02
+
+
+def listen(port, poses):
+    async def hear():
+        page = await WebSocket.open(port)
+        page.say({"type": "pictures", "on": False})
+        while True:
+            message = await page.hear()
+            if message["type"] == "pose" and message["state"] == "tracking":
+                poses.append(message)
+
+    try:
+        asyncio.run(hear())
+    except (ConnectionError, asyncio.IncompleteReadError):
+        pass  # the program has ended
+
+
+def check_live(*_):
+    """Each shown pose against the pose message of the same time, and the action that was recorded."""
+    empty_scene()
+    bpy.context.scene.telemime.port = 39539 + os.getpid() % 20000
+    assert bpy.ops.telemime.connect() == {"FINISHED"}
+    assert not bpy.ops.telemime.record.poll(), "nothing to record yet"
+    receiver, config = telemime.receiver, tempfile.mkdtemp()
+    command = [os.environ["TELEMIME_PROGRAM"], "live", "demo", "--particles", "300", "--port", "0", "--no-settings",
+               "--recordings", config, "--send", f"vmc://127.0.0.1:{bpy.context.scene.telemime.port}"]
+    program = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        port = int(program.stdout.readline().split("localhost:")[1].split()[0])
+        poses, shown, until = [], [], time.monotonic() + 200
+        threading.Thread(target=listen, args=(port, poses), daemon=True).start()
+        while len(shown) < LIVE_FRAMES and time.monotonic() < until:
+            time.sleep(0.005)
+            if receiver.poll() and receiver.frames > 1 and receiver.tracking:
+                if not shown:
+                    assert bpy.ops.telemime.record() == {"FINISHED"}
+                bpy.context.view_layer.update()
+                heads = {j: reader.pose_bone(b) for b, j in reader.HUMANOID.items()}
+                shown.append((receiver.time, heads))
+        time.sleep(0.5)
+    finally:
+        program.terminate()
+        program.wait()
+    assert len(shown) == LIVE_FRAMES, f"{len(shown)} poses"
+    pairs = [(heads, pose) for t, heads in shown for pose in poses if abs(pose["time"] - t) < 1e-3]
+    assert len(pairs) > LIVE_FRAMES // 2, f"{len(pairs)} poses have their message"
+    heads, pose = pairs[0]
+    start = heads["neck"] - from_camera(pose["joints"]["neck"])
+    worst = {}
+    for heads, pose in pairs:
+        for joint, head in heads.items():
+            far = 1000.0 * (head - start - from_camera(pose["joints"][joint])).length
+            worst[joint] = max(worst.get(joint, 0.0), far)
+    print(f"live, {len(pairs)} poses, at most, mm: " + ", ".join(f"{j} {far:.2f}" for j, far in worst.items()))
+
+    recorded = [pose.time for pose in receiver.recorded]
+    assert bpy.ops.telemime.record() == {"FINISHED"}
+    scene = bpy.context.scene
+    keys = {len(c.keyframe_points) for c in reader.armature().animation_data.action.fcurves}
+    first, off = scene.frame_current, 0.0
+    for t, heads in shown:
+        if t in recorded:
+            at = first + (t - recorded[0]) * scene.render.fps / scene.render.fps_base
+            scene.frame_set(int(at), subframe=at - int(at))
+            off = max(off, *(1000.0 * (reader.pose_bone(b) - heads[j]).length for b, j in reader.HUMANOID.items()))
+    print(f"recorded {keys} keys of {len(recorded)} poses; played at the times of the shown ones: at most {off:.2f} mm off")
+    assert bpy.ops.telemime.connect() == {"FINISHED"} and telemime.receiver is None, "the second press disconnects"
+    return max(worst.values()) < reader.NEAR and keys == {len(recorded)} and len(recorded) > LIVE_FRAMES // 2 and off < reader.NEAR
+
+
+def check_errors(folder, *_):
+    """What goes wrong has words."""
+    empty_scene()
+    words = Path(tempfile.mkdtemp()) / "words.bvh"
+    words.write_text("no motion at all")
+    for attempt in (lambda: bpy.ops.import_anim.telemime(filepath=str(words)),
+                    lambda: bpy.ops.import_anim.telemime(filepath=str(folder / "none.bvh"))):
+        try:
+            attempt()
+            return False
+        except RuntimeError as e:
+            assert "cannot be imported as motion.bvh of Telemime" in str(e), e
+    other = telemime.Receiver(0)
+    bpy.context.scene.telemime.port = other.socket.getsockname()[1]
+    try:
+        bpy.ops.telemime.connect()
+        return False
+    except RuntimeError as e:
+        assert "Another program may listen there" in str(e), e
+    other._take(list(telemime.read_osc(b"/VMC/Ext/OK\0,iiii\0\0\0" + bytes(15) + b"\1")))
+    assert other.tracking
+    other.socket.close()
+    return True
+
+
+def main():
+    folder = Path(sys.argv[sys.argv.index("--") + 1])
+    header, *lines = (json.loads(line) for line in (folder / "pose.jsonl").read_text().splitlines())
+    frames = [f for f in lines if f["state"] == "tracking"]
+    checks = [check(folder, frames, header["fps"]) for check in (check_import, check_other_rig, check_errors, check_live)]
+    print(f"{sum(checks)} passed, {len(checks) - sum(checks)} failed")
+    sys.exit(0 if all(checks) else 1)
+
+
+if __name__ == "__main__":
+    main()
