@@ -22,6 +22,7 @@
 #include "telemime/capture/playback.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
+#include "telemime/live/video_output.h"
 #include "track_options.h"
 
 #ifdef TELEMIME_MEETING
@@ -178,6 +179,9 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
   // time from the search and the page.
   cv::setNumThreads(1);
   // Nothing is lost before the input is open, so Ctrl-C need not wait for a camera or a network.
+  if (!command.live.virtual_camera.empty()) {
+    VideoOutput(command.live.virtual_camera).check();
+  }
   auto source = open_live(command, left_behind);
   note_interrupts();
   LiveProgram program(command.live, std::move(source), say);
@@ -228,6 +232,9 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   command->add_flag("--open", options->open, "Open the page in the default browser.");
   command->add_flag("--loop", options->loop, "Repeat a file from its start when it ends.");
   command->add_option("--send", live.send, "URLs to send the motion to, for instance vmc://localhost:39539.");
+  command->add_option("--virtual-camera", live.virtual_camera,
+                      "Show the image with the tracked body as a camera for other programs: a device of "
+                      "v4l2loopback, such as /dev/video9.");
   command->add_flag("--resume-outputs", live.resume_outputs,
                     "Send to the outputs that were added on the page in earlier runs.");
   command->add_flag("--no-settings", options->no_settings,

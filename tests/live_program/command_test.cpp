@@ -134,6 +134,21 @@ TEST_F(LiveCommand, FailuresHaveExitCodes) {
   EXPECT_TRUE(has(taken.words, std::to_string(other.port()))) << "also with --quiet: " << taken.words;
 }
 
+TEST_F(LiveCommand, VirtualCameraGetsPictures) {
+  const std::string camera = folder_ / "camera";
+  e2e::write_bytes(camera, "");
+  const e2e::Ended ended = e2e::run(live({"--seconds", "3", "--virtual-camera", camera}));
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  constexpr std::size_t kPicture = std::size_t{2} * 320 * 240;  // YUYV
+  const std::size_t size = std::filesystem::file_size(camera);
+  EXPECT_GE(size, 5 * kPicture);
+  EXPECT_EQ(size % kPicture, 0U) << "whole pictures";
+
+  const e2e::Ended none = e2e::run({"live", "/nothing/here.mp4", "--virtual-camera", "/dev/video63"});
+  EXPECT_EQ(none.code, 5) << "before the input is opened";
+  EXPECT_TRUE(has(none.words, "/dev/video63") && has(none.words, "v4l2loopback")) << none.words;
+}
+
 TEST_F(LiveCommand, QuietKeepsWarningsAndErrors) {
   save_settings(folder_.path() / "telemime" / "live.json", {{"vmc://localhost:39539"}});
   const e2e::Ended loud = e2e::run(live({"--seconds", "1"}));

@@ -17,6 +17,7 @@
 #include "telemime/live/live_messages.h"
 #include "telemime/live/live_monitors.h"
 #include "telemime/live/saved_outputs.h"
+#include "telemime/live/virtual_camera.h"
 #include "telemime/streaming/pose_message.h"
 #include "telemime/streaming/url.h"
 
@@ -60,6 +61,9 @@ struct LiveProgram::State {
     }
     saved_outputs.offer(options.resume_outputs);
     serve();
+    camera = std::make_unique<VirtualCamera>(
+        options.virtual_camera.empty() ? nullptr : std::make_unique<VideoOutput>(options.virtual_camera),
+        [this](MessageLevel level, const std::string& words) { notify(level, words); });
     LiveHooks hooks;
     hooks.picture = [this](const Frame& frame) { keep_picture(frame); };
     hooks.person = [this](const StreamHeader& header) { on_person(header); };
@@ -99,6 +103,7 @@ struct LiveProgram::State {
     if (session) {
       session->stop();
     }
+    camera.reset();
     recorder.close();
     if (server) {
       server->stop();
@@ -158,6 +163,7 @@ struct LiveProgram::State {
 
   // The image side: only leaves the picture for the picture_thread.
   void keep_picture(const Frame& frame) {
+    camera->picture(frame);
     if (!server->wanted(kPicture)) {
       return;
     }
@@ -208,6 +214,7 @@ struct LiveProgram::State {
     server->send_text(kWords, shared(text));
     senders.person(header);
     recorder.person(header);
+    camera->person(header);
     give_heap_back();  // what the scene and the person were learned from
   }
 
@@ -220,6 +227,7 @@ struct LiveProgram::State {
     }
     senders.send(frame, kMs * taken);
     recorder.write(frame);
+    camera->motion(frame);
   }
 
   std::string status() {
@@ -350,6 +358,7 @@ struct LiveProgram::State {
   CoresInUse cores{began, cpu_at_start};
 
   std::unique_ptr<WebServer> server;
+  std::unique_ptr<VirtualCamera> camera;
   std::unique_ptr<LiveSession> session;
   std::thread picture_thread;
   std::thread ticker;

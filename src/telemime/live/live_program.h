@@ -26,9 +26,10 @@ struct LiveRequest {
   std::filesystem::path avatars;  ///< folder of the page's avatars; empty: none
   std::filesystem::path more_avatars;  ///< a second one, of the user
   SenderKinds sender_kinds = telemime::sender_kinds();
-  std::vector<std::string> send;   ///< URLs of senders
-  std::filesystem::path settings;  ///< file of the settings for later runs; empty: nothing is saved
-  bool resume_outputs = false;     ///< turn on the outputs of earlier runs at once
+  std::vector<std::string> send;         ///< URLs of senders
+  std::filesystem::path virtual_camera;  ///< device for other programs (virtual_camera.h); empty: none
+  std::filesystem::path settings;        ///< file of the settings for later runs; empty: nothing is saved
+  bool resume_outputs = false;           ///< turn on the outputs of earlier runs at once
   std::filesystem::path recordings = "telemime-recordings";
   std::string version;
 };
