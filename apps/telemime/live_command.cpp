@@ -17,6 +17,7 @@
 #include "cli/data_folder.h"
 #include "cli/interrupt.h"
 #include "open_page.h"
+#include "telemime/capture/cameras.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/capture/live.h"
 #include "telemime/capture/playback.h"
@@ -155,6 +156,8 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
                                            ? (demo / "background.mp4").string()
                                            : command.track.request.background;
     command.loop = true;
+  } else {
+    command.track.request.input = with_camera_found(command.track.request.input, list_cameras());
   }
   command.live.request = make_request(command.track);
   const TrackOptions& track = command.track;
@@ -209,14 +212,14 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   CLI::App* command =
       app.add_subcommand("live", "Track the webcam and drive an avatar on a page and in other programs");
   add_track_options(*command, options->track);
-  command->get_option("INPUT")->required(false)->default_str("0")->description(
-      "Camera index or device, stream URL, file, or `demo`: the bundled clip.");
+  command->get_option("INPUT")->required(false)->description(
+      "Camera (its index, device or a part of its name), stream URL, file, or `demo`: the bundled clip. "
+      "Without it: the first camera.");
   for (const char* name : {"--frames", "--offline"}) {
     command->remove_option(command->get_option(name));
   }
   command->get_option("--quiet")->description(
       "Print only the address of the page, warnings, errors and the statistics at the end.");
-  options->track.request.input = "0";
   LiveRequest& live = options->live;
 #ifdef TELEMIME_MEETING
   live.sender_kinds = meeting::kAllSenderKinds;

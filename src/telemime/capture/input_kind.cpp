@@ -127,7 +127,7 @@ void require_readable_file(const std::string& path, InputKind kind) {
     throw cannot_read(
         path, kind, "no such file",
         "Check the name. An input is a video file, an image, a folder or pattern of images, a stream "
-        "URL, or a camera (0, /dev/video0).");
+        "URL, or a camera (0, /dev/video0 or a part of its name).");
   }
   if (status.type() == std::filesystem::file_type::none) {
     throw cannot_read(path, kind, problem.message(), "Check the rights of its folders.");

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/capture/cameras.h"
 #include "telemime/capture/changed_images.h"
 #include "telemime/capture/image_sequence.h"
 #include "telemime/capture/input_kind.h"
@@ -15,16 +16,27 @@
 #include "telemime/capture/source.h"
 #include "telemime/capture/stream.h"
 #include "telemime/capture/video_file.h"
-#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
+
+// A higher rate costs light and processor time.
+constexpr double kMostRate = 30.0;  // frames per second
 
 /// Copies of a VideoCapture share the same open device.
 LiveDevice camera_device(const std::string& device) {
   cv::VideoCapture video(device, cv::CAP_V4L2);
   if (!video.isOpened()) {
     return {};
+  }
+  CameraInfo info{.device = device};
+  ask_v4l2(info);
+  if (const auto mode = best_mode(info.modes)) {
+    const std::string& f = mode->format;
+    video.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc(f[0], f[1], f[2], f[3]));
+    video.set(cv::CAP_PROP_FRAME_WIDTH, mode->width);
+    video.set(cv::CAP_PROP_FRAME_HEIGHT, mode->height);
+    video.set(cv::CAP_PROP_FPS, std::min(mode->fps > 0.0 ? mode->fps : kMostRate, kMostRate));
   }
   video.set(cv::CAP_PROP_BUFFERSIZE, 1);  // old frames in the driver's queue are only delay
   return {
@@ -34,19 +46,12 @@ LiveDevice camera_device(const std::string& device) {
       [video] { return video.get(cv::CAP_PROP_POS_MSEC) / 1000.0; }, video.get(cv::CAP_PROP_FPS)};
 }
 
-std::string cameras_found() {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev", ignored)) {
-    if (entry.path().filename().string().starts_with("video")) {
-      names.push_back(entry.path().string());
-    }
-  }
-  std::sort(names.begin(), names.end());
-  return names.empty()
+std::string cameras_found(const std::vector<CameraInfo>& cameras) {
+  const std::string words = in_words(cameras);
+  return words.empty()
              ? "No camera is connected, or none is visible here (a container or a virtual machine must be "
                "given one)."
-             : "Devices found: " + joined(names) + ". Not all of them deliver images.";
+             : "Cameras found: " + words + ". `telemime doctor` tells more.";
 }
 
 std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, const LiveOptions& options) {
@@ -55,18 +60,22 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
   if (!std::filesystem::exists(device, ignored)) {
     const bool is_file = std::filesystem::exists(input, ignored);
     throw cannot_read(input, kind, "there is no " + device,
-                      is_file ? "The file of that name is ./" + input + "." : cameras_found());
+                      is_file ? "The file of that name is ./" + input + "." : cameras_found(list_cameras()));
   }
   if (::access(device.c_str(), R_OK | W_OK) != 0) {
     throw cannot_read(
         input, kind, "no permission to use " + device,
         "Add yourself to the group that owns it (sudo adduser $USER video), then log in again.");
   }
+  const std::vector<CameraInfo> cameras = list_cameras();
+  if (const std::string why = why_no_images(cameras, device); !why.empty()) {
+    throw cannot_read(input, kind, why, cameras_found(cameras));
+  }
   std::unique_ptr<Source> source = live_source(
       input, [device] { return camera_device(device); }, options);
   if (!source) {
     throw cannot_read(input, kind, device + " delivers no images",
-                      "Close other programs that use the camera. " + cameras_found());
+                      "Close other programs that use the camera. " + cameras_found(cameras));
   }
   return source;
 }
