@@ -35,4 +35,14 @@ inline int exit_code(ErrorKind kind) {
 /// The user pressed Ctrl-C; everything written so far is valid.
 class Interrupted : public std::exception {};
 
+/// The run failed, and the user has been told why.
+class ToldAlready : public std::exception {
+ public:
+  explicit ToldAlready(int code) : code_(code) {}
+  int code() const { return code_; }
+
+ private:
+  int code_;
+};
+
 }  // namespace telemime

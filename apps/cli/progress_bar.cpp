@@ -5,11 +5,10 @@
 
 #include <cstdio>
 #include <iostream>
-#include <string>
 
 namespace telemime {
 
-void ProgressBar::show(std::int64_t frames, std::int64_t total, double seconds) {
+void ProgressBar::show(const std::string& what, std::int64_t frames, std::int64_t total, double seconds) {
   const auto now = std::chrono::steady_clock::now();
   const bool terminal = isatty(STDERR_FILENO) == 1;
   const double pause = terminal ? 0.1 : 10.0;
@@ -27,6 +26,7 @@ void ProgressBar::show(std::int64_t frames, std::int64_t total, double seconds) 
     line = "[" + std::string(filled, '#') + std::string(kWidth - filled, '.') + "] " +
            std::to_string(frames) + "/" + std::to_string(total);
   }
+  line = what.empty() ? line : what + "  " + line;
   char words[64];
   std::snprintf(words, sizeof words, "  %.1f fps", rate);
   line += words;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace telemime {
 
@@ -11,7 +12,8 @@ namespace telemime {
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet) : quiet_(quiet) {}
-  void show(std::int64_t frames, std::int64_t total, double seconds);
+  /// `what` comes first, for instance the file or the stage; may be empty. `total` 0: not known.
+  void show(const std::string& what, std::int64_t frames, std::int64_t total, double seconds);
   /// Ends the line, so that other text can follow.
   void interrupt();
 

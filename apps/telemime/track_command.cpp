@@ -5,27 +5,26 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <opencv2/highgui.hpp>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "cli/exit_codes.h"
+#include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
 #include "telemime/offline/track_file.h"
+#include "track_many.h"
 #include "track_options.h"
 
 namespace telemime {
 namespace {
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-
-void on_interrupt(int) {
-  interrupt_requested = 1;
-}
 
 // Whether a window can be opened, tried in a process of its own: where there is no display some toolkits
 // abort.
@@ -49,6 +48,13 @@ bool window_opens() {
   return child > 0 && ::waitpid(child, &status, 0) == child && status == 0;
 }
 
+struct ManyFiles {
+  TrackOptions options;
+  std::vector<std::string> inputs;
+  int jobs = 1;
+  bool again = false;
+};
+
 ViewerRequest show_window(const Progress& progress) {
   constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
   if (progress.overlay != nullptr) {
@@ -58,7 +64,7 @@ ViewerRequest show_window(const Progress& progress) {
   if (key == ' ') {
     do {
       key = cv::waitKey(50);
-    } while (key != ' ' && key != 'q' && key != 27 && interrupt_requested == 0);
+    } while (key != ' ' && key != 'q' && key != 27 && !interrupted());
   }
   if (key == 'q' || key == 27) {
     return ViewerRequest::stop;
@@ -77,8 +83,23 @@ void print_summary(const TrackSummary& summary, const TrackRequest& request) {
   std::cout << "results in " << request.out.string() << '\n';
 }
 
-void run(const TrackOptions& options) {
-  TrackRequest request = make_request(options);
+// Tracks one file. Throws as track_file() does, Interrupted, and Error(tracking) when nobody was tracked.
+TrackSummary track_one(const TrackRequest& request, const RunHooks& hooks) {
+  const TrackSummary summary = track_file(request, hooks);
+  if (interrupted()) {
+    throw Interrupted();
+  }
+  if (summary.tracked == 0) {
+    const auto& notes = summary.report["notes"];
+    throw Error(ErrorKind::tracking, "nobody was tracked in " + shown_url(request.input),
+                notes.empty() ? "Is there a person who faces the camera?"
+                              : "The last reason: " + notes.back()["note"].get<std::string>());
+  }
+  return summary;
+}
+
+void run_one(const TrackOptions& options) {
+  const TrackRequest request = make_request(options);
   ProgressBar bar(options.quiet);
   RunHooks hooks;
   const bool show = options.show && window_opens();
@@ -93,50 +114,81 @@ void run(const TrackOptions& options) {
     }
   };
   hooks.progress = [&](const Progress& progress) {
-    if (progress.motion == nullptr) {
-      return interrupt_requested != 0 ? ViewerRequest::stop : ViewerRequest::none;
-    }
-    bar.show(progress.frames, progress.total, progress.seconds);
-    const ViewerRequest wish = show ? show_window(progress) : ViewerRequest::none;
-    return interrupt_requested != 0 ? ViewerRequest::stop : wish;
+    const bool ahead = progress.motion == nullptr;
+    bar.show(ahead ? "fitting the body" : "", progress.frames, progress.total, progress.seconds);
+    const ViewerRequest wish = show && !ahead ? show_window(progress) : ViewerRequest::none;
+    return interrupted() ? ViewerRequest::stop : wish;
   };
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  const TrackSummary summary = track_file(request, hooks);
+  note_interrupts();
+  const TrackSummary summary = track_one(request, hooks);
   bar.interrupt();
   if (!options.quiet) {
     print_summary(summary, request);
   }
-  if (interrupt_requested != 0) {
-    throw Interrupted();
+}
+
+// Each file with the same options into a folder of its own. Where files run beside each other, each has its
+// share of the processor.
+int run_many(const ManyFiles& many) {
+  if (many.options.show) {
+    throw Error(ErrorKind::usage, "--show is for one file", "Omit it, or give one file.");
   }
-  if (summary.tracked == 0) {
-    const auto& notes = summary.report["notes"];
-    throw Error(ErrorKind::tracking, "nobody was tracked in " + shown_url(request.input),
-                notes.empty() ? "Is there a person who faces the camera?"
-                              : "The last reason: " + notes.back()["note"].get<std::string>());
+  TrackRequest request = make_request(many.options);
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  if (request.config.threads == 0 && many.jobs > 1) {
+    request.config.threads = std::max(1, cores / many.jobs);
   }
+  const auto folders = folders_of(many.inputs, request.out);
+  std::vector<TrackRequest> requests(many.inputs.size(), request);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    requests[i].input = many.inputs[i];
+    requests[i].out = folders[i];
+  }
+  return track_many(
+      requests, {.jobs = many.jobs,
+                 .again = many.again,
+                 .quiet = many.options.quiet,
+                 .track = [](const TrackRequest& each, const RunHooks& hooks) { track_one(each, hooks); }});
 }
 
 }  // namespace
 
 void add_track_command(CLI::App& app) {
-  const auto options = std::make_shared<TrackOptions>();
+  const auto many = std::make_shared<ManyFiles>();
+  TrackOptions* const options = &many->options;
   CLI::App* command = app.add_subcommand("track", "Track the upper body of a person in a video, in 3-D");
   add_track_options(*command, *options);
+  command->remove_option(command->get_option("INPUT"));
+  command
+      ->add_option(
+          "INPUT", many->inputs,
+          "Video files, folders or patterns of images, or URLs of clips. With several, the results of "
+          "each have a folder of their own in that of --out; those that are there are left as they are.")
+      ->required();
+  command->add_option("--jobs", many->jobs, "Number of files to track at the same time [1].")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--again", many->again, "Also track files whose results are there.");
   command->add_option("--out", options->request.out, "Folder of the results.")->default_val("telemime-out");
   command->add_option("--calibration", options->request.calibration, "File that `telemime calibrate` wrote.");
   command
       ->add_option("--formats", options->request.formats,
                    "Formats to write, of jsonl, csv, bvh, bap, glb, vrma and trc; by default all.")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--bap-profile", options->request.output_options.bap_profile,
                       "Signs and units of motion.bap: iso, greta, vreng-3.1 or vreng-3.2.");
   command->add_flag("--no-fingers{false}", options->request.output_options.fingers,
                     "Skeletons and markers without fingers; pose.jsonl and pose.csv keep them.");
   command->add_flag("--no-overlay{false}", options->request.overlay, "Write no overlay video.");
   command->add_flag("--show", options->show, "Show overlay, top view and residuals in a window.");
-  command->callback([options] { run(*options); });
+  command->callback([many] {
+    if (many->inputs.size() == 1) {
+      many->options.request.input = many->inputs.front();
+      run_one(many->options);
+    } else if (const int code = run_many(*many); code != 0) {
+      throw ToldAlready(code);
+    }
+  });
 }
 
 }  // namespace telemime

@@ -46,7 +46,7 @@ void run_synth(const SynthArguments& arguments) {
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    options.progress = [&](int done, int all) { bar.show(done, all, seconds()); };
+    options.progress = [&](int done, int all) { bar.show("", done, all, seconds()); };
     const SequenceFiles files = make_sequence(options);
     bar.interrupt();
     if (!arguments.quiet) {

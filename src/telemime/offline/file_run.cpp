@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "telemime/offline/finished_run.h"
 #include "telemime/offline/overlay.h"
 #include "telemime/tracker/set_up.h"
 
@@ -79,7 +80,7 @@ ViewerRequest FileRun::add(FrameRecord record) {
   }
   return hooks_.progress(
       {.frames = frames_,
-       .total = info_.frames,
+       .total = frames_to_come(request_, info_),
        .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
        .motion = &motion,
        .overlay = overlay_.empty() ? nullptr : &overlay_});
@@ -114,6 +115,7 @@ TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
   summary.interrupted = interrupted;
   summary.report = statistics_.json();
   summary.report["input"] = info_.name;
+  summary.report["request"] = request_json(request_);
   summary.report["fps"] = info_.fps;
   summary.report["seconds"] = summary.seconds;
   summary.report["interrupted"] = interrupted;

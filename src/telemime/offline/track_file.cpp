@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/offline/track_file.h"
 
+#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -54,10 +55,12 @@ bool looks_ahead(const TrackRequest& request) {
 }
 
 // Where the look-ahead asks the viewer whether to go on.
-std::function<bool(const FrameRecord&)> go_on_of(const RunHooks& hooks) {
-  return [&hooks](const FrameRecord& record) {
+std::function<bool(const FrameRecord&)> go_on_of(const RunHooks& hooks, std::int64_t total) {
+  return [&hooks, total, start = std::chrono::steady_clock::now()](const FrameRecord& record) {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     return !hooks.progress ||
-           hooks.progress({.frames = record.frame.index + 1, .total = 0}) != ViewerRequest::stop;
+           hooks.progress({.frames = record.frame.index + 1, .total = total, .seconds = passed.count()}) !=
+               ViewerRequest::stop;
   };
 }
 
@@ -85,7 +88,10 @@ CalibratedPerson calibrate_file(const TrackRequest& request, const RunHooks& hoo
     const auto keep_reason = [&](FrameRecord record) {
       reason = record.estimate.note.empty() ? reason : record.estimate.note;
     };
-    LookAhead ahead = look_ahead({.next = next, .settle = keep_reason, .go_on = go_on_of(hooks)}, run);
+    LookAhead ahead = look_ahead({.next = next,
+                                  .settle = keep_reason,
+                                  .go_on = go_on_of(hooks, frames_to_come(request, opened.source->info()))},
+                                 run);
     if (ahead.person) {
       report_fit(*ahead.person, hooks);
       person = ahead.person->start.person;
@@ -128,7 +134,7 @@ TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks) {
   if (looks_ahead(request)) {
     LookAhead ahead = look_ahead({.next = next,
                                   .settle = [&](FrameRecord record) { file.add(std::move(record)); },
-                                  .go_on = go_on_of(hooks),
+                                  .go_on = go_on_of(hooks, frames_to_come(request, opened.source->info())),
                                   .longest_side = file.picture_side()},
                                  run);
     if (ahead.person) {

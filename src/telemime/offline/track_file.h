@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -29,6 +30,12 @@ struct RunHooks {
   std::function<void(const std::string&)> message;         ///< notes for the user; may be empty
   bool draw = false;                                       ///< make overlays even when none is written
 };
+
+/// Number of frames that a run takes from its input; 0: not known.
+inline std::int64_t frames_to_come(const TrackRequest& request, const SourceInfo& info) {
+  return request.most_frames > 0 && info.frames > 0 ? std::min(request.most_frames, info.frames)
+                                                    : std::max(request.most_frames, info.frames);
+}
 
 struct TrackSummary {
   std::int64_t frames = 0;

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/offline/finished_run.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "telemime/core/scratch_folder.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A run that is finished: its clip, one output and its report.
+struct FinishedExample {
+  ScratchFolder folder;
+  TrackRequest request;
+
+  FinishedExample() {
+    request.input = folder.file("clip.mp4");
+    request.out = folder.path() / "out";
+    fs::create_directories(request.out);
+    std::ofstream(request.input) << "a clip";
+    std::ofstream(request.out / "pose.jsonl") << "poses";
+    write({{"request", request_json(request)}, {"interrupted", false}, {"files", {pose()}}});
+  }
+  std::string pose() const { return (request.out / "pose.jsonl").string(); }
+  void write(const nlohmann::json& report) const { std::ofstream(request.out / "report.json") << report; }
+};
+
+TEST(FinishedRun, IsOneWithAReportOfTheSameRequest) {
+  FinishedExample run;
+  EXPECT_TRUE(is_finished(run.request));
+  run.request.config.threads = 3;
+  EXPECT_TRUE(is_finished(run.request)) << "threads change no result";
+}
+
+TEST(FinishedRun, AnyOtherRequestIsNot) {
+  const std::vector<void (*)(TrackRequest&)> changes = {
+      [](TrackRequest& r) { r.config.seed = 7; },
+      [](TrackRequest& r) { r.config.quality = "fast"; },
+      [](TrackRequest& r) { r.config.smoothing.name = "none"; },
+      [](TrackRequest& r) { r.background = "empty.mp4"; },
+      [](TrackRequest& r) { r.camera = "camera.yml"; },
+      [](TrackRequest& r) { r.calibration = "person.json"; },
+      [](TrackRequest& r) { r.input_options.rate = 12.0; },
+      [](TrackRequest& r) { r.input_options.mirrored = true; },
+      [](TrackRequest& r) { r.formats = {"bvh"}; },
+      [](TrackRequest& r) { r.overlay = false; },
+      [](TrackRequest& r) { r.output_options.fingers = false; },
+      [](TrackRequest& r) { r.most_frames = 5; },
+      [](TrackRequest& r) { r.out = r.out.parent_path(); },
+  };
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    FinishedExample run;
+    changes[i](run.request);
+    EXPECT_FALSE(is_finished(run.request)) << "change " << i;
+  }
+}
+
+TEST(FinishedRun, OneThatWasStoppedOrIsIncompleteIsNot) {
+  FinishedExample run;
+  run.write({{"request", request_json(run.request)}, {"interrupted", true}, {"files", {run.pose()}}});
+  EXPECT_FALSE(is_finished(run.request));
+  run.write({{"request", request_json(run.request)}, {"interrupted", false}});
+  EXPECT_FALSE(is_finished(run.request)) << "no files";
+  for (const char* text : {"", "{", "[]", "null", "{\"files\": 3}", "{\"request\": {}}"}) {
+    std::ofstream(run.request.out / "report.json") << text;
+    EXPECT_FALSE(is_finished(run.request)) << text;
+  }
+  FinishedExample without;
+  fs::remove(without.pose());
+  EXPECT_FALSE(is_finished(without.request));
+}
+
+TEST(FinishedRun, ANewerInputIsTrackedAgain) {
+  const FinishedExample run;
+  fs::last_write_time(run.request.input,
+                      fs::last_write_time(run.request.out / "report.json") + std::chrono::hours(1));
+  EXPECT_FALSE(is_finished(run.request));
+}
+
+TEST(FinishedRun, AReportHoldsNoPasswords) {
+  TrackRequest request;
+  request.input = "http://me:secret@host/clip.mp4?token=secret";
+  request.background = "http://me:secret@host/empty.mp4";
+  EXPECT_EQ(request_json(request).dump().find("secret"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace telemime

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// `track` with several files.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/exit_codes.h"
+#include "run_program.h"
+#include "telemime/outputs/readers/jsonl.h"
+
+namespace telemime::e2e {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> command(const std::vector<std::string>& inputs, const std::string& out,
+                                 const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all = {"track"};
+  all.insert(all.end(), inputs.begin(), inputs.end());
+  for (const char* option :
+       {"--background", wall_clip().c_str(), "--set", "image.width=160", "--set", "image.height=120", "--set",
+        "registration.iterations=100", "--no-overlay", "--out"}) {
+    all.emplace_back(option);
+  }
+  all.push_back(out);
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::size_t frames_in(const std::string& folder) {
+  return fs::exists(folder + "/pose.jsonl") ? read_pose_jsonl(folder + "/pose.jsonl").frames.size() : 0;
+}
+
+bool says(const Ended& ended, const std::string& words) {
+  return ended.output.find(words) != std::string::npos || ended.words.find(words) != std::string::npos;
+}
+
+TEST(ManyFiles, EachHasAFolderAndOneThatFailsStopsNone) {
+  const Folder folder;
+  fs::create_directory(folder / "other");
+  fs::create_directory_symlink(person_clip(), folder / "first");
+  fs::create_directory_symlink(person_clip(), folder / "other/first");
+  write_bytes(folder / "broken.mp4", "no video");
+  const std::vector<std::string> inputs = {folder / "first", folder / "broken.mp4", folder / "other/first/"};
+  const Ended ended = run(command(inputs, folder / "out", {"--jobs", "2"}));
+  EXPECT_EQ(ended.code, kExitInput) << ended.words;
+  EXPECT_EQ(frames_in(folder / "out/first"), std::size_t{kPersonFrames});
+  EXPECT_EQ(frames_in(folder / "out/first-2"), std::size_t{kPersonFrames});
+  EXPECT_TRUE(says(ended, "broken.mp4: failed")) << ended.output;
+  EXPECT_TRUE(says(ended, "2 tracked, 0 done before, 1 failed")) << ended.output;
+
+  // Again: only what failed. With another seed: all.
+  const Ended again = run(command(inputs, folder / "out"));
+  EXPECT_EQ(again.code, kExitInput);
+  EXPECT_TRUE(says(again, "0 tracked, 2 done before, 1 failed")) << again.output;
+  const Ended other = run(command({inputs[0], inputs[2]}, folder / "out", {"--seed", "7"}));
+  EXPECT_EQ(other.code, 0);
+  EXPECT_TRUE(says(other, "2 tracked, 0 done before, 0 failed")) << other.output;
+}
+
+TEST(ManyFiles, HaveTheResultsOfEachAlone) {
+  const Folder folder;
+  ASSERT_EQ(run(command({person_clip()}, folder / "alone")).code, 0);
+  fs::create_directory_symlink(person_clip(), folder / "second");
+  ASSERT_EQ(run(command({person_clip(), folder / "second"}, folder / "many")).code, 0);
+  EXPECT_EQ(bytes_of(folder / "alone/motion.bvh"), bytes_of(folder / "many/second/motion.bvh"));
+}
+
+TEST(ManyFiles, StoppedKeepWhatTheyHaveAndGoOnLater) {
+  const Folder folder;
+  std::vector<std::string> inputs;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    inputs.push_back(folder / name);
+    fs::create_directory_symlink(person_clip(), inputs.back());
+  }
+  Program program(command(inputs, folder / "out"));
+  while (program.running() && frames_in(folder / "out/a") == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  program.signal(SIGINT);
+  const Ended stopped = program.wait();
+  EXPECT_EQ(stopped.code, kExitInterrupted) << stopped.words;
+  EXPECT_TRUE(says(stopped, "not begun")) << stopped.output;
+  const Ended rest = run(command(inputs, folder / "out"));
+  EXPECT_EQ(rest.code, 0) << rest.words;
+  for (const char* name : {"out/a", "out/b", "out/c", "out/d"}) {
+    EXPECT_EQ(frames_in(folder / name), std::size_t{kPersonFrames}) << name;
+  }
+}
+
+TEST(ManyFiles, CannotBeShown) {
+  const Folder folder;
+  const Ended ended = run(command({person_clip(), wall_clip()}, folder / "out", {"--show"}));
+  EXPECT_EQ(ended.code, kExitUsage);
+  EXPECT_TRUE(says(ended, "--show is for one file"));
+}
+
+}  // namespace
+}  // namespace telemime::e2e
