@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <atomic>
 #include <memory>
+#include <ostream>
 
 /// The subcommands of the program, in the order of its help.
 namespace telemime {
@@ -27,6 +28,12 @@ void add_evaluate_command(CLI::App& app);
 
 /// Adds `telemime avatar`: writes one of the project's own avatars as a VRM file.
 void add_avatar_command(CLI::App& app);
+
+/// Adds `telemime doctor`: looks at this computer and says what to do where something is missing.
+void add_doctor_command(CLI::App& app);
+
+/// Prints what can be done here: the camera that was found, and the first commands to try.
+void print_first_steps(std::ostream& out);
 
 /// Adds `telemime config`: prints the effective settings, or explains them.
 void add_config_command(CLI::App& app);

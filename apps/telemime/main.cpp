@@ -23,7 +23,7 @@ namespace {
 
 int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   CLI::App app("Telemime: 3-D motion capture of the upper body from one camera", "telemime");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.set_version_flag("--version", TELEMIME_VERSION);
   add_live_command(app, left_behind);
 #ifdef TELEMIME_MEETING
@@ -34,11 +34,17 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   add_evaluate_command(app);
   add_avatar_command(app);
   add_config_command(app);
+  add_doctor_command(app);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      print_first_steps(std::cout);
+    }
   } catch (const CLI::ParseError& e) {
     const int code = app.exit(e, std::cout, std::cerr);
     return code == 0 ? 0 : kExitUsage;
+  } catch (const ToldAlready& told) {
+    return told.code();
   } catch (const Interrupted&) {
     return kExitInterrupted;
   } catch (const Error& e) {
