@@ -227,7 +227,10 @@ class Retarget:
 
 def import_recording(file, target=None, convention="VRM", place="FLOOR", set_rate=True):
     """Imports motion.bvh onto `target`, or onto a new rig."""
-    skeleton, poses, fps = read_bvh(file)
+    try:
+        skeleton, poses, fps = read_bvh(file)
+    except (ValueError, IndexError, KeyError) as e:
+        raise ValueError("it is no motion.bvh of Telemime") from e
     scene = bpy.context.scene
     if place == "FLOOR":
         moved = skeleton.bones["hips"][1] - poses[0].hips
@@ -285,7 +288,7 @@ class Receiver:
                 fresh = self._take(read_osc(self.socket.recv(65536))) or fresh
             except BlockingIOError:
                 break
-            except (ValueError, IndexError, struct.error):
+            except (ValueError, IndexError, TypeError, RecursionError, struct.error):
                 continue  # no VMC
         if fresh and self.frames > 1:
             self._fit()
@@ -306,7 +309,8 @@ class Receiver:
             elif address == "/VMC/Ext/Bone/Pos":
                 name, x, y, z, qx, qy, qz, qw = values
                 bone = re.sub("Thumb(Proximal|Intermediate)", lambda m: UNITY[m[0]], name[:1].lower() + name[1:])
-                if bone in PARENT or bone == "hips":  # Unity's frame is the mirror image of VRM's in x
+                finite = all(math.isfinite(v) for v in values[1:])
+                if finite and (bone in PARENT or bone == "hips"):  # Unity's frame is the mirror image of VRM's in x
                     self.offsets[bone], self.turns[bone] = up_z((-x, y, z)), Quaternion((qw, *up_z((qx, -qy, -qz))))
                     moved = True
         return moved
@@ -419,8 +423,8 @@ class TELEMIME_OT_import(bpy.types.Operator, ImportHelper):
         settings = context.scene.telemime
         try:
             import_recording(self.filepath, settings.target, settings.names, self.place, self.set_rate)
-        except (OSError, ValueError, IndexError, KeyError) as e:
-            self.report({"ERROR"}, f"{self.filepath} cannot be imported as motion.bvh of Telemime: {e}")
+        except (OSError, ValueError) as e:
+            self.report({"ERROR"}, f"{self.filepath} cannot be imported: {getattr(e, 'strerror', None) or e}")
             return {"CANCELLED"}
         return {"FINISHED"}
 

@@ -211,6 +211,8 @@ TEST_F(LiveRun, GuideWaitsForAPageAndReportsIt) {
   request.page_wait = 2.0;
   scene_->show(empty_room());
   const LiveProgram program(request, camera_of(scene_), console());
+  SocketClient avatar(program.port());  // a page that shows no camera does not guide
+  avatar.say(R"({"type":"pictures","on":false})");
   const std::string url = "http://localhost:" + std::to_string(program.port());
   EXPECT_TRUE(comes_true([&] { return contains(warnings_, "waiting for the page"); }));
   EXPECT_TRUE(contains(warnings_, url) && contains(warnings_, "--no-guide")) << warnings_;

@@ -7,6 +7,8 @@ pose.jsonl and of the pose messages that the program sends to pages. Exits with 
 import asyncio
 import json
 import os
+import random
+import socket
 import subprocess
 import sys
 import tempfile
@@ -174,13 +176,12 @@ def check_errors(folder, *_):
     empty_scene()
     words = Path(tempfile.mkdtemp()) / "words.bvh"
     words.write_text("no motion at all")
-    for attempt in (lambda: bpy.ops.import_anim.telemime(filepath=str(words)),
-                    lambda: bpy.ops.import_anim.telemime(filepath=str(folder / "none.bvh"))):
+    for file, reason in ((words, "it is no motion.bvh of Telemime"), (folder / "none.bvh", "No such file")):
         try:
-            attempt()
+            bpy.ops.import_anim.telemime(filepath=str(file))
             return False
         except RuntimeError as e:
-            assert "cannot be imported as motion.bvh of Telemime" in str(e), e
+            assert reason in str(e), e
     other = telemime.Receiver(0)
     bpy.context.scene.telemime.port = other.socket.getsockname()[1]
     try:
@@ -188,8 +189,17 @@ def check_errors(folder, *_):
         return False
     except RuntimeError as e:
         assert "Another program may listen there" in str(e), e
-    other._take(list(telemime.read_osc(b"/VMC/Ext/OK\0,iiii\0\0\0" + bytes(15) + b"\1")))
-    assert other.tracking
+    good = b"/VMC/Ext/OK\0,iiii\0\0\0" + bytes(15) + b"\1"
+    bone = b"/VMC/Ext/Bone/Pos\0\0\0"
+    chance, sender = random.Random(1), socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    bad = [b"", b"#bundle\0", b"#bundle\0" + 12 * b"\xff", 3000 * (b"#bundle\0" + bytes(8) + b"\0\0\xea\0"),
+           bone + b",sfffffff\0\0\0Hips\0\0\0\0" + 7 * b"\x7f\xc0\0\0", bone + b",ssssssss\0\0\0" + 8 * b"Hip\0",
+           *(chance.randbytes(n) for n in range(1, 60)), *(good[:n] for n in range(len(good))),
+           *(bone + b"," + chance.randbytes(40) + bytes(8) for _ in range(100))]
+    for datagram in [*bad, good]:
+        sender.sendto(datagram, other.socket.getsockname())
+        other.poll()
+    assert other.tracking and not other.offsets, "what is no VMC is ignored"
     other.socket.close()
     return True
 

@@ -22,6 +22,15 @@ export const OPTIONS = ["avatar", "framing", "width", "height", "background", "m
 const GREEN = "#00ff00"; // what OBS's chroma key takes away
 const MOST = 7680; // pixels
 
+/** URL.canParse is newer than the browser in many versions of OBS. */
+function urlOf(text: string, base: string): URL | null {
+  try {
+    return new URL(text, base);
+  } catch {
+    return null;
+  }
+}
+
 /** Reads the page's own address; `mistakes` are words for the user. */
 export function readOptions(address: string): { options: Options; mistakes: string[] } {
   // A colour may be written with its "#", which would begin the fragment of an address.
@@ -56,9 +65,9 @@ export function readOptions(address: string): { options: Options; mistakes: stri
   const avatar = (): string | URL | null => {
     const value = given.get("avatar");
     if (value === null || /^[A-Za-z0-9_-]+$/.test(value)) return value;
-    const url = URL.canParse(value, address) ? new URL(value, address) : null;
+    const url = /[/.]/.test(value) ? urlOf(value, address) : null;
     const rule = "it is the name of an avatar of Telemime, or the address (http or https) of a VRM file";
-    return url && /^https?:$/.test(url.protocol) && /[/.]/.test(value) ? url : wrong("avatar", rule);
+    return url && /^https?:$/.test(url.protocol) ? url : wrong("avatar", rule);
   };
   const options: Options = {
     avatar: avatar(),
