@@ -50,7 +50,7 @@ void VirtualCamera::person(const StreamHeader& header) {
   if (!output_) {
     return;
   }
-  auto person = std::make_shared<const Person>(make_model(header.body.shape), header.camera);
+  auto person = std::make_shared<const Person>(Person{make_model(header.body.shape), header.camera});
   const std::lock_guard lock(mutex_);
   person_ = std::move(person);
 }
