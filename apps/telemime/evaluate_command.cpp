@@ -49,6 +49,10 @@ void run_evaluate(const EvaluateArguments& arguments) {
   if (!pose.complaint.empty()) {
     std::cerr << "note: " << pose.complaint << '\n';
   }
+  if (!arguments.options.by_time && has_variable_rate(pose.frames, truth.fps)) {
+    std::cerr << "note: the times of the poses differ from those of the truth's frames of the same numbers; "
+                 "--by-time compares frames of the same time\n";
+  }
   std::cout << "poses  " << arguments.pose << '\n' << evaluation_table(evaluation) << std::flush;
   if (!arguments.json.empty()) {
     write_json(arguments.json, evaluation);
@@ -63,6 +67,9 @@ void add_evaluate_command(CLI::App& app) {
   command->add_option("POSE", arguments->pose, "pose.jsonl of a run.")->required();
   command->add_option("--truth", arguments->truth, "truth.json of the same clip.")->required();
   command->add_option("--json", arguments->json, "Also write all measures to this file.");
+  command->add_flag("--by-time", arguments->options.by_time,
+                    "Compare frames of the same time, not of the same number: for recordings and videos of "
+                    "variable rate.");
   command
       ->add_option("--max-f", arguments->options.max_region_score,
                    "Largest F of a frame that counts as tracked.")

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "telemime/core/errors.h"
 #include "telemime/evaluation/error_means.h"
@@ -228,8 +229,36 @@ double fit_scale(const JointTrack& estimate, const JointTrack& truth) {
   return square > 0.0 && product > 0.0 ? product / square : 1.0;
 }
 
-Evaluation evaluate(const std::vector<MotionFrame>& frames, const Camera& input, const Truth& truth,
+std::vector<MotionFrame> numbered_by_time(const std::vector<MotionFrame>& frames, double fps) {
+  std::map<std::int64_t, const MotionFrame*> nearest;
+  const auto distance = [fps](const MotionFrame& frame, std::int64_t number) {
+    return std::abs(frame.time * fps - static_cast<double>(number));
+  };
+  for (const MotionFrame& frame : frames) {
+    const std::int64_t number = std::llround(frame.time * fps);
+    const auto [place, is_new] = nearest.try_emplace(number, &frame);
+    if (!is_new && distance(frame, number) < distance(*place->second, number)) {
+      place->second = &frame;
+    }
+  }
+  std::vector<MotionFrame> numbered;
+  numbered.reserve(nearest.size());
+  for (const auto& [number, frame] : nearest) {
+    numbered.push_back(*frame);
+    numbered.back().frame = number;
+  }
+  return numbered;
+}
+
+bool has_variable_rate(const std::vector<MotionFrame>& frames, double fps) {
+  return std::any_of(frames.begin(), frames.end(), [fps](const MotionFrame& frame) {
+    return std::abs(frame.time * fps - static_cast<double>(frame.frame)) > 0.5;
+  });
+}
+
+Evaluation evaluate(const std::vector<MotionFrame>& given, const Camera& input, const Truth& truth,
                     const EvaluationOptions& options) {
+  const std::vector<MotionFrame> frames = options.by_time ? numbered_by_time(given, truth.fps) : given;
   const Matched matched = match(frames, truth.frames.size());
   if (matched.found == 0) {
     throw Error(ErrorKind::input, "the poses and " + truth.name + " have no frame in common",

@@ -20,6 +20,9 @@ struct EvaluationOptions {
   /// A tracked frame with F above this, or D_C (pixels of the working image) above that, is mistracked.
   double max_region_score = 0.5;
   double max_contour_score = 4.0;
+  /// Poses are those of the frames of the truth at their times, not of the same numbers: for recordings and
+  /// videos of variable rate, which hold some of the frames.
+  bool by_time = false;
 };
 
 /// Mean errors, m and pixels; nothing where no frame could be measured.
@@ -90,6 +93,13 @@ struct Evaluation {
 /// Error(input) when they have no frame in common, or none that can be scored.
 Evaluation evaluate(const std::vector<MotionFrame>& frames, const Camera& input, const Truth& truth,
                     const EvaluationOptions& options);
+
+/// The frames with the numbers that frames of a constant rate have at their times; of several with the same
+/// number, the nearest.
+std::vector<MotionFrame> numbered_by_time(const std::vector<MotionFrame>& frames, double fps);
+
+/// Whether a frame is more than half a frame from the time that its number has at a constant rate.
+bool has_variable_rate(const std::vector<MotionFrame>& frames, double fps);
 
 /// The factor that brings the estimate to the truth's size: least squares over elbows, wrists and shoulders
 /// with the mid-shoulders as origin. 1 when there is nothing to fit.

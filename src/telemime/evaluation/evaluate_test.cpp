@@ -127,6 +127,39 @@ TEST(Evaluate, PixelsOfASmallerInputAreComparedInTheTruthsImage) {
   EXPECT_NEAR(*result.tracked.scored.pixels_at_depth, 4.0 * 1.3 / scene.header.camera.fx, 0.003);
 }
 
+TEST(Evaluate, FramesOfARecordingAreComparedByTime) {
+  // A recording that holds two frames of three, numbered on, each up to 12 ms from its time.
+  Scene scene;
+  std::vector<MotionFrame> kept;
+  for (std::size_t t = 0; t < scene.frames.size(); ++t) {
+    scene.frames[t].time = static_cast<double>(t) / scene.truth.fps;
+    if (t % 3 != 2) {
+      kept.push_back(scene.frames[t]);
+      kept.back().frame = static_cast<std::int64_t>(kept.size()) - 1;
+      kept.back().time += t % 2 == 0 ? 0.012 : -0.012;
+    }
+  }
+  EXPECT_FALSE(has_variable_rate(scene.frames, scene.truth.fps));
+  EXPECT_TRUE(has_variable_rate(kept, scene.truth.fps));
+  const Evaluation by_number = evaluate(kept, scene.header.camera, scene.truth, {});
+  const Evaluation by_time = evaluate(kept, scene.header.camera, scene.truth, {.by_time = true});
+  EXPECT_GT(*by_number.tracked.scored.aligned, 0.01);
+  EXPECT_NEAR(*by_time.tracked.scored.aligned, 0.0, 1e-9);
+  EXPECT_EQ(by_time.pose_frames, kept.size());
+  EXPECT_EQ(by_time.lag->frames, 0.0);
+}
+
+TEST(Evaluate, TheNearestOfFramesAtOneTimeCounts) {
+  std::vector<MotionFrame> frames(3);
+  frames[0].time = 0.030;
+  frames[1].time = 0.041;
+  frames[2].time = 0.055;
+  const auto numbered = numbered_by_time(frames, 25.0);
+  ASSERT_EQ(numbered.size(), 1U);
+  EXPECT_EQ(numbered[0].frame, 1);
+  EXPECT_EQ(numbered[0].time, 0.041);
+}
+
 TEST(Evaluate, FindsExchangedArms) {
   Scene scene;
   for (const std::size_t t : {10U, 11U, 40U}) {
