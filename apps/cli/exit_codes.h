@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <exception>
+#include <string_view>
+#include <utility>
 
 #include "telemime/core/errors.h"
 
@@ -15,6 +18,19 @@ inline constexpr int kExitInput = 4;
 inline constexpr int kExitOutput = 5;
 inline constexpr int kExitTracking = 6;
 inline constexpr int kExitInterrupted = 130;
+
+/// What they mean, as the manual page says it.
+inline constexpr std::array<std::pair<int, std::string_view>, 8> kExitMeanings = {{
+    {0, "success"},
+    {kExitInternal, "unexpected failure"},
+    {kExitUsage, "invalid option or argument"},
+    {kExitConfig, "a configuration, limits, camera or calibration file cannot be used"},
+    {kExitInput, "the input cannot be read"},
+    {kExitOutput, "results cannot be written"},
+    {kExitTracking, "no person was tracked"},
+    {kExitInterrupted,
+     "interrupted by Ctrl-C (not live, for which this is the usual end); everything written is valid"},
+}};
 
 inline int exit_code(ErrorKind kind) {
   switch (kind) {

@@ -11,6 +11,7 @@
 
 #include "cli/exit_codes.h"
 #include "commands.h"
+#include "reference.h"
 #include "telemime/capture/prepare_opencv.h"
 
 #ifdef TELEMIME_MEETING
@@ -35,6 +36,13 @@ int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   add_avatar_command(app);
   add_config_command(app);
   add_doctor_command(app);
+  // Without a group it is in no help text: the build calls it.
+  const auto write = [&app](const std::string& folder) {
+    write_reference(app, folder, TELEMIME_VERSION);
+    throw CLI::Success();
+  };
+  app.add_option_function<std::string>("--write-reference", write, "Folder of manual pages and completion.")
+      ->group("");
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
