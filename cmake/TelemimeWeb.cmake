@@ -66,6 +66,21 @@ else()
   add_custom_target(telemime_models)
 endif()
 
+# The target telemime_copyright: the licences of all that is installed, in copyright of the build tree.
+if(TELEMIME_WEB AND TELEMIME_MODELS)
+  set(script "${CMAKE_CURRENT_LIST_DIR}/page_licences.mjs")
+  set(lock "${CMAKE_SOURCE_DIR}/package-lock.json")
+  add_custom_command(
+    OUTPUT "${PROJECT_BINARY_DIR}/copyright"
+    COMMAND "${TELEMIME_NODE}" "${script}" "${CMAKE_SOURCE_DIR}/NOTICE" "${lock}"
+            "${PROJECT_BINARY_DIR}/web/copy/node_modules" "${PROJECT_BINARY_DIR}/copyright"
+    DEPENDS "${PROJECT_BINARY_DIR}/web/packages.stamp" "${CMAKE_SOURCE_DIR}/NOTICE" "${script}"
+    COMMENT "Collecting the licences"
+    VERBATIM)
+  add_custom_target(telemime_copyright ALL DEPENDS "${PROJECT_BINARY_DIR}/copyright")
+  add_dependencies(telemime_copyright telemime_packages)
+endif()
+
 function(telemime_page target)
   set(scripts "${CMAKE_CURRENT_FUNCTION_LIST_DIR}")
   set(table "${CMAKE_CURRENT_BINARY_DIR}/made/page_table.cpp")
