@@ -29,6 +29,9 @@ std::filesystem::path find_cascade(const std::filesystem::path& folder, const st
   if (!folder.empty()) {
     places.push_back(folder);
   } else {
+    std::error_code failed;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    places.push_back(program.parent_path() / "share" / "opencv4" / "haarcascades");
     for (const char* place : {"/usr/share/opencv4/haarcascades", "/usr/local/share/opencv4/haarcascades",
                               "/opt/homebrew/share/opencv4/haarcascades", "/usr/share/opencv/haarcascades"}) {
       places.emplace_back(place);

@@ -9,8 +9,9 @@
 
 namespace telemime {
 
-/// Path of the cascade file `name` in `folder` or, if that is empty, in the usual folders of OpenCV. Throws
-/// Error(config) that names the folders searched.
+/// Path of the cascade file `name` in `folder` or, if that is empty, in share/opencv4/haarcascades beside the
+/// folder of the running program (a program that brings its libraries) and in the usual folders of OpenCV.
+/// Throws Error(config) that names the folders searched.
 std::filesystem::path find_cascade(const std::filesystem::path& folder, const std::string& name);
 
 /// Whether a detected square can be a face, for instance by its colour.
