@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install count clean
+TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test count clean
 .PHONY: $(TARGETS) deps-page deps-test program configure
 
 help: ## this list
@@ -92,6 +92,17 @@ fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 install: build ## install program, libraries, headers and data below PREFIX (/usr/local)
 	@cmake --build build/release -j $(JOBS)
 	@cmake --install build/release --prefix $(PREFIX)
+
+package: build ## Debian packages, and a tarball with all libraries: build/release/packages
+	@scripts/deps.sh package
+	@cmake --build build/release --target telemime_reference telemime_copyright -j $(JOBS)
+	@cd build/release && cpack > package.log 2>&1 || { cat package.log; exit 1; }
+	@scripts/tarball.sh
+	@ls -1 build/release/packages/*.deb
+
+package-test: ## install the packages on clean systems without a network, and use them there (as root)
+	@scripts/deps.sh package
+	@scripts/package_test.sh
 
 count: ## lines of code, with and without tests, and their budgets
 	@scripts/count.sh

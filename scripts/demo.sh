@@ -29,14 +29,7 @@ for result in "$out/pose.jsonl" "$out/overlay.png"; do
     exit 1
   fi
 done
-# The limits are those of tests/accuracy.
-python3 - "$out/accuracy.json" << 'END'
-import json, sys
-result = json.load(open(sys.argv[1]))
-tracked = result["error"]["tracked"]
-if tracked["aligned_mm"] > 45 or tracked["image_px"] > 3.5 or result["lost"]["all_frames"] or result["swapped"]["frames"]:
-    sys.exit("demo: the error is above its limit (45 mm, 3.5 px, no lost frame, no exchanged arms)")
-END
+python3 scripts/demo_limits.py "$out/accuracy.json"
 echo
 echo "Results are in $out:"
 ls -1 "$out" | sed 's/^/  /'

@@ -1,0 +1,21 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Fails when the bundled clip was tracked worse than tests/accuracy allows. Usage: demo_limits.py ACCURACY.json
+(what `telemime evaluate --json` wrote)."""
+
+import json
+import sys
+
+
+def check(file):
+    with open(file, encoding="utf-8") as text:
+        result = json.load(text)
+    tracked = result["error"]["tracked"]
+    good = tracked["aligned_mm"] <= 45 and tracked["image_px"] <= 3.5
+    if not good or result["lost"]["all_frames"] or result["swapped"]["frames"]:
+        sys.exit("demo: the error is above its limit (45 mm, 3.5 px, no lost frame, no exchanged arms)")
+    return tracked
+
+
+if __name__ == "__main__":
+    check(sys.argv[1])
