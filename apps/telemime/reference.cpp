@@ -12,6 +12,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kAbout =
+    "Telemime follows a person's body, hands and face in a webcam or a video, and passes the motion on: to "
+    "an avatar on a page, "
+    "to other programs, to files. Without a command it says what can be done on this computer.";
+
 // A command with the words that call it: "telemime", "telemime live", "telemime meeting record".
 struct Command {
   const CLI::App* app = nullptr;
@@ -147,7 +152,7 @@ std::string manual_page(const Command& command, const std::string& version) {
       roff(is_program ? "3-D motion capture of the upper body from one camera" : app.get_description()) +
       "\n.SH SYNOPSIS\n" + bold(command.words);
   if (!below.empty()) {
-    page += is_program ? " " + italic("COMMAND") : " [" + italic("COMMAND") + "]";
+    page += " [" + italic("COMMAND") + "]";
   }
   page += " [" + italic("OPTION") + "...]";
   for (const CLI::Option* option : options) {
@@ -156,7 +161,7 @@ std::string manual_page(const Command& command, const std::string& version) {
       page += option->get_required() ? " " + name : " [" + name + "]";
     }
   }
-  page += "\n.SH DESCRIPTION\n" + roff(sentence(app.get_description())) + "\n";
+  page += "\n.SH DESCRIPTION\n" + roff(is_program ? kAbout : sentence(app.get_description())) + "\n";
 
   // Subcommands, arguments and options.
   if (!below.empty()) {
@@ -182,7 +187,8 @@ std::string manual_page(const Command& command, const std::string& version) {
     for (const auto& [code, meaning] : kExitMeanings) {
       page += ".TP\n" + bold(std::to_string(code)) + "\n" + roff(sentence(std::string(meaning))) + "\n";
     }
-    page += ".SH EXAMPLES\n";
+    page += ".SH ENVIRONMENT\n.TP\n" + bold("TELEMIME_MODELS") +
+            "\nFolder of the neural networks, in place of the installed one.\n.SH EXAMPLES\n";
     for (const auto& [line, meaning] : {
              std::pair("telemime live demo --open",
                        "Show the live page with the bundled clip in place of a camera."),
