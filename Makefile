@@ -96,6 +96,7 @@ install: build ## install program, libraries, headers and data below PREFIX (/us
 package: build ## Debian packages, and a tarball with all libraries: build/release/packages
 	@scripts/deps.sh package
 	@cmake --build build/release --target telemime_reference telemime_copyright -j $(JOBS)
+	@rm -rf build/release/packages
 	@cd build/release && cpack > package.log 2>&1 || { cat package.log; exit 1; }
 	@scripts/tarball.sh
 	@ls -1 build/release/packages/*.deb

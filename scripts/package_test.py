@@ -24,7 +24,7 @@ from demo_limits import check
 from web_socket import WebSocket
 
 NOBODY = "65534:65534"
-ENVIRONMENT = {"HOME": "/tmp", "LC_ALL": "C.UTF-8", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
+ENVIRONMENT = {"DEBIAN_FRONTEND": "noninteractive", "HOME": "/tmp", "LC_ALL": "C.UTF-8", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
 MOVED_MM = 50
 
 

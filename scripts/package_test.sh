@@ -59,7 +59,7 @@ apt=(chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -q
 check deb "$root" "/tmp/${deb[0]##*/}"
 
 mkdir -m 755 "$scratch/opt"
-tar -C "$scratch/opt" -xf "${tarball[0]}"
+tar -C "$scratch/opt" -I "xz -T0" -xf "${tarball[0]}"
 for suite in bookworm trixie; do
   echo "== nothing but the glibc of $suite, and ${tarball[0]##*/}"
   new_system "glibc-$suite" "$suite" --variant=extract --include=libc6
