@@ -4,27 +4,25 @@
 #include <string>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/installed.h"
 
 namespace telemime {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path program_folder() {
-  std::error_code failed;
-  return fs::read_symlink("/proc/self/exe", failed).parent_path();
-}
-
 // The installed folder, or `otherwise`: the first that contains `entry`.
 fs::path find(const std::string& what, const fs::path& entry, const fs::path& otherwise) {
-  const fs::path installed = program_folder().parent_path() / "share" / "telemime";
-  std::error_code failed;
-  for (const fs::path& folder : {installed, otherwise}) {
-    if (fs::is_directory(folder / entry, failed)) {
-      return folder;
-    }
+  if (const fs::path installed = installed_folder(code_folder(), entry); !installed.empty()) {
+    return installed;
   }
-  throw Error(ErrorKind::input, "the " + what + " are missing: there is no " + (installed / entry).string(),
+  std::error_code failed;
+  if (fs::is_directory(otherwise / entry, failed)) {
+    return otherwise;
+  }
+  throw Error(ErrorKind::input,
+              "the " + what + " are missing: there is no share/telemime/" + entry.string() + " above " +
+                  code_folder().string(),
               "Install the program again.");
 }
 
@@ -35,7 +33,7 @@ fs::path data_folder() {
 }
 
 fs::path avatar_folder() {
-  return find("avatars", "avatars", program_folder()) / "avatars";
+  return find("avatars", "avatars", code_folder()) / "avatars";
 }
 
 }  // namespace telemime

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/installed.h"
 #include "telemime/core/text.h"
 
 namespace telemime {
@@ -69,9 +70,8 @@ fs::path find_models(const fs::path& folder) {
     places.emplace_back(named);
   }
   std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed).parent_path();
-  places.push_back(program / "models");
-  places.push_back(program.parent_path() / "share" / "telemime" / "models");
+  places.push_back(code_folder() / "models");
+  places.push_back(installed_folder(code_folder(), "models") / "models");
   const auto found = std::find_if(places.begin(), places.end(),
                                   [&](const fs::path& place) { return fs::is_directory(place, failed); });
   return found == places.end() ? fs::path() : *found;
