@@ -137,6 +137,9 @@ TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
 void FileRun::begin() {
   const StreamHeader header = header_of(info_, run_);
   outputs_.begin(header);
+  if (hooks_.person) {
+    hooks_.person(header);
+  }
   smoothing_ = make_two_way_smoothing(request_.config.smoothing, header.body, header.camera);
 }
 
@@ -160,6 +163,9 @@ void FileRun::write_ready(bool last) {
   while (const auto motion = smoothed_front(*smoothing_, queue_, last)) {
     const FrameRecord& record = queue_.records.front();
     outputs_.write(*motion);
+    if (hooks_.motion) {
+      hooks_.motion(*motion);
+    }
     statistics_.add(*motion);
     if (drawn_ > 0) {
       --drawn_;

@@ -19,6 +19,9 @@ void prepare_outputs(const TrackRequest& request) {
   for (const OutputFormat& format : kOutputFormats) {
     format.make(request.output_options);  // and for options that it cannot use
   }
+  if (request.out.empty()) {
+    return;
+  }
   std::error_code failure;
   std::filesystem::create_directories(request.out, failure);
   if (failure) {
@@ -43,12 +46,15 @@ void prepare_file(const std::filesystem::path& file) {
 RunOutputs::RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note)
     : folder_(request.out), formats_(request.formats), options_(request.output_options) {
   prepare_outputs(request);
-  if (request.overlay) {
+  if (request.overlay && !folder_.empty()) {
     video_.emplace(folder_, fps, std::move(note));
   }
 }
 
 void RunOutputs::begin(const StreamHeader& known) {
+  if (folder_.empty()) {
+    return;
+  }
   StreamHeader header = known;
   header.fingers = known.fingers && options_.fingers;
   resampler_.emplace(header.body, header.camera, header.fps);
@@ -69,6 +75,9 @@ void RunOutputs::write(const MotionFrame& frame) {
       }
     }
   };
+  if (!resampler_) {
+    return;
+  }
   write_to(true, frame);
   resampler_->push(frame, [&](const MotionFrame& made) { write_to(false, made); });
 }
@@ -88,6 +97,9 @@ void RunOutputs::close_overlay() {
 void RunOutputs::close(const nlohmann::json& report) {
   for (const Output& output : outputs_) {
     output.file->close();
+  }
+  if (folder_.empty()) {
+    return;
   }
   write_whole_file(folder_ / "report.json", report.dump(2) + "\n");
 }

@@ -21,7 +21,7 @@ void prepare_outputs(const TrackRequest& request);
 /// Throws Error(output) where a file of that name could not be written later; writes nothing.
 void prepare_file(const std::filesystem::path& file);
 
-/// The files of one run: the encoders' and the overlay video.
+/// The files of one run: the encoders' and the overlay video. None where the request names no folder.
 class RunOutputs {
  public:
   /// Throws as prepare_outputs does. `fps`: of the input; `note` gets what is wrong with the overlay.
@@ -30,7 +30,6 @@ class RunOutputs {
   /// Opens the encoders' files: the head of each holds the person's shape, so this waits until it is known.
   /// Throws Error(output).
   void begin(const StreamHeader& header);
-  bool begun() const { return !outputs_.empty(); }
 
   /// A frame at its true time, which must increase; files of constant rate get resampled ones.
   void write(const MotionFrame& frame);

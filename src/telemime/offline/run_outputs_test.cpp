@@ -85,5 +85,17 @@ TEST(RunOutputs, DurationsAgreeForAnyTimes) {
   }
 }
 
+TEST(RunOutputs, WithoutAFolderNothingIsWritten) {
+  TrackRequest request;
+  RunOutputs outputs(request, 25.0, nullptr);
+  const StreamHeader header = testing_motion::header();
+  outputs.begin(header);
+  outputs.write(testing_motion::frame_of(header.body, header.camera, Pose(), 0, 25.0));
+  EXPECT_FALSE(outputs.has_overlay());
+  EXPECT_TRUE(outputs.files().empty());
+  outputs.close({});
+  EXPECT_FALSE(std::filesystem::exists("report.json"));
+}
+
 }  // namespace
 }  // namespace telemime

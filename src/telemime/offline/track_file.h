@@ -28,6 +28,8 @@ enum class ViewerRequest { none, stop, recalibrate };
 struct RunHooks {
   std::function<ViewerRequest(const Progress&)> progress;  ///< after each frame; may be empty
   std::function<void(const std::string&)> message;         ///< notes for the user; may be empty
+  std::function<void(const StreamHeader&)> person;         ///< once, before the first frame; may be empty
+  std::function<void(const MotionFrame&)> motion;          ///< each frame as it is written; may be empty
   bool draw = false;                                       ///< make overlays even when none is written
 };
 
@@ -46,10 +48,10 @@ struct TrackSummary {
   nlohmann::json report;  ///< what report.json holds
 };
 
-/// Tracks a whole file and writes the results. Every output file is valid at every moment. The input is
-/// opened twice at most: to learn the background from it, where no background clip is given, and to track.
-/// Throws Error(input) for an input that cannot be read or is a camera, Error(output) when results cannot be
-/// written, Error(config) for settings.
+/// Tracks a whole file and writes the results, if the request names a folder for them. Every output file is
+/// valid at every moment. The input is opened twice at most: to learn the background from it, where no
+/// background clip is given, and to track. Throws Error(input) for an input that cannot be read or is a
+/// camera, Error(output) when results cannot be written, Error(config) for settings.
 TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks);
 
 /// Calibrates the person in a file, as track_file() does before it writes the first frame, and saves the

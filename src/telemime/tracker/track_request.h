@@ -18,8 +18,8 @@ struct TrackRequest {
   InputOptions input_options = {};  ///< what is known of the input; `mirrored` is of the background clip, too
   std::string background;           ///< person-free clip; empty: learned from the input, or done without
   std::string camera;               ///< calibration file; empty: field of view
-  std::string calibration;  ///< file of `telemime calibrate`; empty: calibrate on the first good frame
-  std::filesystem::path out;
+  std::string calibration;    ///< file of `telemime calibrate`; empty: calibrate on the first good frame
+  std::filesystem::path out;  ///< folder of the results; empty: no files
   std::vector<std::string> formats;  ///< empty: all
   OutputOptions output_options;
   bool overlay = true;
