@@ -17,12 +17,10 @@
 #include "cli/data_folder.h"
 #include "cli/interrupt.h"
 #include "open_page.h"
-#include "telemime/capture/cameras.h"
-#include "telemime/capture/input_kind.h"
-#include "telemime/capture/live.h"
 #include "telemime/capture/playback.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_program.h"
+#include "telemime/live/pace.h"
 #include "telemime/live/video_output.h"
 #include "track_options.h"
 
@@ -49,28 +47,17 @@ struct LiveCommand {
   double seconds = 0.0;
 };
 
-bool is_file(const std::string& input) {
-  const InputKind kind = input_kind(input);
-  return kind != InputKind::camera && kind != InputKind::device && kind != InputKind::stream;
-}
-
 // Opens the input as a camera. Records whether it is a file: then nobody can be asked to leave the image.
 std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_behind) {
-  const std::string input = command.live.request.input;
-  command.live.guided = false;
-  if (command.loop) {
-    return pace(
-        loop([input, known = command.live.request.input_options] { return open_source(input, known); }));
-  }
   LiveOptions options;
   options.input = command.live.request.input_options;
   options.left_behind = [left_behind] { *left_behind = true; };
-  auto source = open_source(input, options);
-  command.live.ends = !source->info().live;
+  LiveInput input = open_live_input(command.live.request.input, options, command.loop);
+  command.live.ends = !input.camera && !command.loop;
   // If networks find the person, nobody needs to leave the image.
   const bool needed = !uses_networks(command.live.request.config);
-  command.live.guided = source->info().live && !command.unguided && (command.guided || needed);
-  return source->info().live ? std::move(source) : pace(std::move(source));  // a clip on a web server, too
+  command.live.guided = input.camera && !command.unguided && (command.guided || needed);
+  return std::move(input.source);
 }
 
 void print_report(const LiveReport& report) {
@@ -156,18 +143,9 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
                                            ? (demo / "background.mp4").string()
                                            : command.track.request.background;
     command.loop = true;
-  } else {
-    command.track.request.input = with_camera_found(command.track.request.input, list_cameras());
   }
   command.live.request = make_request(command.track);
-  const TrackOptions& track = command.track;
-  const SettingValues given = given_settings(track);
-  command.live.request.keep_pace =
-      !given.contains("particles") && !given.contains("budget") && !given.contains("registration.iterations");
-  const std::string& input = command.live.request.input;
-  if (command.loop && !is_file(input)) {
-    throw Error(ErrorKind::usage, shown_url(input) + " is not a file: it cannot be repeated", "Omit --loop.");
-  }
+  command.live.request.keep_pace = keeps_pace(given_settings(command.track));
   command.live.version = TELEMIME_VERSION;
   command.live.avatars = avatar_folder();
   command.live.settings = command.no_settings ? std::filesystem::path() : settings_file();

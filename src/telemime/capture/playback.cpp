@@ -7,7 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "telemime/core/errors.h"
+#include "telemime/capture/cameras.h"
+#include "telemime/capture/input_kind.h"
 
 namespace telemime {
 namespace {
@@ -122,6 +123,21 @@ std::unique_ptr<Source> loop(std::function<std::unique_ptr<Source>()> open) {
 
 std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock) {
   return std::make_unique<PacedSource>(std::move(file), std::move(clock));
+}
+
+LiveInput open_live_input(const std::string& named, const LiveOptions& options, bool repeat) {
+  const std::string input = with_camera_found(named, list_cameras());
+  if (repeat) {
+    const InputKind kind = input_kind(input);
+    if (kind == InputKind::camera || kind == InputKind::device || kind == InputKind::stream) {
+      throw Error(ErrorKind::usage, shown_url(input) + " is not a file: it cannot be repeated",
+                  "Omit --loop.");
+    }
+    return {.source = pace(loop([input, known = options.input] { return open_source(input, known); }))};
+  }
+  auto source = open_source(input, options);
+  const bool camera = source->info().live;
+  return {.source = camera ? std::move(source) : pace(std::move(source)), .camera = camera};
 }
 
 }  // namespace telemime

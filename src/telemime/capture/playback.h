@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "telemime/capture/clock.h"
+#include "telemime/capture/live.h"
 #include "telemime/capture/source.h"
 
 namespace telemime {
@@ -17,5 +19,15 @@ std::unique_ptr<Source> loop(std::function<std::unique_ptr<Source>()> open);
 /// next), and next() returns the newest one and drops older ones. Times and indices remain those of the file,
 /// so gaps in the index show dropped frames. The last frame is always returned.
 std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock = monotonic_clock());
+
+/// An input of a live run.
+struct LiveInput {
+  std::unique_ptr<Source> source;  ///< in real time
+  bool camera = false;             ///< it has no end: not a file
+};
+
+/// Opens a camera (with_camera_found), or a file as a camera (pace), which is repeated if `repeat`. Throws
+/// Error(usage) if what is to be repeated is no file; else as open_source().
+LiveInput open_live_input(const std::string& named, const LiveOptions& options, bool repeat);
 
 }  // namespace telemime

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 namespace {
@@ -162,6 +163,13 @@ TEST(Pace, CanBeStoppedInAPause) {
   });
   EXPECT_FALSE(source->next());
   user.join();
+}
+
+TEST(LiveInput, OnlyFilesAreRepeated) {
+  for (const char* const input : {"63", "/dev/video63", "rtsp://127.0.0.1:9/x"}) {
+    EXPECT_NE(error_of(ErrorKind::usage, [&] { open_live_input(input, {}, true); }).find("not a file"),
+              std::string::npos);
+  }
 }
 
 TEST(MonotonicClock, NeverDecreasesAndReachesItsTarget) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace telemime {
 namespace {
@@ -31,6 +32,11 @@ void Pace::searched(double search_ms, double interval_ms) {
   if (std::abs(affordable - effort_) >= kStep || affordable == 1.0 || affordable == kLeast) {
     effort_ = affordable;
   }
+}
+
+bool keeps_pace(const SettingValues& given) {
+  return !given.contains("particles") && !given.contains("budget") &&
+         !given.contains("registration.iterations");
 }
 
 }  // namespace telemime

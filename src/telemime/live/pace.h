@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "telemime/core/settings.h"
+
 namespace telemime {
 
 /// How much of the configured search a live run can afford, so that it keeps up with the camera and leaves
@@ -19,5 +21,9 @@ class Pace {
   double full_ms_ = 0.0;      // of a search with all evaluations, smoothed; 0: not known
   double interval_ms_ = 0.0;  // between the camera's frames, smoothed; 0: not known
 };
+
+/// Whether a run with these settings may search less when time is short: none of them says how much to
+/// search.
+bool keeps_pace(const SettingValues& given);
 
 }  // namespace telemime

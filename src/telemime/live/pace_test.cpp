@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 namespace telemime {
 namespace {
@@ -49,6 +50,14 @@ TEST(Pace, TimesThatSayNothingAreNotLearned) {
     pace.searched(20.0, bad);
   }
   EXPECT_EQ(pace.effort(), 1.0);
+}
+
+TEST(Pace, IsKeptWhereNothingSaysHowMuchToSearch) {
+  EXPECT_TRUE(keeps_pace({}));
+  EXPECT_TRUE(keeps_pace({{"seed", 3}, {"quality", "fast"}}));
+  for (const char* const name : {"particles", "budget", "registration.iterations"}) {
+    EXPECT_FALSE(keeps_pace({{name, 100}})) << name;
+  }
 }
 
 }  // namespace
