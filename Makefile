@@ -11,7 +11,7 @@ ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transp
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
 TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test count clean
-.PHONY: $(TARGETS) deps-page deps-test program configure
+.PHONY: $(TARGETS) deps-page deps-python deps-test program configure
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -22,8 +22,11 @@ deps: ## install the Debian packages that the program needs and that are missing
 deps-page:
 	@scripts/deps.sh build page
 
+deps-python:
+	@scripts/deps.sh python
+
 deps-test:
-	@scripts/deps.sh build page test
+	@scripts/deps.sh build page python test
 
 # What has been configured with tests stays so: configured without them, it would have to be compiled again for them.
 program:
@@ -64,7 +67,7 @@ peer: deps-test configure ## compare with MediaPipe Pose on these clips and on o
 	@apps/lab/peer.sh
 
 lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
-	@scripts/deps.sh build test check
+	@scripts/deps.sh build python test check
 	@scripts/lint.sh $(FILES)
 
 asan: deps-test ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
@@ -89,7 +92,7 @@ fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 	@cmake --build --preset fuzz --target fuzz/all -j $(JOBS)
 	@scripts/fuzz.sh $(FUZZ_SECONDS)
 
-install: build ## install program, libraries, headers and data below PREFIX (/usr/local)
+install: deps-python build ## install program, Python package, libraries, headers and data below PREFIX (/usr/local)
 	@cmake --build build/release -j $(JOBS)
 	@cmake --install build/release --prefix $(PREFIX)
 
