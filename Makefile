@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test count clean
+TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test reference count clean
 .PHONY: $(TARGETS) deps-page deps-python deps-test program configure
 
 help: ## this list
@@ -107,6 +107,11 @@ package: build ## Debian packages, and a tarball with all libraries: build/relea
 package-test: ## install the packages on clean systems without a network, and use them there (as root)
 	@scripts/deps.sh package
 	@scripts/package_test.sh
+
+reference: ## the reference of the C++ library by Doxygen: out/reference/html/index.html
+	@scripts/deps.sh check
+	@mkdir -p out && rm -rf out/reference && doxygen docs/reference/Doxyfile
+	@echo out/reference/html/index.html
 
 count: ## lines of code, with and without tests, and their budgets
 	@scripts/count.sh
