@@ -2,16 +2,21 @@
 # Debian packages by cpack: `telemime`, which is the component "program", and `libtelemime-dev`, the component
 # "development". They are made of a build that has everything: pages and models.
 
-# The version is that of project(); the pages' package.json and the newest section of the changelog repeat it.
+# The version is that of project(); the pages' package.json, Blender's add-on and the newest section of the changelog repeat it.
+file(STRINGS "${PROJECT_SOURCE_DIR}/integrations/blender/telemime.py" add_on REGEX "\"version\": \\([0-9, ]+\\)")
+string(REGEX REPLACE ".*\"version\": \\(([0-9]+), ([0-9]+), ([0-9]+)\\).*" "\\1.\\2.\\3" add_on "${add_on}")
 file(READ "${PROJECT_SOURCE_DIR}/package.json" page)
 string(JSON page_version GET "${page}" version)
 file(STRINGS "${PROJECT_SOURCE_DIR}/CHANGELOG.md" released REGEX "^## \\[[0-9.]+\\] - [0-9-]+$")
 list(GET released 0 released)
 string(REGEX MATCH "\\[(.*)\\] - (.*)" released "${released}")
 set(release_date "${CMAKE_MATCH_2}")
-if(NOT page_version STREQUAL PROJECT_VERSION OR NOT CMAKE_MATCH_1 STREQUAL PROJECT_VERSION)
+set(versions "${page_version}" "${add_on}" "${CMAKE_MATCH_1}")
+list(REMOVE_DUPLICATES versions)
+if(NOT versions STREQUAL PROJECT_VERSION)
   message(FATAL_ERROR "The versions differ: ${PROJECT_VERSION} in CMakeLists.txt, ${page_version} in package.json, "
-                      "${CMAKE_MATCH_1} in CHANGELOG.md. docs/releasing.md says how to set them")
+                      "${add_on} in integrations/blender/telemime.py, ${CMAKE_MATCH_1} in CHANGELOG.md. docs/releasing.md says how "
+                      "to set them")
 endif()
 
 if(NOT TELEMIME_PROGRAM OR NOT TELEMIME_WEB OR NOT TELEMIME_MODELS)

@@ -18,7 +18,7 @@ from bpy_extras.io_utils import ImportHelper
 from mathutils import Quaternion, Vector
 
 bl_info = {
-    "name": "Telemime", "author": "Telemime", "version": (0, 1, 0), "blender": (3, 4, 0), "category": "Animation",
+    "name": "Telemime", "author": "Telemime", "version": (0, 2, 0), "blender": (3, 4, 0), "category": "Animation",
     "description": "The motion of a person in front of a webcam, live or from a recording",
     "location": "3D View > Sidebar > Telemime; File > Import > Telemime recording",
 }
