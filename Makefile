@@ -96,9 +96,9 @@ install: deps-python build ## install program, Python package, libraries, header
 	@cmake --build build/release -j $(JOBS)
 	@cmake --install build/release --prefix $(PREFIX)
 
-package: build ## Debian packages, and a tarball with all libraries: build/release/packages
+package: deps-python build ## Debian packages, and a tarball with all libraries: build/release/packages
 	@scripts/deps.sh package
-	@cmake --build build/release --target telemime_reference telemime_copyright -j $(JOBS)
+	@cmake --build build/release --target telemime_reference telemime_copyright _telemime -j $(JOBS)
 	@rm -rf build/release/packages
 	@cd build/release && cpack > package.log 2>&1 || { cat package.log; exit 1; }
 	@scripts/tarball.sh

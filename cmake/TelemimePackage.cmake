@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian packages by cpack: `telemime`, which is the component "program", and `libtelemime-dev`, the component
-# "development". They are made of a build that has everything: pages and models.
+# Debian packages by cpack: `telemime`, which is the component "program"; `libtelemime-dev`, the component "development";
+# and `python3-telemime`, the component "python". They are made of a build that has everything: pages and models.
 
 # The version is that of project(); the pages' package.json, Blender's add-on and the newest section of the changelog repeat it.
 file(STRINGS "${PROJECT_SOURCE_DIR}/integrations/blender/telemime.py" add_on REGEX "\"version\": \\([0-9, ]+\\)")
@@ -30,13 +30,17 @@ set(CPACK_PACKAGE_CONTACT "Telemime authors <maintainers@telemime.example>")
 configure_file("${PROJECT_SOURCE_DIR}/cmake/package/changelog.in" "${package_doc}/changelog" @ONLY)
 configure_file("${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${package_doc}/NEWS" COPYONLY)
 execute_process(COMMAND gzip -9nf changelog NEWS WORKING_DIRECTORY "${package_doc}")
-foreach(component IN ITEMS program development)
-  set(name telemime)
-  if(component STREQUAL development)
-    set(name libtelemime-dev)
-  endif()
-  install(FILES "${package_doc}/changelog.gz" "${package_doc}/NEWS.gz" "${PROJECT_BINARY_DIR}/copyright"
-          DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" COMPONENT ${component})
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME telemime)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtelemime-dev)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-telemime)
+if(TARGET _telemime)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  string(TOUPPER "${component}" component_name)
+  install(FILES "${package_doc}/changelog.gz" "${package_doc}/NEWS.gz" "${PROJECT_BINARY_DIR}/copyright" COMPONENT ${component}
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${component_name}_PACKAGE_NAME}")
 endforeach()
 
 # A static library needs what it is linked with where programs are linked with it.
@@ -52,12 +56,10 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
                                                 WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_THREADS 0)
-set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)  # the models hardly shrink, and xz takes half a minute
 
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME telemime)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS opencv-data)  # the face detector's file: no library
@@ -72,10 +74,20 @@ or MPEG-4 BAP, and to files as BVH, glTF, VRMA, TRC, CSV and JSON.
 The package contains the neural networks and the pages: nothing is fetched when
 the program runs. Meetings need a Mosquitto broker, the package mosquitto.")
 
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtelemime-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "telemime (= ${PROJECT_VERSION}), ${needs}")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
     "The static libraries of Telemime, their headers, and its CMake package:
 find_package(telemime) gives the target telemime::telemime.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+if(TARGET _telemime)
+  math(EXPR next_minor "${TELEMIME_PYTHON_MINOR} + 1")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "telemime (= ${PROJECT_VERSION}), python3 (>= 3.${TELEMIME_PYTHON_MINOR}), \
+python3 (<< 3.${next_minor}), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
+    "The tracker of Telemime for Python: the frames of a video, a camera or arrays
+of NumPy give poses, joints, hands and faces.")
 include(CPack)

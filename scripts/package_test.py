@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The part of package_test.sh that has no network: run it in a network namespace of its own (unshare --net).
 
-    package_test.py deb ROOT /tmp/telemime.deb       installs, uses and removes the package in the system ROOT
-    package_test.py tarball ROOT /opt/telemime-...   uses the unpacked tarball in ROOT
+    package_test.py deb ROOT /tmp/telemime.deb /tmp/python3-telemime.deb   installs, uses and removes them in the system ROOT
+    package_test.py tarball ROOT /opt/telemime-...                         uses the unpacked tarball in ROOT
 
 Used means: the page, an avatar and moving poses of `telemime live demo` arrive here, no system call of it names an
 address of another computer, and the bundled clip is tracked as well as in the tests."""
@@ -26,6 +26,11 @@ from web_socket import WebSocket
 NOBODY = "65534:65534"
 ENVIRONMENT = {"DEBIAN_FRONTEND": "noninteractive", "HOME": "/tmp", "LC_ALL": "C.UTF-8", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
 MOVED_MM = 50
+PYTHON = """
+import telemime
+frames = telemime.track(telemime.demo_folder() / "video.mp4", quality="fast", frames=5)
+print(sum(not frame.lost for frame in frames))
+"""
 
 
 class System:
@@ -118,7 +123,7 @@ def track(system, *options):
     print(f"track: {error['aligned_mm']:.1f} mm, {error['image_px']:.1f} px, in {seconds:.1f} s", flush=True)
 
 
-def deb(root, package):
+def deb(root, package, python):
     system = System(root, "/usr")
     begun = time.monotonic()
     system.run("apt-get", "-qq", "install", "--no-install-recommends", package, user="0:0")
@@ -129,7 +134,9 @@ def deb(root, package):
     print(f"apt-get install to the first moving pose: {installed + live(system):.1f} s", flush=True)
     print("version", system.run(system.program, "--version").strip())
     track(system)
-    system.run("apt-get", "-qq", "purge", "telemime", user="0:0")
+    system.run("apt-get", "-qq", "install", "--no-install-recommends", python, user="0:0")
+    print("python", system.run("python3", "-c", PYTHON).strip(), "frames", flush=True)
+    system.run("apt-get", "-qq", "purge", "telemime", "python3-telemime", user="0:0")
     if left := [name for name in ("telemime", "doc/telemime") if os.path.exists(system.path("/usr/share/" + name))]:
         sys.exit(f"{left} are left after the removal")
 

@@ -44,19 +44,20 @@ check() {
 }
 
 deb=("$packages"/telemime_*.deb) tarball=("$packages"/telemime-*.tar.xz) development=("$packages"/libtelemime-dev_*.deb)
+python=("$packages"/python3-telemime_*.deb)
 
 echo "== a clean Debian 12, and ${deb[0]##*/}"
 new_system minbase bookworm --variant=minbase
 root="$scratch/minbase"
-cp "${deb[0]}" "${development[0]}" "$root/tmp/"
+cp "${deb[0]}" "${development[0]}" "${python[0]}" "$root/tmp/"
 cp /etc/resolv.conf "$root/etc/"
 mount --bind "$cache/archives" "$root/var/cache/apt/archives"
 apt=(chroot "$root" env DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get -qq)
 "${apt[@]}" update
-"${apt[@]}" install --no-install-recommends --download-only "/tmp/${deb[0]##*/}" > /dev/null
+"${apt[@]}" install --no-install-recommends --download-only "/tmp/${deb[0]##*/}" "/tmp/${python[0]##*/}" > /dev/null
 # That there is all that the library asks for, and a browser: nothing is fetched.
 "${apt[@]}" install --simulate "/tmp/${deb[0]##*/}" "/tmp/${development[0]##*/}" > /dev/null
-check deb "$root" "/tmp/${deb[0]##*/}"
+check deb "$root" "/tmp/${deb[0]##*/}" "/tmp/${python[0]##*/}"
 
 mkdir -m 755 "$scratch/opt"
 tar -C "$scratch/opt" -I "xz -T0" -xf "${tarball[0]}"
