@@ -58,7 +58,7 @@ experiments: deps-test configure ## measure the thesis's tables and figures agai
 	@build/release/telemime-lab experiments all
 	@/usr/bin/python3 apps/lab/plots.py out/experiments
 
-accuracy: deps-test configure ## make and track the clips of the README's accuracy table: out/accuracy
+accuracy: deps-test configure ## make and track the clips of the tables in docs/accuracy.md: out/accuracy
 	@cmake --build --preset release --target telemime telemime-lab -j $(JOBS)
 	@apps/lab/accuracy.sh
 

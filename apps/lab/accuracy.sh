@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the clips of the README's first accuracy table, tracks each with several seeds, and prints
+# Makes the clips of docs/accuracy.md, tracks each with several seeds, and prints
 # the table. Usage: [BUILD=build/release] [SEEDS="1 2 3"] [OPTIONS="--cues regions,contours"] apps/lab/accuracy.sh [FOLDER]
 set -euo pipefail
 cd "$(dirname "$0")/../.."

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The clips of the README's tables, how they are made and how a clip is tracked: for accuracy.sh and peer.sh, which set
+# The clips of the tables in docs/accuracy.md, how they are made and how a clip is tracked: for accuracy.sh and peer.sh, which set
 # `build`, the folder of the programs, and `options`, further options of `telemime track`.
 # shellcheck shell=bash disable=SC2034,SC2154
 
