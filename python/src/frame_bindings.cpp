@@ -200,10 +200,9 @@ void bind_frames(py::module_& module) {
               return py::none();
             }
             py::dict hands;
-            for (const auto& [name, hand] :
-                 {std::pair("left", &(*frame.hands)[0]), std::pair("right", &(*frame.hands)[1])}) {
-              hands[name] = py::cast(*hand, py::return_value_policy::reference_internal, self);
-            }
+            const HandObject &left = frame.hands->front(), &right = frame.hands->back();
+            hands["left"] = py::cast(left, py::return_value_policy::reference_internal, self);
+            hands["right"] = py::cast(right, py::return_value_policy::reference_internal, self);
             return hands;
           },
           "The hands as \"left\" and \"right\"; None if hands are not tracked.")

@@ -47,7 +47,7 @@ void translate_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) {
-        std::rethrow_exception(thrown);
+        std::rethrow_exception(std::move(thrown));
       }
     } catch (const Error& error) {
       const bool asked = error.kind() == ErrorKind::usage || error.kind() == ErrorKind::config;
