@@ -94,7 +94,8 @@ def scenery(folder, project, build):
     subprocess.run(
         ["ffmpeg", "-v", "error", "-i", demo / "video.mp4", "-frames:v", FRAMES, folder / "talk.mp4"], check=True
     )
-    for name in ("clip.mp4", "recording.mp4"):
+    (folder / "recordings").mkdir()
+    for name in ("clip.mp4", "recordings/monday.mp4", "recordings/tuesday.mp4"):
         shutil.copy(folder / "talk.mp4", folder / name)
     shutil.copy(demo / "background.mp4", folder / "empty_room.mp4")
     shutil.copytree(demo, folder / "CLIP")
