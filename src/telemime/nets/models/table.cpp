@@ -71,7 +71,9 @@ fs::path find_models(const fs::path& folder) {
   }
   std::error_code failed;
   places.push_back(code_folder() / "models");
-  places.push_back(installed_folder(code_folder(), "models") / "models");
+  if (const fs::path installed = installed_folder(code_folder(), "models"); !installed.empty()) {
+    places.push_back(installed / "models");
+  }
   const auto found = std::find_if(places.begin(), places.end(),
                                   [&](const fs::path& place) { return fs::is_directory(place, failed); });
   return found == places.end() ? fs::path() : *found;
