@@ -134,10 +134,11 @@ std::optional<std::string> find_camera(const std::vector<CameraInfo>& cameras, c
   return only_one(meant, text);
 }
 
-std::string with_camera_found(const std::string& input, const std::vector<CameraInfo>& cameras) {
+std::string with_camera_found(const std::string& input,
+                              const std::function<std::vector<CameraInfo>()>& list) {
   std::error_code ignored;
   const bool may_be_name = input_kind(input) == InputKind::video_file && !fs::exists(input, ignored);
-  return input.empty() || may_be_name ? find_camera(cameras, input).value_or(input.empty() ? "0" : input)
+  return input.empty() || may_be_name ? find_camera(list(), input).value_or(input.empty() ? "0" : input)
                                       : input;
 }
 

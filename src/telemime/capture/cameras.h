@@ -62,9 +62,9 @@ bool has_colour(const CameraInfo& camera);
 std::optional<std::string> find_camera(const std::vector<CameraInfo>& cameras, const std::string& text);
 
 /// The input with the name of a camera replaced by its device: "c920" becomes "/dev/video2" where there is no
-/// file of that name. An empty input becomes the camera that find_camera() gives without text, or "0". Throws
-/// as find_camera().
-std::string with_camera_found(const std::string& input, const std::vector<CameraInfo>& cameras);
+/// file of that name. An empty input becomes the camera that find_camera() gives without text, or "0".
+/// `list` is called only where a camera may be meant, because it opens all of them. Throws as find_camera().
+std::string with_camera_found(const std::string& input, const std::function<std::vector<CameraInfo>()>& list);
 
 /// Why this device gives no images and which one does instead, for messages; empty where it is a camera.
 std::string why_no_images(const std::vector<CameraInfo>& cameras, const std::string& device);

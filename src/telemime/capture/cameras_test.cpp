@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <stdexcept>
 
 #include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
@@ -93,12 +94,17 @@ TEST(Cameras, AFileGoesBeforeTheNameOfACamera) {
   const fs::path folder = scratch.path();
   std::ofstream(folder / "c920") << "";
   const std::string file = (folder / "c920").string();
-  EXPECT_EQ(with_camera_found(file, computer()), file);
-  EXPECT_EQ(with_camera_found("c920", computer()), "/dev/video4");
-  EXPECT_EQ(with_camera_found("clip.mp4", computer()), "clip.mp4");
-  EXPECT_EQ(with_camera_found("rtsp://c920", computer()), "rtsp://c920");
-  EXPECT_EQ(with_camera_found("", computer()), "/dev/video2");
-  EXPECT_EQ(with_camera_found("", {}), "0");
+  EXPECT_EQ(with_camera_found("c920", computer), "/dev/video4");
+  EXPECT_EQ(with_camera_found("clip.mp4", computer), "clip.mp4");
+  EXPECT_EQ(with_camera_found("", computer), "/dev/video2");
+  EXPECT_EQ(with_camera_found("", [] { return std::vector<CameraInfo>(); }), "0");
+
+  // No camera is opened where none can be meant.
+  const auto unasked = []() -> std::vector<CameraInfo> { throw std::logic_error("asked"); };
+  for (const std::string& input :
+       {file, std::string("rtsp://c920"), std::string("1"), scratch.path().string()}) {
+    EXPECT_EQ(with_camera_found(input, unasked), input);
+  }
 }
 
 TEST(Cameras, AMetadataDeviceNamesTheOneWithImages) {

@@ -126,7 +126,7 @@ std::unique_ptr<Source> pace(std::unique_ptr<Source> file, Clock clock) {
 }
 
 LiveInput open_live_input(const std::string& named, const LiveOptions& options, bool repeat) {
-  const std::string input = with_camera_found(named, list_cameras());
+  const std::string input = with_camera_found(named, [] { return list_cameras(); });
   if (repeat) {
     const InputKind kind = input_kind(input);
     if (kind == InputKind::camera || kind == InputKind::device || kind == InputKind::stream) {
