@@ -60,6 +60,7 @@ void add_sizes(int device, std::uint32_t format, std::vector<CameraMode>& modes)
     modes.push_back({four_characters(format), static_cast<int>(width), static_cast<int>(height),
                      highest_rate(device, format, width, height)});
   };
+  const std::size_t before = modes.size();
   v4l2_frmsizeenum size{};
   size.pixel_format = format;
   for (; control(device, VIDIOC_ENUM_FRAMESIZES, &size); ++size.index) {
@@ -75,6 +76,10 @@ void add_sizes(int device, std::uint32_t format, std::vector<CameraMode>& modes)
       }
     }
     break;
+  }
+  // Drivers that list no sizes, or none of these, give the nearest to what is asked for.
+  if (modes.size() == before) {
+    add(kSizes[0].first, kSizes[0].second);
   }
 }
 
