@@ -17,6 +17,7 @@
 #include <memory>
 #include <new>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -139,7 +140,9 @@ void show_progress(ProgressBar& bar, SharedMemory& told, std::size_t begun, std:
 std::vector<fs::path> folders_of(const std::vector<std::string>& inputs, const fs::path& out) {
   std::map<std::string, int> stems;
   const auto file_of = [](const std::string& input) {
-    const fs::path path(without_file_scheme(input));
+    // Without what a URL holds behind its path: that may be secret. "..": the name of that folder.
+    std::error_code failed;
+    const fs::path path = fs::absolute(shown_url(without_file_scheme(input)), failed).lexically_normal();
     return path.has_filename() ? path : path.parent_path();  // folder/
   };
   for (const std::string& input : inputs) {

@@ -60,6 +60,19 @@ TEST(ManyFiles, EachHasAFolderAndOneThatFailsStopsNone) {
   EXPECT_TRUE(says(other, "2 tracked, 0 done before, 0 failed")) << other.output;
 }
 
+TEST(ManyFiles, FoldersHaveNamesWithoutSecrets) {
+  const Folder folder;
+  fs::create_directory_symlink(person_clip(), folder / "first");
+  const Ended ended =
+      run(command({"http://127.0.0.1:9/clip.mp4?key=a.secret", folder / "first/."}, folder / "out"));
+  EXPECT_NE(ended.code, 0) << "nothing is served at that port";
+  EXPECT_EQ(frames_in(folder / "out/first"), std::size_t{kPersonFrames});
+  EXPECT_FALSE(says(ended, "secret")) << ended.words;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path())) {
+    EXPECT_EQ(entry.path().string().find("secret"), std::string::npos) << entry.path();
+  }
+}
+
 TEST(ManyFiles, HaveTheResultsOfEachAlone) {
   const Folder folder;
   ASSERT_EQ(run(command({person_clip()}, folder / "alone")).code, 0);
