@@ -103,12 +103,15 @@ void VideoOutput::open() {
   if (file_ < 0) {
     const int reason = errno;
     const bool missing = reason == ENOENT || reason == ENXIO || reason == ENODEV;
+    const bool device = name.starts_with("/dev/");
     throw Error(ErrorKind::output,
                 "the virtual camera " + name + " cannot be opened: " + std::strerror(reason),
-                !missing && reason == EACCES ? "Your user must be in the group video."
-                : name.starts_with("/dev/")  ? kModule
-                : missing                    ? "Make the FIFO first (mkfifo), or name a device: /dev/video9."
-                                             : "");
+                reason == EACCES  ? device ? "Your user must be in the group video."
+                                           : "Give yourself the right to write to it: chmod u+w."
+                : reason == EBUSY ? "Close the programs that use it."
+                : device          ? kModule
+                : missing         ? "Make the FIFO first (mkfifo), or name a device: /dev/video9."
+                                  : "");
   }
   device_ = calls_.is_device(file_);
   if (!device_) {
