@@ -354,7 +354,7 @@ def tick():
     """Called by Blender's timer while the receiver is connected."""
     try:
         fresh = receiver and receiver.poll()
-    except (ReferenceError, KeyError):  # the rig has been deleted or changed
+    except (ReferenceError, KeyError, ValueError, RuntimeError):  # the rig has been deleted, renamed or changed
         return disconnect()
     for window in bpy.context.window_manager.windows if fresh else ():
         for area in window.screen.areas:
@@ -389,7 +389,7 @@ class TELEMIME_OT_connect(bpy.types.Operator):
         except (OSError, ValueError) as e:
             self.report({"ERROR"}, str(e))
             return {"CANCELLED"}
-        bpy.app.timers.register(tick)
+        bpy.app.timers.register(tick, persistent=True)  # in another file the rig is gone: tick disconnects
         return {"FINISHED"}
 
 
