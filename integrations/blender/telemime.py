@@ -213,15 +213,23 @@ class Retarget:
             for bone, q in rotations.items():
                 tracks.setdefault((bone, "rotation_quaternion"), []).append(q)
             tracks.setdefault((self.bones["hips"], "location"), []).append(place)
-        action = bpy.data.actions.new(name)
+        action, animation, slot = bpy.data.actions.new(name), self.obj.animation_data_create(), None
+        if hasattr(action, "fcurves"):
+            curves, group = action.fcurves, "action_group"
+        else:  # Blender 5
+            slot = action.slots.new(id_type="OBJECT", name=self.obj.name)
+            strip = action.layers.new("Motion").strips.new(type="KEYFRAME")
+            curves, group = strip.channelbag(slot, ensure=True).fcurves, "group_name"
         for (bone, path), values in tracks.items():
             for i in range(len(values[0])):
-                curve = action.fcurves.new(f'pose.bones["{bone}"].{path}', index=i, action_group=bone)
+                curve = curves.new(f'pose.bones["{bone}"].{path}', index=i, **{group: bone})
                 curve.keyframe_points.add(len(frames))
                 curve.keyframe_points.foreach_set("co", [v for f, x in zip(frames, values) for v in (f, x[i])])
                 curve.keyframe_points.foreach_set("interpolation", [1] * len(frames))  # linear
                 curve.update()
-        self.obj.animation_data_create().action = action
+        animation.action = action
+        if slot:
+            animation.action_slot = slot
         return math.ceil(frames[-1] - 1e-3)
 
 
