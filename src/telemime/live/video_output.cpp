@@ -162,7 +162,7 @@ void VideoOutput::write(const cv::Mat& picture, const std::atomic<bool>& stop) {
       open();
       asked_ = {};
     }
-    const cv::Size even(picture.cols / 2 * 2, picture.rows);
+    const cv::Size even(picture.cols / 2 * 2, picture.rows / 2 * 2);  // as draw_overlay makes them
     if (asked_ != even) {
       size_ = set_format(even);
       asked_ = even;

@@ -39,8 +39,8 @@ class VideoOutput {
   /// FIFO or a file that this user may write.
   void check();
   /// Opens it on the first call and writes the picture (CV_8UC3, BGR), with black bars if the device has
-  /// another size. Throws Error(output) if it fails; the next call opens it again. Returns early when `stop`
-  /// is set: nobody may read a FIFO.
+  /// another size, and without a last odd row or column. Throws Error(output) if it fails; the next call
+  /// opens it again. Returns early when `stop` is set: nobody may read a FIFO.
   void write(const cv::Mat& picture, const std::atomic<bool>& stop);
   void close() noexcept;
   const std::filesystem::path& path() const { return path_; }

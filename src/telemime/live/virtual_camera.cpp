@@ -96,7 +96,7 @@ void VirtualCamera::run() {
         view.motion = &*shown.motion;
         view.model = &shown.person->model;
         view.camera = shown.person->camera;
-        picture = draw_overlay(picture, view)(cv::Rect({}, picture.size()));  // without its panel
+        picture = draw_overlay(picture, view).colRange(0, picture.cols);  // without its panel
       }
       output_->write(picture, stop_);
       if (std::exchange(failing, false)) {

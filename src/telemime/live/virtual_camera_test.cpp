@@ -149,10 +149,10 @@ TEST(VideoOutput, CheckLeavesTheReaderOfAFifoAlone) {
 TEST(VideoOutput, DeviceGetsItsFormatOnceForEachSize) {
   FakeDevice device;
   VideoOutput output("/dev/video9", device.calls());
-  for (const cv::Size size : {cv::Size(64, 48), cv::Size(64, 48), cv::Size(33, 20)}) {
+  for (const cv::Size size : {cv::Size(64, 48), cv::Size(64, 48), cv::Size(33, 21)}) {
     output.write(cv::Mat(size, CV_8UC3, kGrey), kGoOn);
   }
-  EXPECT_EQ(device.formats, (std::vector<cv::Size>{{64, 48}, {32, 20}})) << "widths are even";
+  EXPECT_EQ(device.formats, (std::vector<cv::Size>{{64, 48}, {32, 20}})) << "sizes are even";
   EXPECT_EQ(device.opened, 1);
   ASSERT_EQ(device.pictures.size(), 3U);
   EXPECT_LE(cv::norm(bgr_of(device.pictures[0], {64, 48}), cv::Mat(48, 64, CV_8UC3, kGrey), cv::NORM_INF), 3);
@@ -222,6 +222,18 @@ TEST_F(ShownBody, BodyIsDrawnOnThePictureOfItsFrame) {
   EXPECT_EQ(drawn(device_.pictures[1]), 0) << "nobody is tracked: the picture as it is";
   camera->motion(motion(1));
   camera->motion(motion(7));
+  EXPECT_EQ(messages(), std::vector<std::string>());
+}
+
+TEST_F(ShownBody, BodyIsDrawnOnAPictureOfOddSize) {
+  const cv::Size even = size() / 2 * 2;
+  header_.camera = header_.camera.scaled_to(even.width + 1, even.height + 1);
+  const auto camera = open("/dev/video9", device_.calls());
+  camera->person(header_);
+  camera->picture(frame(0));
+  camera->motion(motion(0));
+  ASSERT_TRUE(comes_true([&] { return device_.count() == 1; }));
+  EXPECT_EQ(device_.formats.at(0), even);
   EXPECT_EQ(messages(), std::vector<std::string>());
 }
 
