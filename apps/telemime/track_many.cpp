@@ -167,7 +167,7 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
   note_interrupts();
   SharedMemory told(requests.size());
   std::map<pid_t, std::size_t> running;
-  std::size_t next = 0, done = 0, found = 0, failed = 0;
+  std::size_t next = 0, done = 0, found = 0, failed = 0, stopped = 0;
   int code = 0;
   bool passed_on = false;
   const auto begin = Clock::now();
@@ -196,9 +196,7 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
       const std::size_t i = running.at(child);
       running.erase(child);
       say(i, result_of(status, requests[i]));
-      const bool well = code_of(status) == 0;
-      done += well ? 1U : 0U;
-      failed += well ? 0U : 1U;
+      ++(code_of(status) == 0 ? done : code_of(status) == kExitInterrupted ? stopped : failed);
       code = code == 0 ? code_of(status) : code;
     }
     if (interrupted() && !std::exchange(passed_on, true)) {
@@ -212,6 +210,7 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
   bar.interrupt();
   if (!options.quiet) {
     std::cout << done << " tracked, " << found << " done before, " << failed << " failed"
+              << (stopped > 0 ? ", " + std::to_string(stopped) + " stopped" : "")
               << (next < requests.size() ? ", " + std::to_string(requests.size() - next) + " not begun" : "")
               << '\n';
   }

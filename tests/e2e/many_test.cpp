@@ -96,6 +96,7 @@ TEST(ManyFiles, StoppedKeepWhatTheyHaveAndGoOnLater) {
   const Ended stopped = program.wait();
   EXPECT_EQ(stopped.code, kExitInterrupted) << stopped.words;
   EXPECT_TRUE(says(stopped, "not begun")) << stopped.output;
+  EXPECT_TRUE(says(stopped, " 0 failed")) << stopped.output;
   const Ended rest = run(command(inputs, folder / "out"));
   EXPECT_EQ(rest.code, 0) << rest.words;
   for (const char* name : {"out/a", "out/b", "out/c", "out/d"}) {
