@@ -183,8 +183,9 @@ void add_track_command(CLI::App& app) {
                     "Skeletons and markers without fingers; pose.jsonl and pose.csv keep them.");
   command->add_flag("--no-overlay{false}", options->request.overlay, "Write no overlay video.");
   command->add_flag("--show", options->show, "Show overlay, top view and residuals in a window.");
-  command->callback([many] {
-    if (many->inputs.size() == 1) {
+  command->callback([many, command] {
+    // Either option says that there may be several, also where a pattern of the shell meets one.
+    if (many->inputs.size() == 1 && command->count("--jobs") == 0 && command->count("--again") == 0) {
       many->options.request.input = many->inputs.front();
       run_one(many->options);
     } else if (const int code = run_many(*many); code != 0) {

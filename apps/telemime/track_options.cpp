@@ -85,6 +85,7 @@ SettingValues given_settings(const TrackOptions& o) {
 
 TrackRequest make_request(const TrackOptions& o) {
   TrackRequest request = o.request;
+  request.version = TELEMIME_VERSION;
   SettingValues values = o.config_file.empty() ? SettingValues() : read_settings(o.config_file);
   update(request.config, values);
   for (const auto& [name, value] : given_settings(o)) {

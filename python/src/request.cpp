@@ -19,6 +19,7 @@ TrackRequest make_request(const std::string& settings, const std::string& input,
                           const std::string& calibration, double rate, bool mirrored, const std::string& out,
                           std::vector<std::string> formats, std::int64_t frames) {
   TrackRequest request;
+  request.version = TELEMIME_VERSION;
   request.input = input;
   request.input_options = {.rate = rate, .mirrored = mirrored};
   request.background = background;

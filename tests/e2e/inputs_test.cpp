@@ -52,7 +52,7 @@ TEST(Program, WithoutArgumentsSaysWhatCanBeDone) {
 TEST(Program, DoctorLooksAtEverything) {
   const Ended ended = run({"doctor"});
   for (const char* words :
-       {"Cameras", "Networks", "Page", "port 7070", "Processor", "ms at --quality balanced"}) {
+       {"Cameras", "Networks", "Page", "port 7070", "Processor", "frames per second at --quality balanced"}) {
     EXPECT_NE(ended.output.find(words), std::string::npos) << words << " in\n" << ended.output;
   }
   const bool problem = ended.output.find("PROBLEM") != std::string::npos;

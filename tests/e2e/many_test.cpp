@@ -104,6 +104,13 @@ TEST(ManyFiles, StoppedKeepWhatTheyHaveAndGoOnLater) {
   }
 }
 
+TEST(ManyFiles, OneWithJobsHasItsFolder) {
+  const Folder folder;
+  fs::create_directory_symlink(person_clip(), folder / "only");
+  ASSERT_EQ(run(command({folder / "only"}, folder / "out", {"--jobs", "3"})).code, 0);
+  EXPECT_EQ(frames_in(folder / "out/only"), std::size_t{kPersonFrames});
+}
+
 TEST(ManyFiles, CannotBeShown) {
   const Folder folder;
   const Ended ended = run(command({person_clip(), wall_clip()}, folder / "out", {"--show"}));

@@ -27,7 +27,8 @@ bool is_newer(const std::string& file, fs::file_time_type than) {
 Json request_json(const TrackRequest& r) {
   Json settings = to_json(r.config);
   settings.erase("threads");
-  return {{"input", shown_url(r.input)},
+  return {{"version", r.version},
+          {"input", shown_url(r.input)},
           {"rate", r.input_options.rate},
           {"mirrored", r.input_options.mirrored},
           {"background", shown_url(r.background)},

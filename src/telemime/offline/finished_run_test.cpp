@@ -51,6 +51,7 @@ TEST(FinishedRun, AnyOtherRequestIsNot) {
       [](TrackRequest& r) { r.overlay = false; },
       [](TrackRequest& r) { r.output_options.fingers = false; },
       [](TrackRequest& r) { r.most_frames = 5; },
+      [](TrackRequest& r) { r.version = "99.0.0"; },
       [](TrackRequest& r) { r.out = r.out.parent_path(); },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {

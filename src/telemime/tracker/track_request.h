@@ -24,6 +24,7 @@ struct TrackRequest {
   OutputOptions output_options;
   bool overlay = true;
   std::int64_t most_frames = 0;  ///< 0: all
+  std::string version;           ///< of the program that tracks, for report.json
   bool keep_pace = false;        ///< live only: fewer evaluations when time is short
   Config config;
 };

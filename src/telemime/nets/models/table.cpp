@@ -74,6 +74,9 @@ fs::path find_models(const fs::path& folder) {
   if (const fs::path installed = installed_folder(code_folder(), "models"); !installed.empty()) {
     places.push_back(installed / "models");
   }
+  // A program of somebody else, built with the library of the packages, lies anywhere.
+  places.emplace_back("/usr/local/share/telemime/models");
+  places.emplace_back("/usr/share/telemime/models");
   const auto found = std::find_if(places.begin(), places.end(),
                                   [&](const fs::path& place) { return fs::is_directory(place, failed); });
   return found == places.end() ? fs::path() : *found;
