@@ -109,7 +109,8 @@ def listen(port, poses):
         page.say({"type": "pictures", "on": False})
         while True:
             message = await page.hear()
-            if message["type"] == "pose" and message["state"] == "tracking":
+            # A picture may be under way already.
+            if isinstance(message, dict) and message["type"] == "pose" and message["state"] == "tracking":
                 poses.append(message)
 
     try:

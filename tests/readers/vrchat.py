@@ -106,7 +106,8 @@ async def main():
         poses = []
         while len(poses) < FRAMES:
             message = await asyncio.wait_for(page.hear(), 120)
-            if message["type"] == "pose" and message["state"] == "tracking":
+            # A picture may be under way already.
+            if isinstance(message, dict) and message["type"] == "pose" and message["state"] == "tracking":
                 poses.append(message)
         frames = []
         while True:
