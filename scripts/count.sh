@@ -6,8 +6,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 # The budget of the library covers motion capture by colours and outlines (32,900), networks and landmarks (3,800), face
 # (1,900), hands (1,200), true times, lenses and names (1,600), difficult rooms (1,200), fingers in files, VRChat, the virtual
-# camera, cameras by name and several files (1,300), and 1,100 to spare. In all it is three times that, and what people install and
-# use beside it: packages, Python, Blender's add-on, the avatar's page (5,000).
+# camera, cameras by name and several files (1,300), and 1,100 to spare. The whole is three times that, with what people install and
+# use beside it (packages, Python, the add-on for Blender, the page for OBS: 5,000).
 all_most=138000
 library_most=45000
 
