@@ -75,7 +75,7 @@ async def first_movement(port):
 
 
 def other_computers(log):
-    """The addresses that system calls named, but for this computer's own."""
+    """The addresses that system calls named, except for this computer's own."""
     with open(log, encoding="utf-8", errors="replace") as calls:
         found = re.findall(r'sin_addr=inet_addr\("([^"]*)"\)|inet_pton\(AF_INET6, "([^"]*)"', calls.read())
     return {four or six for four, six in found} - {"127.0.0.1", "::1"}

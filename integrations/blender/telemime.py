@@ -63,7 +63,7 @@ ROWS = rows_of_bones()
 PARENT = {row[0]: row[1] for row in ROWS if row[1] != "-"}
 NAMES = {c: {r[0]: [r[0], *r[2:]][i] for r in ROWS if [r[0], *r[2:]][i] != "-"} for i, c in enumerate(CONVENTIONS)}
 FROM_BVH = {other: name for name, other in NAMES["MIXAMO"].items()}
-# Unity calls bones as VRM does, but for the thumbs.
+# Unity calls bones as VRM does, except for the thumbs.
 UNITY = {"ThumbProximal": "ThumbMetacarpal", "ThumbIntermediate": "ThumbProximal"}
 
 # The place of the hips (m) and the rotations parent-from-bone, identities in a T-pose that faces -y; z is up.
@@ -163,7 +163,7 @@ class Retarget:
         frame, bone = obj.matrix_world.to_3x3(), {name: obj.data.bones[b] for name, b in self.bones.items()}
         head = {name: obj.matrix_world @ b.head_local for name, b in bone.items()}
         across = head["leftUpperArm"] - head["rightUpperArm"]
-        heading = Quaternion((0, 0, 1), math.atan2(across.y, across.x))  # whither the rig has been turned
+        heading = Quaternion((0, 0, 1), math.atan2(across.y, across.x))  # the direction in which the rig has been turned
         turned = heading.inverted().to_matrix() @ frame.normalized()
         self.rest = {name: (turned @ b.matrix_local.to_3x3()).to_quaternion() for name, b in bone.items()}
         self.parent, self.arms = {}, {None: Quaternion()}
@@ -238,7 +238,7 @@ def import_recording(file, target=None, convention="VRM", place="FLOOR", set_rat
     try:
         skeleton, poses, fps = read_bvh(file)
     except (ValueError, IndexError, KeyError) as e:
-        raise ValueError("it is no motion.bvh of Telemime") from e
+        raise ValueError("this is not a motion.bvh of Telemime") from e
     scene = bpy.context.scene
     if place == "FLOOR":
         moved = skeleton.bones["hips"][1] - poses[0].hips

@@ -177,7 +177,7 @@ def check_errors(folder, *_):
     empty_scene()
     words = Path(tempfile.mkdtemp()) / "words.bvh"
     words.write_text("no motion at all")
-    for file, reason in ((words, "it is no motion.bvh of Telemime"), (folder / "none.bvh", "No such file")):
+    for file, reason in ((words, "this is not a motion.bvh of Telemime"), (folder / "none.bvh", "No such file")):
         try:
             bpy.ops.import_anim.telemime(filepath=str(file))
             return False
@@ -200,7 +200,7 @@ def check_errors(folder, *_):
     for datagram in [*bad, good]:
         sender.sendto(datagram, other.socket.getsockname())
         other.poll()
-    assert other.tracking and not other.offsets, "what is no VMC is ignored"
+    assert other.tracking and not other.offsets, "what is not VMC is ignored"
     other.socket.close()
     return True
 

@@ -43,7 +43,7 @@ using AskCamera = std::function<void(CameraInfo&)>;
 /// Asks by V4L2 and closes the device again, without starting it.
 void ask_v4l2(CameraInfo& camera);
 
-/// All devices for video, in the order of their numbers. `root` is "/" but in tests.
+/// All devices for video, in the order of their numbers. `root` is "/" except in tests.
 std::vector<CameraInfo> list_cameras(const std::filesystem::path& root = "/",
                                      const AskCamera& ask = ask_v4l2);
 

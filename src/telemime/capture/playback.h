@@ -27,7 +27,7 @@ struct LiveInput {
 };
 
 /// Opens a camera (with_camera_found), or a file as a camera (pace), which is repeated if `repeat`. Throws
-/// Error(usage) if what is to be repeated is no file; else as open_source().
+/// Error(usage) if what is to be repeated is not a file; otherwise as open_source().
 LiveInput open_live_input(const std::string& named, const LiveOptions& options, bool repeat);
 
 }  // namespace telemime

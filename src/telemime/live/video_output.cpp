@@ -122,9 +122,10 @@ void VideoOutput::open() {
   const auto can = (facts.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? facts.device_caps : facts.capabilities;
   if (!video || (can & V4L2_CAP_VIDEO_OUTPUT) == 0 || (can & V4L2_CAP_READWRITE) == 0) {
     close();
-    throw Error(ErrorKind::output,
-                name + (video ? " takes no pictures: it is a camera or an encoder" : " is no video device"),
-                kModule);
+    throw Error(
+        ErrorKind::output,
+        name + (video ? " takes no pictures: it is a camera or an encoder" : " is not a video device"),
+        kModule);
   }
 }
 
