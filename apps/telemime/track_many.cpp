@@ -64,7 +64,8 @@ class SharedMemory {
 // The file of one process: its words begin with its name.
 int track_one(const TrackRequest& request, const ManyOptions& options, Shared& told) {
   const auto say = [&](const std::string& words) {
-    std::fprintf(stderr, "%s: %s\n", shown_url(request.input).c_str(), words.c_str());
+    const std::string name = shown_url(request.input) + ": ";
+    std::fprintf(stderr, "%s%s\n", words.starts_with(name) ? "" : name.c_str(), words.c_str());
   };
   RunHooks hooks;
   hooks.message = [&](const std::string& words) {
@@ -138,7 +139,7 @@ void show_progress(ProgressBar& bar, SharedMemory& told, std::size_t begun, std:
 }  // namespace
 
 std::vector<fs::path> folders_of(const std::vector<std::string>& inputs, const fs::path& out) {
-  std::map<std::string, int> stems;
+  std::map<std::string, int> stems, names;
   const auto file_of = [](const std::string& input) {
     // Without what a URL holds behind its path: that may be secret. "..": the name of that folder.
     std::error_code failed;
@@ -147,13 +148,17 @@ std::vector<fs::path> folders_of(const std::vector<std::string>& inputs, const f
   };
   for (const std::string& input : inputs) {
     ++stems[file_of(input).stem().string()];
+    ++names[file_of(input).filename().string()];
   }
   std::set<std::string> taken;
   std::vector<fs::path> folders;
   for (const std::string& input : inputs) {
     const fs::path file = file_of(input);
     const std::string stem = file.stem().string();
-    const std::string name = stems[stem] > 1 ? file.filename().string() : stem;
+    const std::string whole = file.filename().string();
+    const std::string name = stems[stem] == 1    ? stem
+                             : names[whole] == 1 ? whole
+                                                 : file.parent_path().filename().string() + "-" + stem;
     std::string free = name;
     for (int number = 2; !taken.insert(free).second; ++number) {
       free = name + "-" + std::to_string(number);

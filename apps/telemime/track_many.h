@@ -10,8 +10,8 @@
 
 namespace telemime {
 
-/// A folder of its own below `out` for each input, named after its file, or also its extension or a number
-/// where names are the same.
+/// A folder of its own below `out` for each input, named after its file; where names are the
+/// same, also after its extension, its folder or a number.
 std::vector<std::filesystem::path> folders_of(const std::vector<std::string>& inputs,
                                               const std::filesystem::path& out);
 

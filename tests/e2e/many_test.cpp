@@ -39,15 +39,17 @@ bool says(const Ended& ended, const std::string& words) {
 
 TEST(ManyFiles, EachHasAFolderAndOneThatFailsStopsNone) {
   const Folder folder;
+  fs::create_directory(folder / "one");
   fs::create_directory(folder / "other");
-  fs::create_directory_symlink(person_clip(), folder / "first");
+  fs::create_directory_symlink(person_clip(), folder / "one/first");
   fs::create_directory_symlink(person_clip(), folder / "other/first");
   write_bytes(folder / "broken.mp4", "no video");
-  const std::vector<std::string> inputs = {folder / "first", folder / "broken.mp4", folder / "other/first/"};
+  const std::vector<std::string> inputs = {folder / "one/first", folder / "broken.mp4",
+                                           folder / "other/first/"};
   const Ended ended = run(command(inputs, folder / "out", {"--jobs", "2"}));
   EXPECT_EQ(ended.code, kExitInput) << ended.words;
-  EXPECT_EQ(frames_in(folder / "out/first"), std::size_t{kPersonFrames});
-  EXPECT_EQ(frames_in(folder / "out/first-2"), std::size_t{kPersonFrames});
+  EXPECT_EQ(frames_in(folder / "out/one-first"), std::size_t{kPersonFrames});
+  EXPECT_EQ(frames_in(folder / "out/other-first"), std::size_t{kPersonFrames});
   EXPECT_TRUE(says(ended, "broken.mp4: failed")) << ended.output;
   EXPECT_TRUE(says(ended, "2 tracked, 0 done before, 1 failed")) << ended.output;
 
