@@ -126,7 +126,8 @@ TEST(VideoOutput, NamesReasonAndRemedy) {
   EXPECT_NE(words_of([] { VideoOutput("/dev/video63").check(); }).find("modprobe v4l2loopback"),
             std::string::npos);
   EXPECT_NE(words_of([&] { VideoOutput(folder.path() / "none").check(); }).find("mkfifo"), std::string::npos);
-  EXPECT_NE(words_of([] { VideoOutput("/dev/null").check(); }).find("is not a video device"), std::string::npos);
+  EXPECT_NE(words_of([] { VideoOutput("/dev/null").check(); }).find("is not a video device"),
+            std::string::npos);
   EXPECT_NE(words_of([&] { VideoOutput(folder.path()).check(); }), "");
   FakeDevice webcam;
   webcam.capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_READWRITE;
