@@ -227,6 +227,8 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   command->add_option("--allow-host", live.web.hosts,
                       "Another host name under which the page can be opened.");
   command->add_option("--recordings", live.recordings, "Folder of the recordings [telemime-recordings].");
+  command->add_flag("--no-fingers{false}", options->track.request.output_options.fingers,
+                    "Recordings without fingers; pose.jsonl and pose.csv keep them.");
   command->add_option("--seconds", options->seconds, "Stop after this number of seconds [0: never].");
   command->callback([options, left_behind] { run(*options, left_behind); });
 }

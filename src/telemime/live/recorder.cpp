@@ -281,7 +281,9 @@ void Recorder::close() {
 }
 
 void Recorder::person(const StreamHeader& header) {
-  state_->push({Task::Kind::person, std::make_shared<const StreamHeader>(header)});
+  auto own = std::make_shared<StreamHeader>(header);
+  own->fingers = header.fingers && state_->options.fingers;
+  state_->push({Task::Kind::person, std::move(own)});
 }
 
 void Recorder::write(const MotionFrame& frame) {

@@ -32,9 +32,10 @@ namespace fs = std::filesystem;
 class Records : public ::testing::Test {
  protected:
   std::unique_ptr<Recorder> recorder(std::int64_t most_frames = kMostRecordedFrames,
-                                     std::span<const OutputFormat> formats = kOutputFormats) {
+                                     std::span<const OutputFormat> formats = kOutputFormats,
+                                     const OutputOptions& options = {}) {
     return std::make_unique<Recorder>(
-        folder_.path() / "r", OutputOptions(),
+        folder_.path() / "r", options,
         [this](MessageLevel level, const std::string& words) {
           const std::lock_guard lock(mutex_);
           (level == MessageLevel::info      ? infos_
@@ -79,13 +80,28 @@ class Records : public ::testing::Test {
     };
     EXPECT_TRUE(comes_true([&] { return frames() > written_ || !errors().empty(); }));
   }
-  // How many keys the animation in a GLB file has.
-  static std::size_t keys(const fs::path& file) {
-    const std::string bytes = read_text_file(file);
+  static nlohmann::json json_of(const fs::path& glb) {
+    const std::string bytes = read_text_file(glb);
     EXPECT_EQ(bytes.substr(0, 4), "glTF");
     std::uint32_t length = 0;
     std::copy_n(bytes.begin() + 12, sizeof length, reinterpret_cast<char*>(&length));
-    const auto json = nlohmann::json::parse(bytes.substr(20, length));
+    return nlohmann::json::parse(bytes.substr(20, length));
+  }
+  // Where a node of a GLB file is in its parent.
+  static Eigen::Vector3d node_place(const fs::path& file, std::string_view name) {
+    const nlohmann::json json = json_of(file);
+    for (const nlohmann::json& node : json.at("nodes")) {
+      if (node.value("name", "") == name) {
+        const std::vector<double> at = node.at("translation");
+        return {at.at(0), at.at(1), at.at(2)};
+      }
+    }
+    ADD_FAILURE() << "no node " << name;
+    return Eigen::Vector3d::Zero();
+  }
+  // How many keys the animation in a GLB file has.
+  static std::size_t keys(const fs::path& file) {
+    const nlohmann::json json = json_of(file);
     const std::size_t input = json.at("animations").at(0).at("samplers").at(0).at("input");
     return json.at("accessors").at(input).at("count");
   }
@@ -115,6 +131,44 @@ TEST_F(Records, EveryFormatFromStartToStop) {
   EXPECT_FALSE(r->forget(1));
   EXPECT_TRUE(comes_true([&] { return !fs::exists(recording.folder); }));
   EXPECT_EQ(errors(), "");
+}
+
+// The palm is learned while the person is tracked: from the start of a recording, and until its end.
+TEST_F(Records, FingersAreAsLongAsLearnedUnlessLeftOut) {
+  header_.fingers = true;
+  for (const bool fingers : {true, false}) {
+    const auto r = recorder(kMostRecordedFrames, kOutputFormats, {.fingers = fingers});
+    r->person(header_);
+    r->start();
+    HandMotions hands;
+    for (std::int64_t i = 0; i < 5; ++i) {
+      MotionFrame frame = testing_motion::frame_of(header_.body, header_.camera, Pose{}, i, header_.fps);
+      for (HandMotion& hand : hands) {
+        hand.sizes.palm = 0.1 + 0.002 * static_cast<double>(i);
+      }
+      frame.hands = hands;
+      r->write(frame);
+    }
+    ASSERT_TRUE(stops(*r, 1));
+    const fs::path folder = r->ended().front().folder;
+    const auto bvh = testing_bvh::parse_bvh(read_text_file(folder / "motion.bvh"));
+    const auto finger = std::find_if(bvh.joints.begin(), bvh.joints.end(), [](const BvhJoint& joint) {
+      return joint.name == motion_builder_name(finger_bone(Side::left, 2, 0));
+    });
+    ASSERT_EQ(finger != bvh.joints.end(), fingers);
+    for (const char* const name : {"motion.glb", "motion.vrma"}) {
+      const std::string text = read_text_file(folder / name);
+      EXPECT_EQ(text.find(kFingerBoneNames[0]) != std::string::npos, fingers) << name;
+    }
+    if (fingers) {
+      const FingerSkeleton learned = finger_skeleton(hands);
+      const std::size_t bone = finger_bone(Side::left, 2, 0);
+      EXPECT_LT((finger->offset - 100.0 * learned.offset(bone)).norm(), 1e-3);
+      for (const char* const name : {"motion.glb", "motion.vrma"}) {
+        EXPECT_LT((node_place(folder / name, kFingerBoneNames[bone]) - learned.offset(bone)).norm(), 1e-5);
+      }
+    }
+  }
 }
 
 TEST_F(Records, OneThatIsFullGoesOnInTheNext) {
