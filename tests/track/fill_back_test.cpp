@@ -185,9 +185,10 @@ TEST(FillBack, SameSeedSamePosesForAnyThreads) {
     Tracked t(config);
     config.seed = seed;
     t.seeds = fill_back_seeds(config);
-    t.push(t.lost(3));
-    t.push(t.lost(4));
-    t.push(t.tracked(5));
+    for (std::size_t i = 0; i + 1 < kPersonFrames; ++i) {
+      t.push(t.lost(i));
+    }
+    t.push(t.tracked(kPersonFrames - 1));
     std::vector<double> all;
     for (const FrameRecord& record : t.take()) {
       const PoseVector v = record.estimate.motion.pose.vector();

@@ -41,14 +41,15 @@ Eigen::Vector3f linear_colour(float red, float green, float blue);
 Look random_look(Random& random);
 
 /// The head in its own frame: origin at the skull base, x to the person's own left, y up, z forward, metres
-/// of a head whose crown is 0.147 m above the skull base. Proportions of the face after the canons of
-/// drawing: eyes at half height, nose to the lower third.
+/// of a head whose crown is 0.147 m above the skull base. The face has the proportions of an average face.
 struct AvatarHead {
   float width = 1.0f;
   float jaw = 1.0f;
   HairStyle style = HairStyle::short_hair;
 };
 inline constexpr float kHeadCrown = 0.147f;  ///< m above the skull base, hair not counted
+/// Where the canonical face (telemime/body/face_model.h) has its origin; its axes are those of the head.
+inline const Eigen::Vector3f kFaceOrigin{0.0f, 0.0093f, 0.0500f};
 inline constexpr float kHeadReach = 0.185f;  ///< m from (0, 0.035, 0): nothing of head and cap lies farther
 
 /// Distance (m) to the skin of the head: skull, jaw, brow, nose, eyeballs, lips, ears.
