@@ -220,7 +220,7 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
                     "Send to the outputs that were added on the page in earlier runs.");
   command->add_flag("--no-settings", options->no_settings,
                     "Neither read nor write the settings of earlier runs.");
-  command->add_option("--avatars", live.more_avatars, "Folder with more avatars for the pages, LOOK.vrm.");
+  command->add_option("--avatars", live.more_avatars, "Folder with more avatars for the pages: VRM files.");
   command->add_option("--port", live.web.port, "Port of the page [7070].");
   command->add_option("--address", live.web.address,
                       "Address at which the page is served [127.0.0.1: this computer only].");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "telemime/core/errors.h"
 
@@ -16,27 +17,70 @@ constexpr std::string_view kLight = "-light";
 constexpr std::string_view kDefaultLook = "plain";
 constexpr std::size_t kLongestName = 32;
 
-bool is_look_name(std::string_view name) {
-  return !name.empty() && name.size() <= kLongestName &&
-         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return text;
+}
+
+// What the web calls a file of this name.
+std::string look_of(const std::string& stem) {
+  std::string look;
+  for (const char c : lower_case(stem)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    if (plain || (!look.empty() && look.back() != '-')) {
+      look += plain ? c : '-';
+    }
+  }
+  look.resize(std::min(look.size(), kLongestName));
+  while (look.ends_with('-')) {
+    look.pop_back();
+  }
+  return look.empty() ? "avatar" : look;
+}
+
+// The VRM files of a folder by their looks. Files whose looks would be the same are numbered, in the order of
+// their names.
+std::map<std::string, std::filesystem::path> looks_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (lower_case(entry.path().extension().string()) == kType) {
+      files.push_back(entry.path());
+    }
+  }
+  if (error) {
+    throw Error(ErrorKind::usage, "the avatars in " + folder.string() + " cannot be read: " + error.message(),
+                "Choose a folder that contains VRM files.");
+  }
+  // A file that is called exactly like its look comes before others that would be called so.
+  const auto renamed = [](const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    return look_of(stem) != stem;
+  };
+  std::sort(files.begin(), files.end(), [&](const auto& a, const auto& b) {
+    return std::pair(renamed(a), a) < std::pair(renamed(b), b);
+  });
+  std::map<std::string, std::filesystem::path> looks;
+  for (const auto& file : files) {
+    const std::string look = look_of(file.stem().string());
+    std::string name = look;
+    for (int number = 2; looks.contains(name); ++number) {
+      const std::string suffix = "-" + std::to_string(number);
+      name = look.substr(0, kLongestName - suffix.size()) + suffix;
+    }
+    looks[name] = file;
+  }
+  return looks;
 }
 
 }  // namespace
 
 AvatarFolder::AvatarFolder(const std::filesystem::path& folder, const std::filesystem::path& more) {
-  for (const auto& place : {folder, more}) {
-    std::error_code error;
-    for (const auto& entry : place.empty() ? std::filesystem::directory_iterator()
-                                           : std::filesystem::directory_iterator(place, error)) {
-      const std::string name = entry.path().stem().string();
-      if (entry.path().extension() == kType && is_look_name(name)) {
-        files_[name] = entry.path();
-      }
-    }
-    if (error) {
-      throw Error(ErrorKind::usage,
-                  "the avatars in " + place.string() + " cannot be read: " + error.message(),
-                  "Choose a folder that contains LOOK.vrm files.");
+  for (const auto& place : {more, folder}) {
+    if (!place.empty()) {
+      files_.merge(looks_in(place));
     }
   }
   for (const auto& [name, file] : files_) {

@@ -13,8 +13,8 @@ namespace telemime {
 
 /// The avatars in one or two folders, one VRM file for each look: LOOK.vrm, and LOOK-light.vrm with fewer
 /// triangles for computers without a graphics card. A look's name consists of 1 to 32 lower-case letters,
-/// digits, "_" and
-/// "-"; other files are ignored.
+/// digits, "_" and "-", made from the file's name: "My Robot.VRM" is my-robot, a name without any of these is
+/// avatar, and a second one of the same name ends in -2. Files of other types are ignored.
 class AvatarFolder {
  public:
   /// Lists the folders once; a look of `more` hides one of the same name. An empty path: no avatars. Throws

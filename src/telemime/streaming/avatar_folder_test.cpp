@@ -38,15 +38,33 @@ TEST_F(Avatars, MissingLightVariantFallsBack) {
 
 TEST_F(Avatars, OtherFilesAreNotServed) {
   put("x.vrm");
-  put("X Y.vrm");
   put("notes.txt");
   EXPECT_EQ(AvatarFolder(folder_.path()).looks(), std::vector<std::string>{"x"});
-  for (const char* const path : {"/avatars/X Y.vrm", "/avatars/notes.txt", "/avatars/../x.vrm",
-                                 "/avatars/.vrm", "/avatars/-light.vrm", "/avatars.vrm", "/x.vrm", ""}) {
+  for (const char* const path : {"/avatars/X.vrm", "/avatars/notes.txt", "/avatars/../x.vrm", "/avatars/.vrm",
+                                 "/avatars/-light.vrm", "/avatars.vrm", "/x.vrm", ""}) {
     EXPECT_EQ(at(path), "") << path;
   }
   EXPECT_FALSE(AvatarFolder("").file("/avatars/x.vrm"));
   EXPECT_THROW(AvatarFolder(folder_.path() / "none"), Error);
+}
+
+TEST_F(Avatars, AnyFileNameMakesALook) {
+  const std::string longest(40, 'a');
+  for (const std::string name :
+       {"AvatarSample_A.vrm", "My  Robot!.VRM", "\xe7\xa7\x81.vrm", "x.vrm", "X.vrm", "x-2.vrm"}) {
+    put(name);
+  }
+  put(longest + ".vrm");
+  put(longest + "b.vrm");
+  const AvatarFolder avatars(folder_.path());
+  EXPECT_EQ(avatars.looks(),
+            (std::vector<std::string>{std::string(30, 'a') + "-2", std::string(32, 'a'), "avatar",
+                                      "avatarsample_a", "my-robot", "x", "x-2", "x-3"}));
+  EXPECT_EQ(at("/avatars/my-robot.vrm"), "My  Robot!.VRM");
+  EXPECT_EQ(at("/avatars/avatar.vrm"), "\xe7\xa7\x81.vrm");
+  EXPECT_EQ(at("/avatars/x.vrm"), "x.vrm");
+  EXPECT_EQ(at("/avatars/x-2.vrm"), "x-2.vrm");
+  EXPECT_EQ(at("/avatars/x-3.vrm"), "X.vrm");
 }
 
 TEST_F(Avatars, SecondFolderAddsAndReplaces) {
