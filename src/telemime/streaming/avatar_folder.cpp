@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
@@ -16,13 +17,6 @@ constexpr std::string_view kType = ".vrm";
 constexpr std::string_view kLight = "-light";
 constexpr std::string_view kDefaultLook = "plain";
 constexpr std::size_t kLongestName = 32;
-
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return text;
-}
 
 // What the web calls a file of this name.
 std::string look_of(const std::string& stem) {
