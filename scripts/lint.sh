@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # clang-format and clang-tidy, as many at a time as there are processors. Usage: scripts/lint.sh [FILE...]
-# Without files: every C++ file, with all rules of .clang-tidy. With TELEMIME_LINT_QUICK=1: every C++ file but tests, in
-# which they take half of the time and find least, with the rules that find most in the least time, on the groups of files
-# that cmake/TelemimeUnity.cmake makes. What passed is not read again until it, a header of this project that it includes,
+# Without files: every C++ file, with all rules of .clang-tidy. With TELEMIME_LINT_QUICK=1: every C++ file except tests
+# (half of the time, fewest findings), with the rules that find most in the least time, on the groups of files that
+# cmake/TelemimeUnity.cmake makes. What passed is not read again until it, a header of this project that it includes,
 # the rules or the compiler's options change (stamps in $TELEMIME_LINT_CACHE).
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -48,8 +48,6 @@ struct AvatarHead {
   HairStyle style = HairStyle::short_hair;
 };
 inline constexpr float kHeadCrown = 0.147f;  ///< m above the skull base, hair not counted
-/// Where the canonical face (telemime/body/face_model.h) has its origin; its axes are those of the head.
-inline const Eigen::Vector3f kFaceOrigin{0.0f, 0.0093f, 0.0500f};
 inline constexpr float kHeadReach = 0.185f;  ///< m from (0, 0.035, 0): nothing of head and cap lies farther
 
 /// Distance (m) to the skin of the head: skull, jaw, brow, nose, eyeballs, lips, ears.

@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::Vector3f;
 
+// Where the canonical face has its origin in the frame of the drawn head, m.
+const Vector3f kFaceOrigin(0.0f, 0.0093f, 0.0500f);
+
 // From the canonical face's axes (y to the chin, z to the back, mm) to those of the drawn head.
 Vector3f drawn(const Eigen::Vector3d& canonical) {
   return kFaceOrigin + 1e-3f * Vector3f(1.0f, -1.0f, -1.0f).cwiseProduct(canonical.cast<float>());

@@ -50,7 +50,7 @@ TEST_F(Avatars, OtherFilesAreNotServed) {
 
 TEST_F(Avatars, AnyFileNameMakesALook) {
   const std::string longest(40, 'a');
-  for (const std::string name :
+  for (const char* const name :
        {"AvatarSample_A.vrm", "My  Robot!.VRM", "\xe7\xa7\x81.vrm", "x.vrm", "X.vrm", "x-2.vrm"}) {
     put(name);
   }
