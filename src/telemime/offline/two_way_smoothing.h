@@ -1,23 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 
+#include "telemime/offline/body_smoothing.h"
 #include "telemime/offline/record_queue.h"
 #include "telemime/tracker/smoother.h"
 
 namespace telemime {
 
-/// Smooths with what comes after a frame as well as with what came before: the filter runs forward in time,
-/// and then backward over its own result. What lags one way runs ahead the other way, so the lag goes, and
-/// the filter acts twice. Frames come out SmoothingOptions::look_ahead (1/25 s) late; with 0 it is the plain
-/// filter.
+/// Smooths with what comes after a frame as well as with what came before. Frames come out
+/// SmoothingOptions::look_ahead (1/25 s) late; with 0 it is the plain filter. Otherwise the body of
+/// "one-euro" is smoothed over the interval (smoothed_first). The face, the hands and the body of "recursive"
+/// are filtered forward in time, and then backward over the result: what lags one way runs ahead the other
+/// way.
 struct TwoWaySmoothing {
   SmoothingOptions options;
   Body body;
   Camera camera;  ///< of the input's frames
   std::unique_ptr<Smoother> forward;
+  std::deque<std::optional<MeasuredPose>> measured;  ///< of the smoothed records; empty: nobody was found
+  std::optional<BodyState> before;                   ///< at the frame before these
 };
 
 /// Throws Error(config) when a name or a number is not usable.
@@ -27,8 +32,8 @@ TwoWaySmoothing make_two_way_smoothing(const SmoothingOptions& options, const Bo
 /// Smooths the chosen records of the queue forward in time, in place.
 void smooth_forward(TwoWaySmoothing& smoothing, RecordQueue& queue);
 
-/// The first record's motion with all its future; nothing when it must still wait. `last`: no frame follows.
-std::optional<MotionFrame> smoothed_front(const TwoWaySmoothing& smoothing, const RecordQueue& queue,
-                                          bool last);
+/// The first record's motion with all its future, once: the record must then be removed. Nothing when it must
+/// still wait. `last`: no frame follows.
+std::optional<MotionFrame> smoothed_front(TwoWaySmoothing& smoothing, const RecordQueue& queue, bool last);
 
 }  // namespace telemime

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -122,6 +123,41 @@ TEST_F(TwoWaySmoothingTest, IsSteadierThanThePlainFilter) {
     return sum;
   };
   EXPECT_LT(jitter(smoothed(input, 12)), 0.75 * jitter(smoothed(input, 0)));
+}
+
+// Rest, then half a turn of the upper arm in a fifth of a second, and rest again.
+Pose striking(int frame) {
+  Pose pose = standing();
+  pose[Angle::l_shoulder_flexion] = -0.4 - 1.6 * std::clamp((frame - 50) / 5.0, 0.0, 1.0);
+  return pose;
+}
+
+TEST_F(TwoWaySmoothingTest, FollowsAStrikeAndIsSteadyAtRest) {
+  Random random(4);
+  const auto input = frames(100, [&](int t) {
+    Pose pose = striking(t);
+    pose[Angle::l_shoulder_flexion] += random.normal(0.0, 0.03);
+    return pose;
+  });
+  const auto result = smoothed(input, 12);
+  for (std::size_t t = 0; t < result.size(); ++t) {
+    const Pose truth = striking(static_cast<int>(t));
+    const double error =
+        std::abs(result[t].pose[Angle::l_shoulder_flexion] - truth[Angle::l_shoulder_flexion]);
+    EXPECT_LT(error, t > 40 && t < 65 ? 0.1 : 0.05) << t;
+  }
+}
+
+TEST_F(TwoWaySmoothingTest, TurnsBeyondHalfATurnAreFollowed) {
+  const auto turning = [](int t) {
+    Pose pose = standing();
+    pose[Angle::root_torsion] = 0.06 * t;
+    return pose;
+  };
+  const auto result = smoothed(frames(120, turning), 12);
+  for (std::size_t t = 20; t < result.size(); ++t) {
+    EXPECT_NEAR(result[t].pose[Angle::root_torsion], 0.06 * static_cast<double>(t), 0.01) << t;
+  }
 }
 
 TEST_F(TwoWaySmoothingTest, LostFramesPassAndPartWhatIsBeforeFromWhatIsAfter) {

@@ -9,46 +9,10 @@
 #include "telemime/tracker/face_smoother.h"
 #include "telemime/tracker/hand_smoother.h"
 #include "telemime/tracker/joint_rotations.h"
+#include "telemime/tracker/rotation_noise.h"
 
 namespace telemime {
 namespace {
-
-/// How much larger the variance of each measured rotation is than that of a joint that is clearly seen.
-struct NoiseRatios {
-  std::array<double, 6> rotation{1.0, 1.0, 1.0, 1.0, 1.0, 1.0};  ///< in the order of JointRotations
-  std::array<double, 2> elbow{1.0, 1.0};
-};
-
-bool is_in_image(const Eigen::Vector2d& pixel, const Camera& camera) {
-  return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= camera.width - 1 &&
-         pixel.y() <= camera.height - 1;
-}
-
-/// An arm that is outside the image from the elbow on is as uncertain as its spread says. One of which the
-/// elbow, the wrist or the hand is visible follows the image, whatever the spread of the rest. The deviations
-/// are upper ends of those of visible arms, on synthetic people.
-NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera) {
-  constexpr std::array<double, 3> kVisible = {0.07, 0.12, 0.14};  // m: elbow, wrist, hand
-  constexpr std::array<std::array<Joint, 3>, 2> kArms = {
-      {{Joint::l_elbow, Joint::l_wrist, Joint::l_hand}, {Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
-  NoiseRatios noise;
-  for (std::size_t side = 0; side < kArms.size(); ++side) {
-    const bool visible = std::any_of(kArms[side].begin(), kArms[side].end(), [&](Joint joint) {
-      return is_in_image(frame.pixels[static_cast<std::size_t>(joint)], camera);
-    });
-    if (!frame.spread || visible) {
-      continue;
-    }
-    const auto ratio = [&](std::size_t i) {
-      const double variance = frame.spread->covariance[static_cast<std::size_t>(kArms[side][i])].trace();
-      return std::max(1.0, variance / (kVisible[i] * kVisible[i]));
-    };
-    noise.rotation[2 + side] = ratio(0);
-    noise.elbow[side] = ratio(1);
-    noise.rotation[4 + side] = ratio(2);
-  }
-  return noise;
-}
 
 /// The share of the present for a measurement with `ratio` times the variance: what the gain of a Kalman
 /// filter of a random walk becomes in its steady state, where gain^2 / (1 - gain) is the variance of the
@@ -195,6 +159,16 @@ SettingTable one_euro_settings(OneEuroOptions& o, const std::string& group, cons
           {}};
 }
 
+SettingTable interval_settings(IntervalModel& o, const std::string& group, const std::string& unit) {
+  return {
+      {number(group + ".noise", &o.noise, {1e-6, 10}, unit, "Standard deviation of what is measured."),
+       number(group + ".motion", &o.motion, {1e-6, 1e3}, unit + "/s^1.5",
+              "Random acceleration: root of its spectral density; lower smooths more."),
+       number(group + ".sudden", &o.sudden, {0.1, 1e6}, "",
+              "Degrees of freedom of the acceleration (Student's t); lower follows sudden motion sooner.")},
+      {}};
+}
+
 }  // namespace
 
 SettingTable settings_of(SmoothingOptions& o) {
@@ -208,6 +182,8 @@ SettingTable settings_of(SmoothingOptions& o) {
   table.append(one_euro_settings(o.angles, "smoother.angles", "rad/s"));
   table.append(one_euro_settings(o.root, "smoother.root", "m/s"));
   table.append(one_euro_settings(o.hands, "smoother.hands", "rad/s"));
+  table.append(interval_settings(o.file.angles, "smoother.file.angles", "rad"));
+  table.append(interval_settings(o.file.root, "smoother.file.root", "m"));
   return table;
 }
 

@@ -8,9 +8,16 @@
 #include "telemime/body/motion_frame.h"
 #include "telemime/core/camera.h"
 #include "telemime/core/settings.h"
+#include "telemime/tracker/interval_smoother.h"
 #include "telemime/tracker/one_euro.h"
 
 namespace telemime {
+
+/// How the body moves, for the smoothing of files.
+struct FileSmoothing {
+  IntervalModel angles = {.noise = 0.03, .motion = 1.0, .sudden = 2.0};  ///< rad
+  IntervalModel root = {.noise = 0.01, .motion = 0.3, .sudden = 2.0};    ///< m
+};
 
 /// Settings of the smoother; the table (settings_of) gives the meaning, unit and range of each.
 struct SmoothingOptions {
@@ -20,6 +27,7 @@ struct SmoothingOptions {
   OneEuroOptions root = {1.0, 10.0, 1.0};
   OneEuroOptions hands = {1.5, 1.5, 1.0};
   int look_ahead = 12;
+  FileSmoothing file;
 };
 
 /// Settings of time count in 1/25 s.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/tracker/rotation_noise.h"
+
+#include <algorithm>
+
+namespace telemime {
+namespace {
+
+// Standard deviations of a visible arm (m): elbow, wrist, hand. The upper ends of those of synthetic people.
+constexpr std::array<double, 3> kVisible = {0.07, 0.12, 0.14};
+
+bool is_in_image(const Eigen::Vector2d& pixel, const Camera& camera) {
+  return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= camera.width - 1 &&
+         pixel.y() <= camera.height - 1;
+}
+
+}  // namespace
+
+NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera) {
+  constexpr std::array<std::array<Joint, 3>, 2> kArms = {
+      {{Joint::l_elbow, Joint::l_wrist, Joint::l_hand}, {Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
+  NoiseRatios noise;
+  for (std::size_t side = 0; side < kArms.size(); ++side) {
+    const bool visible = std::any_of(kArms[side].begin(), kArms[side].end(), [&](Joint joint) {
+      return is_in_image(frame.pixels[static_cast<std::size_t>(joint)], camera);
+    });
+    if (!frame.spread || visible) {
+      continue;
+    }
+    const auto ratio = [&](std::size_t i) {
+      const double variance = frame.spread->covariance[static_cast<std::size_t>(kArms[side][i])].trace();
+      return std::max(1.0, variance / (kVisible[i] * kVisible[i]));
+    };
+    noise.rotation[2 + side] = ratio(0);
+    noise.elbow[side] = ratio(1);
+    noise.rotation[4 + side] = ratio(2);
+  }
+  return noise;
+}
+
+}  // namespace telemime
