@@ -250,9 +250,27 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
   // The points are a parallel projection along the ray to the head.
   const Eigen::Vector3d ray = camera.ray(fit.translation.head<2>());
   face.head = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;
+  face.detail = detail;
   face.gaze *= detail;
   for (double& value : face.expressions) {
     value *= detail;
+  }
+  return face;
+}
+
+FaceMotion mean_of_looks(const FaceMotion& first, const FaceMotion& second) {
+  if (!(first.confidence > 0.0) || !(second.confidence > 0.0)) {
+    return first.confidence > 0.0 ? first : second;
+  }
+  FaceMotion face = first;
+  face.confidence = 0.5 * (first.confidence + second.confidence);
+  face.head = first.head.slerp(0.5, second.head).normalized();
+  face.gaze = 0.5 * (first.gaze + second.gaze);
+  face.noise.head = first.head.angularDistance(second.head);
+  face.noise.gaze = (first.gaze - second.gaze).norm();
+  for (std::size_t i = 0; i < kExpressionCount; ++i) {
+    face.expressions[i] = 0.5 * (first.expressions[i] + second.expressions[i]);
+    face.noise.expressions[i] = std::abs(first.expressions[i] - second.expressions[i]);
   }
   return face;
 }
@@ -263,6 +281,7 @@ FaceMotion mirrored(const FaceMotion& face) {
   m.gaze.x() = -face.gaze.x();
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     m.expressions[other_side(i)] = face.expressions[i];
+    m.noise.expressions[other_side(i)] = face.noise.expressions[i];
   }
   return m;
 }

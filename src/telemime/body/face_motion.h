@@ -89,6 +89,14 @@ struct FaceMotion {
   /// Direction of the eyes in the head, rad: to the person's left, and up.
   Eigen::Vector2d gaze = Eigen::Vector2d::Zero();
   std::array<double, kExpressionCount> expressions{};  ///< indexed by Expression, each in [0, 1]
+  double detail = 1.0;  ///< in [0, 1]: by which gaze and expressions of a small face are reduced
+  /// How much two looks at the same picture differ in what they measure: 0 where it is not known.
+  struct Noise {
+    double head = 0.0;  ///< rad
+    double gaze = 0.0;  ///< rad
+    std::array<double, kExpressionCount> expressions{};
+  };
+  Noise noise;
 
   double& operator[](Expression e) { return expressions[static_cast<std::size_t>(e)]; }
   double operator[](Expression e) const { return expressions[static_cast<std::size_t>(e)]; }

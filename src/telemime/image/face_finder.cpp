@@ -26,6 +26,9 @@ std::optional<FaceLandmarks> FaceFinder::find(const cv::Mat& picture, const Pose
   if (face && !is_near(face->next_region)) {
     face.reset();
   }
+  if (face) {
+    look_again(picture, *networks_, *face);
+  }
   region_ = face ? std::optional(face->next_region) : std::nullopt;
   return face;
 }

@@ -81,6 +81,19 @@ FaceNetworks load_face_networks(const std::filesystem::path& models) {
           .details = load_face_details(models)};
 }
 
+void look_again(const cv::Mat& picture, FaceNetworks& networks, FaceLandmarks& face) {
+  constexpr double kAside = 0.03;  // of its width
+  constexpr double kLarger = 1.04;
+  constexpr double kTurned = 0.05;  // rad
+  PictureRegion region = face.region;
+  region.centre += kAside * region.width * Eigen::Vector2d(1.0, 1.0);
+  region.width *= kLarger;
+  region.height *= kLarger;
+  region.angle += kTurned;
+  const std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks);
+  face.again = found ? std::optional(found->points) : std::nullopt;
+}
+
 PictureRegion head_region(const PoseLandmarks& pose) {
   using Index = PoseLandmarkIndex;
   const auto distance = [&](int a, int b) { return (pose.points[a].pixel - pose.points[b].pixel).norm(); };

@@ -18,6 +18,9 @@ class FaceSmoother {
 
  private:
   void follow(const FaceMotion& measured, double step);
+  void learn_noise(const FaceMotion& measured, double step);
+  /// The likeliest face behind what was steadied: the noisier, the nearer to rest.
+  std::optional<FaceMotion> likely() const;
 
   std::optional<double> time_;
   std::optional<FaceMotion> smooth_;
@@ -25,6 +28,8 @@ class FaceSmoother {
   std::array<SpeedShare, kExpressionCount> speed_;
   SpeedShare head_speed_;
   SpeedShare gaze_speed_;
+  FaceMotion::Noise variance_;  ///< of what is measured: means of squares
+  double looks_ = 0.0;          ///< that these are means of
 };
 
 }  // namespace telemime

@@ -14,17 +14,6 @@
 namespace telemime {
 namespace {
 
-/// The share of the present for a measurement with `ratio` times the variance: what the gain of a Kalman
-/// filter of a random walk becomes in its steady state, where gain^2 / (1 - gain) is the variance of the
-/// motion over that of the measurement.
-double with_noise(double share, double ratio) {
-  if (ratio == 1.0 || share >= 1.0) {
-    return share;
-  }
-  const double q = share * share / (1.0 - share) / ratio;
-  return 0.5 * (std::sqrt(q * q + 4.0 * q) - q);
-}
-
 class NoSmoother final : public Smoother {
  public:
   MotionFrame operator()(const MotionFrame& frame) override { return frame; }

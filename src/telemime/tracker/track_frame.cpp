@@ -103,13 +103,17 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
     return std::nullopt;
   }
   static_assert(kFacePoints == FaceLandmarks::kCount);
-  FacePoints points;
-  for (std::size_t i = 0; i < kFacePoints; ++i) {
-    const FaceLandmark& seen = features.face->points[i];
-    points[i] = {seen.pixel.x(), seen.pixel.y(), seen.depth};
+  const auto motion_of = [&](const std::array<FaceLandmark, FaceLandmarks::kCount>& seen) {
+    FacePoints points;
+    for (std::size_t i = 0; i < kFacePoints; ++i) {
+      points[i] = {seen[i].pixel.x(), seen[i].pixel.y(), seen[i].depth};
+    }
+    return face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
+  };
+  FaceMotion face = motion_of(features.face->points);
+  if (features.face->again) {
+    face = mean_of_looks(face, motion_of(*features.face->again));
   }
-  const FaceMotion face =
-      face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
   return face.confidence > 0.0 ? std::optional(face) : std::nullopt;
 }
 
