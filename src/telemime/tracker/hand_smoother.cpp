@@ -2,15 +2,28 @@
 #include "telemime/tracker/hand_smoother.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {
 namespace {
 
-constexpr double kRestCutoff = 0.9;  // Hz: 94 % of the way to rest in half a second
+constexpr double kDegree = std::numbers::pi / 180.0;
+// How much two looks at the same synthetic hands differ in an angle, for each visibility: a clear hand, and
+// an angle of which nothing is known between 0 and 90 degrees.
+constexpr double kClear = 2.2 * kDegree;
+constexpr double kUnknown = 26.0 * kDegree;
+constexpr double kNoiseCutoff = 0.6;  // Hz, of the noise of a hand that becomes clear
+constexpr double kRestCutoff = 0.9;   // Hz: 85 % of the way to rest in half a second
 constexpr double kRise = 6.0;        // Hz, of the visibility of a hand that comes into sight
 constexpr double kUnseen = 0.02;     // visibility below which a hand is at rest
+
+// Variance of an angle.
+double variance_of(double visibility) {
+  const double unknown = (1.0 - visibility) * kUnknown;
+  return kClear * kClear + unknown * unknown;
+}
 
 }  // namespace
 
@@ -19,6 +32,16 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
   const bool seen = measured.visibility > 0.0;
   // Where a hand comes into sight, the way from its form at rest is not a motion.
   const bool appears = seen && !(state.last.visibility > 0.0);
+  // A hand that is not seen starts to go to rest slowly.
+  const double to_rest = low_pass_share(kRestCutoff, step);
+  state.resting = seen ? 0.0 : state.resting + to_rest * (1.0 - state.resting);
+  // How far the angles are wrong: at once where a hand is seen badly, and for a while after that.
+  if (seen) {
+    const double now = variance_of(measured.visibility);
+    state.variance += low_pass_share(kNoiseCutoff, step) * (now - state.variance);
+    state.variance = std::max(state.variance, now);
+  }
+  const double ratio = std::max(1.0, state.variance / (kClear * kClear));
   // Fingers, each with its own speed.
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     Eigen::Vector3d change = Eigen::Vector3d::Zero();
@@ -26,8 +49,9 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
       change[static_cast<Eigen::Index>(a)] =
           measured.angles[kFirstFingerAngle[f] + a] - state.last.angles[kFirstFingerAngle[f] + a];
     }
-    const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro);
-    const double share = !seen ? low_pass_share(kRestCutoff, step) : smoothing_.share.value_or(by_speed);
+    const MeasuredNoise noise{.variance = 3.0 * state.variance, .ratio = ratio};
+    const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro, noise);
+    const double share = !seen ? to_rest * state.resting : smoothing_.share.value_or(by_speed);
     for (std::size_t a = kFirstFingerAngle[f]; a < kFirstFingerAngle[f + 1]; ++a) {
       smooth.angles[a] += share * (measured.angles[a] - smooth.angles[a]);
     }
@@ -35,7 +59,7 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
   // The palm.
   const Eigen::Quaterniond before = state.last.seen.value_or(target);
   const double by_speed = state.palm_speed(turn_between(before, target), step, smoothing_.one_euro);
-  const double share = !seen ? low_pass_share(kRestCutoff, step) : smoothing_.share.value_or(by_speed);
+  const double share = !seen ? to_rest * state.resting : smoothing_.share.value_or(by_speed);
   state.palm = state.palm.slerp(share, target).normalized();
   const double rate = measured.visibility > smooth.visibility ? kRise : kRestCutoff;
   smooth.visibility += low_pass_share(rate, step) * (measured.visibility - smooth.visibility);

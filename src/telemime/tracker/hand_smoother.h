@@ -30,6 +30,8 @@ class HandSmoother {
   struct State {
     std::array<SpeedShare, kFingerCount> finger_speed;
     SpeedShare palm_speed;
+    double variance = 0.0;  ///< of a measured angle of the fingers, rad^2
+    double resting = 0.0;   ///< from 0 to 1 while the hand is not seen
     Eigen::Quaterniond palm = Eigen::Quaterniond::Identity();  ///< camera from hand
     HandMotion last;                                           ///< measured
   };
