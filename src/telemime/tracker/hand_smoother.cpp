@@ -10,10 +10,10 @@ namespace telemime {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-// How much two looks at the same synthetic hands differ in an angle, for each visibility: a clear hand, and
-// an angle of which nothing is known between 0 and 90 degrees.
+// How much two looks at the same synthetic hands differ in an angle: of a clear hand, and of one of which
+// nothing is known, as of a middle joint anywhere between 0 and 110 degrees. docs/hands.md has what was measured.
 constexpr double kClear = 2.2 * kDegree;
-constexpr double kUnknown = 26.0 * kDegree;
+constexpr double kUnknown = 32.0 * kDegree;
 constexpr double kNoiseCutoff = 0.6;  // Hz, of the noise of a hand that becomes clear
 constexpr double kRestCutoff = 0.9;   // Hz: 85 % of the way to rest in half a second
 constexpr double kRise = 6.0;        // Hz, of the visibility of a hand that comes into sight
@@ -36,20 +36,23 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
   const double to_rest = low_pass_share(kRestCutoff, step);
   state.resting = seen ? 0.0 : state.resting + to_rest * (1.0 - state.resting);
   // How far the angles are wrong: at once where a hand is seen badly, and for a while after that.
+  const double now = variance_of(measured.visibility);
   if (seen) {
-    const double now = variance_of(measured.visibility);
-    state.variance += low_pass_share(kNoiseCutoff, step) * (now - state.variance);
-    state.variance = std::max(state.variance, now);
+    state.variance = std::max(now, state.variance + low_pass_share(kNoiseCutoff, step) * (now - state.variance));
   }
-  const double ratio = std::max(1.0, state.variance / (kClear * kClear));
-  // Fingers, each with its own speed.
+  // Fingers, each with its own speed and jitter.
   for (std::size_t f = 0; f < kFingerCount; ++f) {
     Eigen::Vector3d change = Eigen::Vector3d::Zero();
     for (std::size_t a = 0; a < 3 && !appears; ++a) {
       change[static_cast<Eigen::Index>(a)] =
           measured.angles[kFirstFingerAngle[f] + a] - state.last.angles[kFirstFingerAngle[f] + a];
     }
-    const MeasuredNoise noise{.variance = 3.0 * state.variance, .ratio = ratio};
+    // White noise makes changes that follow each other opposite: minus their product is its variance.
+    State::Jitter& jitter = state.jitter[f];
+    jitter.variance += low_pass_share(kNoiseCutoff, step) * (-change.dot(jitter.change) / 3.0 - jitter.variance);
+    jitter.change = change;
+    const double variance = std::max({kClear * kClear, state.variance, jitter.variance});
+    const MeasuredNoise noise{.variance = 3.0 * variance, .ratio = variance / (kClear * kClear)};
     const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro, noise);
     const double share = !seen ? to_rest * state.resting : smoothing_.share.value_or(by_speed);
     for (std::size_t a = kFirstFingerAngle[f]; a < kFirstFingerAngle[f + 1]; ++a) {

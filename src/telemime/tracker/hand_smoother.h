@@ -30,7 +30,12 @@ class HandSmoother {
   struct State {
     std::array<SpeedShare, kFingerCount> finger_speed;
     SpeedShare palm_speed;
-    double variance = 0.0;  ///< of a measured angle of the fingers, rad^2
+    double variance = 0.0;  ///< of an angle of the fingers that is measured with this visibility, rad^2
+    struct Jitter {
+      Eigen::Vector3d change = Eigen::Vector3d::Zero();  ///< of the first angles of a finger
+      double variance = 0.0;  ///< rad^2, of white noise that explains the changes; may be negative
+    };
+    std::array<Jitter, kFingerCount> jitter;
     double resting = 0.0;   ///< from 0 to 1 while the hand is not seen
     Eigen::Quaterniond palm = Eigen::Quaterniond::Identity();  ///< camera from hand
     HandMotion last;                                           ///< measured
