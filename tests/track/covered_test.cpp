@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "lab/synth/sequence.h"
 #include "telemime/capture/source.h"
 #include "telemime/core/random.h"
 #include "telemime/image/hand_finder.h"
@@ -25,6 +26,7 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kSettled = 10;  // frames after which a face has been learned
+constexpr int kTurning = 10;          // frame at which a drawn head has begun to turn
 
 // The file, or why the test cannot run.
 struct Input {
@@ -34,12 +36,9 @@ struct Input {
 Input input(const std::string& name) {
   const char* const variable = std::getenv("TELEMIME_DATA");
   const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
-  const std::vector<std::string> models = {"pose_detection",
-                                           "pose_landmark_full",
-                                           "face_detection_short_range",
-                                           "face_landmark_with_attention",
-                                           "hand_recrop",
-                                           "hand_landmark_full"};
+  const std::vector<std::string> models = {
+      "pose_detection", "pose_landmark_full", "face_detection_short_range", "face_landmark_with_attention",
+      "hand_recrop",    "hand_landmark_full"};
   Input in{.file = data / name, .missing = missing_models(TELEMIME_BUILD_MODELS, models)};
   if (in.missing.empty() && !std::filesystem::exists(in.file)) {
     in.missing = "no test data: set TELEMIME_DATA";
@@ -107,34 +106,51 @@ void cover(const std::vector<cv::Point>& points, const cv::Scalar& colour, Rando
 
 using Places = std::span<const std::size_t>;  // points of the face
 constexpr std::size_t kMask[] = {6,   117, 346, 227, 447, 132, 58,  172, 136, 150, 149,
-                      176, 148, 152, 377, 400, 378, 379, 365, 397, 288, 361};
-constexpr std::size_t kLeftHalf[] = {10,  151, 9,   8,   168, 6,   197, 4,   0,   17,  200, 152, 377,
-                          378, 365, 288, 361, 323, 454, 389, 251, 284, 332, 338};
-constexpr std::size_t kRightGlass[] = {70, 63, 105, 66, 107, 55, 193, 188, 114, 47, 100, 101, 50, 123, 116, 143, 156};
-constexpr std::size_t kLeftGlass[] = {300, 293, 334, 296, 336, 285, 417, 412, 343, 277, 329, 330, 280, 352, 345, 372, 383};
+                                 176, 148, 152, 377, 400, 378, 379, 365, 397, 288, 361};
+constexpr std::size_t kLeftHalf[] = {10,  151, 9,   8,   168, 6,   197, 4,   0,   17,  200, 152,
+                                     377, 378, 365, 288, 361, 323, 454, 389, 251, 284, 332, 338};
+constexpr std::size_t kRightGlass[] = {70, 63,  105, 66, 107, 55,  193, 188, 114,
+                                       47, 100, 101, 50, 123, 116, 143, 156};
+constexpr std::size_t kLeftGlass[] = {300, 293, 334, 296, 336, 285, 417, 412, 343,
+                                      277, 329, 330, 280, 352, 345, 372, 383};
 
 struct Covered {
   std::vector<Places> places;
   cv::Scalar colour;
 };
 
-// A filmed man at a webcam, parts of whose face are painted over where the face was seen without that.
-std::vector<Frame> webcam_with(const Covered& covered, const std::filesystem::path& file) {
-  std::vector<Frame> frames = frames_of(file, 0, 60);
-  TrackingRun run = new_run(frames.front().image.size(), 60.0, false);
-  Random random(7);
-  std::optional<FaceLandmarks> face;
-  for (Frame& frame : frames) {
-    if (auto found = extract(frame, ColourRequest::keep, run.scene).face) {
-      face = found;
+// A filmed man at a webcam, and his face in each frame.
+struct Webcam {
+  std::vector<Frame> frames;
+  std::vector<FaceLandmarks> faces;
+};
+const Webcam& webcam(const std::filesystem::path& file) {
+  static const Webcam seen = [&] {
+    Webcam w{.frames = frames_of(file, 0, 60), .faces = {}};
+    TrackingRun run = new_run(w.frames.front().image.size(), 60.0, false);
+    for (const Frame& frame : w.frames) {
+      const auto found = extract(frame, ColourRequest::keep, run.scene).face;
+      w.faces.push_back(found ? *found : w.faces.back());
     }
-    frame.image = frame.image.clone();
+    return w;
+  }();
+  return seen;
+}
+
+// The same with parts of the face painted over.
+std::vector<Frame> webcam_with(const Covered& covered, const std::filesystem::path& file) {
+  const Webcam& seen = webcam(file);
+  std::vector<Frame> frames = seen.frames;
+  Random random(7);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    frames[f].image = frames[f].image.clone();
     for (const Places& places : covered.places) {
       std::vector<cv::Point> points;
       for (const std::size_t i : places) {
-        points.emplace_back(cvRound(face.value().points[i].pixel.x()), cvRound(face->points[i].pixel.y()));
+        const Eigen::Vector2d& pixel = seen.faces[f].points[i].pixel;
+        points.emplace_back(cvRound(pixel.x()), cvRound(pixel.y()));
       }
-      cover(points, covered.colour, random, frame.image);
+      cover(points, covered.colour, random, frames[f].image);
     }
   }
   return frames;
@@ -247,6 +263,36 @@ TEST(CoveredFace, SunglassesLeaveTheHeadSteady) {
       EXPECT_LE(deviation(motion, i), 0.05) << kExpressionNames[i];
     }
   }
+}
+
+TEST(CoveredFace, HeadThatTurnsToProfileDoesNotJump) {
+  const Input in = input("");
+  if (!in.missing.empty()) {
+    GTEST_SKIP() << in.missing;
+  }
+  SceneOptions options;
+  options.width = 480;
+  options.height = 360;
+  options.distance = 0.65;
+  options.gesture = Gesture::talking;
+  options.look_around = 0.5 * std::numbers::pi;
+  const Scene scene = make_scene(options);
+  std::vector<Frame> frames;
+  std::vector<Eigen::Quaterniond> truth;
+  for (int i = 0; i < 40; ++i) {
+    frames.push_back({render_frame(scene, kTurning + i).image, i, 0.04 * i});
+    truth.emplace_back(scene_kinematics(scene, kTurning + i).camera_from_head.linear());
+  }
+  const auto motion = steadied(frames, options.field_of_view, false);
+  std::size_t seen = 0;
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    if (motion[i].face && motion[i - 1].face) {
+      ++seen;
+      const double turn = motion[i].face->head.angularDistance(motion[i - 1].face->head);
+      EXPECT_LE(turn, truth[i].angularDistance(truth[i - 1]) + 5.0 * std::numbers::pi / 180.0) << i;
+    }
+  }
+  EXPECT_GT(seen, frames.size() / 2);
 }
 
 TEST(CoveredFace, FilmedMaskDoesNotSmile) {

@@ -14,10 +14,10 @@ constexpr OneEuroOptions kSteady = {.minimum_cutoff = 1.0, .slope = 0.6, .speed_
 constexpr OneEuroOptions kHead = {.minimum_cutoff = 1.0, .slope = 3.0, .speed_cutoff = 1.0};
 constexpr OneEuroOptions kGaze = {.minimum_cutoff = 1.5, .slope = 3.0, .speed_cutoff = 2.0};
 // Noise of a face that is clearly seen.
-constexpr double kClearHead = 0.02;         // rad
-constexpr double kClearGaze = 0.025;        // rad
+constexpr double kClearHead = 0.02;   // rad
+constexpr double kClearGaze = 0.025;  // rad
 constexpr double kClearExpression = 0.025;
-constexpr double kNoise = 0.6;       // Hz, of the mean of the noise
+constexpr double kNoise = 0.6;  // Hz, of the mean of the noise
 // Variances of what faces do: of coefficients and angles that are equally likely in their ranges.
 constexpr double kExpressionVariance = 1.0 / 12.0;
 constexpr double kGazeVariance = 0.35 * 0.35;

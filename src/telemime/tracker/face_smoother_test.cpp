@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "telemime/core/random.h"
 
@@ -53,6 +55,74 @@ TEST(FaceSmoother, NoiseOfBrowsAndHeadIsRemoved) {
   }
   EXPECT_LT(smooth, 0.6 * raw);
   EXPECT_LT(head / 249, 0.01);
+}
+
+// Two looks at a face of which a coefficient is `value`, each with this much noise.
+FaceMotion looks(Expression e, double value, double deviation, Random& random) {
+  const double a = value + random.normal(0.0, deviation), b = value + random.normal(0.0, deviation);
+  FaceMotion face = seen_face();
+  face[e] = std::clamp(0.5 * (a + b), 0.0, 1.0);
+  face.noise.expressions[static_cast<std::size_t>(e)] = std::abs(a - b);
+  return face;
+}
+constexpr double kClear = 0.018;  // makes two looks differ by 0.025, as at a face near a webcam
+constexpr double kHidden = 0.1;   // and as at a mouth behind a mask
+
+TEST(FaceSmoother, NoiseThatTwoLooksShowIsRemoved) {
+  FaceSmoother smoother;
+  Random random(1);
+  double sum = 0.0, squares = 0.0;
+  constexpr int kFrames = 300;
+  for (int t = 0; t < 25 + kFrames; ++t) {
+    const double now =
+        (*smoother(looks(mouth_smile_left, 0.5, kHidden, random), kStep * t))[mouth_smile_left];
+    if (t >= 25) {
+      sum += now / kFrames;
+      squares += now * now / kFrames;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares - sum * sum), 0.05);
+  EXPECT_NEAR(sum, 0.5, 0.1) << "drawn to rest a little";
+}
+
+TEST(FaceSmoother, ClearBlinksAndLipsKeepTheirMotion) {
+  for (const double rate : {17.0, 25.0, 30.0}) {
+    FaceSmoother smoother, before;
+    Random random(1);
+    for (int t = 0; t < 200; ++t) {
+      // The jaw of somebody who talks, 4 syllables a second, and a blink of 0.15 s each second.
+      const double time = t / rate;
+      const double jaw = 0.25 - 0.25 * std::cos(8.0 * std::numbers::pi * time);
+      const double in_blink = std::fmod(time, 1.0) / 0.15;
+      const double lid = in_blink < 1.0 ? std::sin(std::numbers::pi * in_blink) : 0.0;
+      FaceMotion face = looks(jaw_open, jaw, kClear, random);
+      const FaceMotion eyes = looks(eye_blink_left, lid, kClear, random);
+      face[eye_blink_left] = eyes[eye_blink_left];
+      face.noise.expressions[static_cast<std::size_t>(eye_blink_left)] =
+          eyes.noise.expressions[static_cast<std::size_t>(eye_blink_left)];
+      FaceMotion without = face;
+      without.noise = {};
+      const auto now = smoother(face, time);
+      const auto then = before(without, time);
+      if (t > 25) {
+        EXPECT_NEAR((*now)[jaw_open], (*then)[jaw_open], 0.1) << rate << ' ' << t;
+        EXPECT_NEAR((*now)[eye_blink_left], (*then)[eye_blink_left], 0.1) << rate << ' ' << t;
+      }
+    }
+  }
+}
+
+TEST(FaceSmoother, UncoveredMouthMovesSoon) {
+  FaceSmoother smoother;
+  Random random(1);
+  int t = 0;
+  for (; t < 50; ++t) {
+    smoother(looks(jaw_open, 0.0, kHidden, random), kStep * t);
+  }
+  for (; t < 65; ++t) {
+    smoother(looks(jaw_open, 0.6, kClear, random), kStep * t);
+  }
+  EXPECT_GT((*smoother(looks(jaw_open, 0.6, kClear, random), kStep * t))[jaw_open], 0.5);
 }
 
 TEST(FaceSmoother, UnseenFaceGoesToRestGently) {

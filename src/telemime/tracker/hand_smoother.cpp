@@ -2,6 +2,7 @@
 #include "telemime/tracker/hand_smoother.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "telemime/tracker/joint_rotations.h"
@@ -11,13 +12,14 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 // How much two looks at the same synthetic hands differ in an angle: of a clear hand, and of one of which
-// nothing is known, as of a middle joint anywhere between 0 and 110 degrees. docs/hands.md has what was measured.
+// nothing is known, as of a middle joint anywhere between 0 and 110 degrees. docs/hands.md has what was
+// measured.
 constexpr double kClear = 2.2 * kDegree;
 constexpr double kUnknown = 32.0 * kDegree;
 constexpr double kNoiseCutoff = 0.6;  // Hz, of the noise of a hand that becomes clear
-constexpr double kRestCutoff = 0.9;   // Hz: 85 % of the way to rest in half a second
-constexpr double kRise = 6.0;        // Hz, of the visibility of a hand that comes into sight
-constexpr double kUnseen = 0.02;     // visibility below which a hand is at rest
+constexpr double kRestCutoff = 1.0;   // Hz: 85 % of the way to rest in half a second
+constexpr double kRise = 6.0;         // Hz, of the visibility of a hand that comes into sight
+constexpr double kUnseen = 0.02;      // visibility below which a hand is at rest
 
 // Variance of an angle.
 double variance_of(double visibility) {
@@ -35,25 +37,32 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
   // A hand that is not seen starts to go to rest slowly.
   const double to_rest = low_pass_share(kRestCutoff, step);
   state.resting = seen ? 0.0 : state.resting + to_rest * (1.0 - state.resting);
-  // How far the angles are wrong: at once where a hand is seen badly, and for a while after that.
-  const double now = variance_of(measured.visibility);
-  if (seen) {
-    state.variance = std::max(now, state.variance + low_pass_share(kNoiseCutoff, step) * (now - state.variance));
-  }
-  // Fingers, each with its own speed and jitter.
+  // What changed. White noise makes changes that follow each other opposite: minus their product is its
+  // variance.
+  std::array<Eigen::Vector3d, kFingerCount> change;
+  double white = 0.0;
   for (std::size_t f = 0; f < kFingerCount; ++f) {
-    Eigen::Vector3d change = Eigen::Vector3d::Zero();
-    for (std::size_t a = 0; a < 3 && !appears; ++a) {
-      change[static_cast<Eigen::Index>(a)] =
-          measured.angles[kFirstFingerAngle[f] + a] - state.last.angles[kFirstFingerAngle[f] + a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t angle = kFirstFingerAngle[f] + a;
+      change[f][static_cast<Eigen::Index>(a)] =
+          appears ? 0.0 : measured.angles[angle] - state.last.angles[angle];
     }
-    // White noise makes changes that follow each other opposite: minus their product is its variance.
-    State::Jitter& jitter = state.jitter[f];
-    jitter.variance += low_pass_share(kNoiseCutoff, step) * (-change.dot(jitter.change) / 3.0 - jitter.variance);
-    jitter.change = change;
-    const double variance = std::max({kClear * kClear, state.variance, jitter.variance});
-    const MeasuredNoise noise{.variance = 3.0 * variance, .ratio = variance / (kClear * kClear)};
-    const double by_speed = state.finger_speed[f](change, step, smoothing_.one_euro, noise);
+    white -= change[f].dot(state.change[f]) / (3.0 * kFingerCount);
+  }
+  state.change = change;
+  // How far the angles are wrong: as the visibility says, at once where it is bad and for a while after that,
+  // or as the jitter says.
+  if (seen) {
+    const double learned = low_pass_share(kNoiseCutoff, step);
+    const double now = variance_of(measured.visibility);
+    state.variance = std::max(now, state.variance + learned * (now - state.variance));
+    state.jitter += learned * (white - state.jitter);
+  }
+  const double variance = std::max({kClear * kClear, state.variance, state.jitter});
+  const MeasuredNoise noise{.variance = 3.0 * variance, .ratio = variance / (kClear * kClear)};
+  // Fingers, each with its own speed.
+  for (std::size_t f = 0; f < kFingerCount; ++f) {
+    const double by_speed = state.finger_speed[f](change[f], step, smoothing_.one_euro, noise);
     const double share = !seen ? to_rest * state.resting : smoothing_.share.value_or(by_speed);
     for (std::size_t a = kFirstFingerAngle[f]; a < kFirstFingerAngle[f + 1]; ++a) {
       smooth.angles[a] += share * (measured.angles[a] - smooth.angles[a]);

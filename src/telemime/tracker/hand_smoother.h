@@ -27,15 +27,17 @@ class HandSmoother {
   HandMotions operator()(const HandMotions& measured, const Kinematics& body, double step);
 
  private:
+  static std::array<Eigen::Vector3d, kFingerCount> no_change() {
+    std::array<Eigen::Vector3d, kFingerCount> change;
+    change.fill(Eigen::Vector3d::Zero());
+    return change;
+  }
   struct State {
     std::array<SpeedShare, kFingerCount> finger_speed;
     SpeedShare palm_speed;
-    double variance = 0.0;  ///< of an angle of the fingers that is measured with this visibility, rad^2
-    struct Jitter {
-      Eigen::Vector3d change = Eigen::Vector3d::Zero();  ///< of the first angles of a finger
-      double variance = 0.0;  ///< rad^2, of white noise that explains the changes; may be negative
-    };
-    std::array<Jitter, kFingerCount> jitter;
+    std::array<Eigen::Vector3d, kFingerCount> change = no_change();  ///< of the first angles of each finger
+    double variance = 0.0;  ///< of an angle that is measured with this visibility, rad^2
+    double jitter = 0.0;    ///< variance of white noise that explains the changes, rad^2; negative in motion
     double resting = 0.0;   ///< from 0 to 1 while the hand is not seen
     Eigen::Quaterniond palm = Eigen::Quaterniond::Identity();  ///< camera from hand
     HandMotion last;                                           ///< measured

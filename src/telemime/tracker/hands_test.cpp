@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "telemime/core/random.h"
 #include "telemime/tracker/hand_smoother.h"
@@ -56,6 +57,31 @@ class Hands : public ::testing::Test {
       most = std::max(most, std::abs(a[i] - b[i]));
     }
     return most;
+  }
+
+  // The largest change of an angle between two frames in which a hand that is seen with this visibility has
+  // this much noise in each angle, rad.
+  double largest_step(double visibility, double noise) const {
+    Random random(1);
+    HandSmoother smoother({.one_euro = {1.5, 1.5, 1.0}, .share = {}});
+    HandMotions hands;
+    double largest = 0.0;
+    for (int t = 0; t < 300; ++t) {
+      HandMotions measured;
+      for (HandMotion& hand : measured) {
+        hand.visibility = visibility;
+        hand.seen = Eigen::Quaterniond::Identity();
+        for (double& angle : hand.angles) {
+          angle += random.normal(0.0, noise);
+        }
+      }
+      const HandMotions now = smoother(measured, kinematics_, 0.04);
+      for (std::size_t side = 0; side < 2 && t > 10; ++side) {
+        largest = std::max(largest, largest_difference(now[side].angles, hands[side].angles));
+      }
+      hands = now;
+    }
+    return largest;
   }
 
   Body body_ = make_body(Shape{});
@@ -225,6 +251,31 @@ TEST_F(Hands, HandThatAppearsDoesNotJump) {
     EXPECT_LT(largest_difference(hands[0].angles, before), 0.35 * way);
   }
   EXPECT_LT(largest_difference(hands[0].angles, angles), 0.7 * way) << "but it moves on";
+}
+
+TEST_F(Hands, BadlySeenFingersAreStill) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  EXPECT_LT(largest_step(0.6, 12.0 * kDegree), 5.0 * kDegree);
+  // Jitter of a hand that claims to be clear, too.
+  EXPECT_LT(largest_step(0.97, 8.0 * kDegree), 5.0 * kDegree);
+}
+
+TEST_F(Hands, ClearFingersAreFollowedAtOnce) {
+  // A hand that closes within a fifth of a second.
+  HandSmoother smoother({.one_euro = {1.5, 1.5, 1.0}, .share = {}});
+  HandMotions measured;
+  measured[0].visibility = 0.97;
+  measured[0].seen = Eigen::Quaterniond::Identity();
+  for (int t = 0; t < 25; ++t) {
+    smoother(measured, kinematics_, 0.04);
+  }
+  const double open = measured[0].angles[7];
+  double now = open;
+  for (int t = 0; t < 8; ++t) {
+    measured[0].angles[7] = open + 0.25 * std::min(t + 1, 5);
+    now = smoother(measured, kinematics_, 0.04)[0].angles[7];
+  }
+  EXPECT_GT(now - open, 0.85 * 1.25) << "three frames later";
 }
 
 TEST_F(Hands, SmootherKeepsAHandThatIsStill) {
