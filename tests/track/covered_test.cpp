@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "lab/synth/sequence.h"
 #include "telemime/capture/source.h"
 #include "telemime/core/random.h"
 #include "telemime/image/hand_finder.h"
@@ -26,7 +25,6 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kSettled = 10;  // frames after which a face has been learned
-constexpr int kTurning = 10;          // frame at which a drawn head has begun to turn
 
 // The file, or why the test cannot run.
 struct Input {
@@ -263,36 +261,6 @@ TEST(CoveredFace, SunglassesLeaveTheHeadSteady) {
       EXPECT_LE(deviation(motion, i), 0.05) << kExpressionNames[i];
     }
   }
-}
-
-TEST(CoveredFace, HeadThatTurnsToProfileDoesNotJump) {
-  const Input in = input("");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  SceneOptions options;
-  options.width = 480;
-  options.height = 360;
-  options.distance = 0.65;
-  options.gesture = Gesture::talking;
-  options.look_around = 0.5 * std::numbers::pi;
-  const Scene scene = make_scene(options);
-  std::vector<Frame> frames;
-  std::vector<Eigen::Quaterniond> truth;
-  for (int i = 0; i < 40; ++i) {
-    frames.push_back({render_frame(scene, kTurning + i).image, i, 0.04 * i});
-    truth.emplace_back(scene_kinematics(scene, kTurning + i).camera_from_head.linear());
-  }
-  const auto motion = steadied(frames, options.field_of_view, false);
-  std::size_t seen = 0;
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    if (motion[i].face && motion[i - 1].face) {
-      ++seen;
-      const double turn = motion[i].face->head.angularDistance(motion[i - 1].face->head);
-      EXPECT_LE(turn, truth[i].angularDistance(truth[i - 1]) + 5.0 * std::numbers::pi / 180.0) << i;
-    }
-  }
-  EXPECT_GT(seen, frames.size() / 2);
 }
 
 TEST(CoveredFace, FilmedMaskDoesNotSmile) {

@@ -264,9 +264,7 @@ FaceMotion mean_of_looks(const FaceMotion& first, const FaceMotion& second) {
   }
   FaceMotion face = first;
   face.confidence = 0.5 * (first.confidence + second.confidence);
-  face.head = first.head.slerp(0.5, second.head).normalized();
   face.gaze = 0.5 * (first.gaze + second.gaze);
-  face.noise.head = first.head.angularDistance(second.head);
   face.noise.gaze = (first.gaze - second.gaze).norm();
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     face.expressions[i] = 0.5 * (first.expressions[i] + second.expressions[i]);

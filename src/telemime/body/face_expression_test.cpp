@@ -369,5 +369,31 @@ TEST(FaceExpression, GarbageGivesFiniteValues) {
   }
 }
 
+TEST(MeanOfLooks, IsTheMeanWithTheDifferenceAsNoise) {
+  FaceMotion first, second;
+  first.confidence = second.confidence = 1.0;
+  first[jaw_open] = 0.2;
+  second[jaw_open] = 0.6;
+  second.gaze = {0.1, 0.0};
+  second.head = Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY());
+  const FaceMotion face = mean_of_looks(first, second);
+  EXPECT_DOUBLE_EQ(face[jaw_open], 0.4);
+  EXPECT_DOUBLE_EQ(face.noise.expressions[static_cast<std::size_t>(jaw_open)], 0.4);
+  EXPECT_DOUBLE_EQ(face.gaze.x(), 0.05);
+  EXPECT_NEAR(face.noise.gaze, 0.1, 1e-12);
+  EXPECT_NEAR(face.head.angularDistance(first.head), 0.0, 1e-12);
+}
+
+TEST(MeanOfLooks, OneWithoutAFaceDoesNotCount) {
+  FaceMotion face;
+  face.confidence = 0.8;
+  face[jaw_open] = 0.5;
+  for (const FaceMotion& mean : {mean_of_looks(face, {}), mean_of_looks({}, face)}) {
+    EXPECT_EQ(mean.confidence, 0.8);
+    EXPECT_EQ(mean[jaw_open], 0.5);
+    EXPECT_EQ(mean.noise.expressions[static_cast<std::size_t>(jaw_open)], 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace telemime

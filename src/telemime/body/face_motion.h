@@ -92,7 +92,6 @@ struct FaceMotion {
   double detail = 1.0;  ///< in [0, 1]: by which gaze and expressions of a small face are reduced
   /// How much two looks at the same picture differ in what they measure: 0 where it is not known.
   struct Noise {
-    double head = 0.0;  ///< rad
     double gaze = 0.0;  ///< rad
     std::array<double, kExpressionCount> expressions{};
   };

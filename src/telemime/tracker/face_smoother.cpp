@@ -14,7 +14,6 @@ constexpr OneEuroOptions kSteady = {.minimum_cutoff = 1.0, .slope = 0.6, .speed_
 constexpr OneEuroOptions kHead = {.minimum_cutoff = 1.0, .slope = 3.0, .speed_cutoff = 1.0};
 constexpr OneEuroOptions kGaze = {.minimum_cutoff = 1.5, .slope = 3.0, .speed_cutoff = 2.0};
 // Noise of a face that is clearly seen.
-constexpr double kClearHead = 0.02;   // rad
 constexpr double kClearGaze = 0.025;  // rad
 constexpr double kClearExpression = 0.025;
 constexpr double kNoise = 0.6;  // Hz, of the mean of the noise
@@ -83,7 +82,6 @@ void FaceSmoother::learn_noise(const FaceMotion& measured, double step) {
   const auto learn = [present](double noise, double& variance) {
     variance += present * (noise * noise - variance);
   };
-  learn(measured.noise.head, variance_.head);
   learn(measured.noise.gaze, variance_.gaze);
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     learn(measured.noise.expressions[i], variance_.expressions[i]);
@@ -108,9 +106,8 @@ std::optional<FaceMotion> FaceSmoother::likely() const {
 void FaceSmoother::follow(const FaceMotion& measured, double step) {
   // At first the mean of what was seen.
   const double least = 1.0 / looks_;
-  const double head = head_speed_(turn_between(last_->head, measured.head), step, kHead,
-                                  noise_of(variance_.head, kClearHead));
-  smooth_->head = smooth_->head.slerp(std::max(least, head), measured.head).normalized();
+  const double head = head_speed_(turn_between(last_->head, measured.head), step, kHead);
+  smooth_->head = smooth_->head.slerp(head, measured.head).normalized();
   const Eigen::Vector2d move = measured.gaze - last_->gaze;
   const double gaze =
       gaze_speed_({move.x(), move.y(), 0.0}, step, kGaze, noise_of(variance_.gaze, kClearGaze));
