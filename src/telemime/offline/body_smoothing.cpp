@@ -14,12 +14,12 @@ template <int N, typename SampleOf, typename Near>
 Eigen::Matrix<double, 1, N> smooth(const IntervalModel& model, const std::deque<MeasuredPose>& poses,
                                    const std::optional<BodyState>& before, IntervalState<N>& state,
                                    const SampleOf& sample_of, const Near& near) {
-  std::vector<Sample<N>> samples;
+  std::vector<IntervalSample<N>> samples;
   samples.reserve(poses.size());
   double last_time = before ? before->time : poses.front().time;
   Eigen::Matrix<double, 1, N> last = before ? state.mean.row(0).eval() : sample_of(poses.front()).value;
   for (const MeasuredPose& pose : poses) {
-    Sample<N> sample = sample_of(pose);
+    IntervalSample<N> sample = sample_of(pose);
     sample.value = near(sample.value, last);
     sample.step = pose.time - last_time;
     last = sample.value;
@@ -46,14 +46,14 @@ JointRotations smoothed_first(const FileSmoothing& options, const std::deque<Mea
   BodyState state = before.value_or(BodyState{});
   result.root = smooth<3>(
       options.root, poses, before, state.root,
-      [](const MeasuredPose& pose) { return Sample<3>{.value = pose.rotations.root.transpose()}; },
+      [](const MeasuredPose& pose) { return IntervalSample<3>{.value = pose.rotations.root.transpose()}; },
       [](const Eigen::RowVector3d& value, const auto& /*last*/) { return value; });
   for (std::size_t j = 0; j < result.rotation.size(); ++j) {
     const Quaternion twice = smooth<4>(
         options.angles, poses, before, state.rotation[j],
         [j](const MeasuredPose& pose) {
-          return Sample<4>{.value = 2.0 * pose.rotations.rotation[j].coeffs().transpose(),
-                           .ratio = pose.noise.rotation[j]};
+          return IntervalSample<4>{.value = 2.0 * pose.rotations.rotation[j].coeffs().transpose(),
+                                   .ratio = pose.noise.rotation[j]};
         },
         // A quaternion and its negative are one rotation.
         [](const Quaternion& value, const Quaternion& last) {
@@ -65,7 +65,8 @@ JointRotations smoothed_first(const FileSmoothing& options, const std::deque<Mea
     result.elbow[side] = smooth<1>(
         options.angles, poses, before, state.elbow[side],
         [side](const MeasuredPose& pose) {
-          return Sample<1>{.value = Number(pose.rotations.elbow[side]), .ratio = pose.noise.elbow[side]};
+          return IntervalSample<1>{.value = Number(pose.rotations.elbow[side]),
+                                   .ratio = pose.noise.elbow[side]};
         },
         [](const Number& value, const Number& last) {
           return Number(last[0] + wrap_angle(value[0] - last[0]));

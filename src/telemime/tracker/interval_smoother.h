@@ -20,7 +20,7 @@ struct IntervalModel {
 
 /// A measured quantity of N numbers.
 template <int N>
-struct Sample {
+struct IntervalSample {
   Eigen::Matrix<double, 1, N> value;
   double step = 0.0;   ///< s since the sample before it
   double ratio = 1.0;  ///< of its variance to noise^2
@@ -57,7 +57,8 @@ inline Eigen::Matrix2d acceleration(double step) {
 /// has a factor of its density that is estimated from the smoothed motion itself, in turn with it
 /// (expectation maximisation; Lange, Little & Taylor, JASA 84, 1989).
 template <int N>
-Eigen::Matrix<double, 1, N> smoothed_first(const IntervalModel& model, std::span<const Sample<N>> samples,
+Eigen::Matrix<double, 1, N> smoothed_first(const IntervalModel& model,
+                                           std::span<const IntervalSample<N>> samples,
                                            std::optional<IntervalState<N>>& before) {
   using State = IntervalState<N>;
   constexpr int kPasses = 4;  // the factors change by a few percent after three
@@ -67,7 +68,7 @@ Eigen::Matrix<double, 1, N> smoothed_first(const IntervalModel& model, std::span
   // State 0 is the one before the samples, if there is one; without it the first sample is.
   const std::size_t first = before ? 1 : 0;
   const std::size_t count = samples.size() + first;
-  const auto sample = [&](std::size_t t) -> const Sample<N>& { return samples[t - first]; };
+  const auto sample = [&](std::size_t t) -> const IntervalSample<N>& { return samples[t - first]; };
   std::vector<State> predicted(count), filtered(count), smoothed(count);
   std::vector<Eigen::Matrix2d> gain(count);
   std::vector<double> factor(count, 1.0);

@@ -15,11 +15,11 @@ constexpr double kStep = 0.04;
 constexpr IntervalModel kNormal = {.noise = 0.05, .motion = 1.0, .sudden = 1e9};
 constexpr IntervalModel kStudent = {.noise = 0.05, .motion = 1.0, .sudden = 2.0};
 
-std::vector<Sample<1>> samples_of(int count, double noise, Random& random,
-                                  const std::function<double(int)>& truth) {
-  std::vector<Sample<1>> samples;
+std::vector<IntervalSample<1>> samples_of(int count, double noise, Random& random,
+                                          const std::function<double(int)>& truth) {
+  std::vector<IntervalSample<1>> samples;
   for (int t = 0; t < count; ++t) {
-    Sample<1> sample;
+    IntervalSample<1> sample;
     sample.value[0] = truth(t) + random.normal(0.0, noise);
     sample.step = kStep;
     samples.push_back(sample);
@@ -28,7 +28,7 @@ std::vector<Sample<1>> samples_of(int count, double noise, Random& random,
 }
 
 // Each sample smoothed in turn with `ahead` samples after it.
-std::vector<double> smoothed(const IntervalModel& model, const std::vector<Sample<1>>& samples,
+std::vector<double> smoothed(const IntervalModel& model, const std::vector<IntervalSample<1>>& samples,
                              std::size_t ahead) {
   std::optional<IntervalState<1>> state;
   std::vector<double> result;
@@ -40,13 +40,13 @@ std::vector<double> smoothed(const IntervalModel& model, const std::vector<Sampl
 }
 
 // The same by least squares over all values and velocities at once.
-Eigen::VectorXd least_squares(const IntervalModel& model, const std::vector<Sample<1>>& samples) {
+Eigen::VectorXd least_squares(const IntervalModel& model, const std::vector<IntervalSample<1>>& samples) {
   const auto count = static_cast<Eigen::Index>(samples.size());
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(2 * count, 2 * count);
   Eigen::VectorXd vector = Eigen::VectorXd::Zero(2 * count);
   const double noise = model.noise * model.noise, density = model.motion * model.motion;
   for (Eigen::Index t = 0; t < count; ++t) {
-    const Sample<1>& sample = samples[static_cast<std::size_t>(t)];
+    const IntervalSample<1>& sample = samples[static_cast<std::size_t>(t)];
     information(2 * t, 2 * t) += 1.0 / (noise * sample.ratio);
     vector[2 * t] += sample.value[0] / (noise * sample.ratio);
     if (t == 0) {
@@ -105,14 +105,14 @@ TEST(IntervalSmoother, SuddenMotionIsFollowedAndRestIsSteady) {
 
 TEST(IntervalSmoother, SeveralNumbersAreSmoothedTogether) {
   Random random(3);
-  std::vector<Sample<3>> three;
-  std::vector<Sample<1>> one;
+  std::vector<IntervalSample<3>> three;
+  std::vector<IntervalSample<1>> one;
   for (int t = 0; t < 20; ++t) {
-    Sample<1> sample;
+    IntervalSample<1> sample;
     sample.value[0] = random.normal(0.0, 0.1);
     sample.step = kStep;
     one.push_back(sample);
-    Sample<3> same;
+    IntervalSample<3> same;
     same.value.setConstant(sample.value[0]);
     same.step = kStep;
     three.push_back(same);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/smoother.h"
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "telemime/body/rotations.h"
