@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "telemime/core/random.h"
@@ -12,8 +14,8 @@ namespace telemime {
 namespace {
 
 constexpr double kStep = 0.04;
-constexpr IntervalModel kNormal = {.noise = 0.05, .motion = 1.0, .sudden = 1e9};
-constexpr IntervalModel kStudent = {.noise = 0.05, .motion = 1.0, .sudden = 2.0};
+constexpr IntervalModel kNormal = {.noise = 0.03, .motion = 1.0, .sudden = 1e9};
+constexpr IntervalModel kStudent = {.noise = 0.03, .motion = 1.0, .sudden = 2.0};
 
 std::vector<IntervalSample<1>> samples_of(int count, double noise, Random& random,
                                           const std::function<double(int)>& truth) {
@@ -88,8 +90,9 @@ TEST(IntervalSmoother, SteadyMotionPassesUnchanged) {
 TEST(IntervalSmoother, SuddenMotionIsFollowedAndRestIsSteady) {
   Random random(2);
   // Rest, a quarter of a turn in three frames, rest.
-  const auto truth = [](int t) { return 1.5 * std::clamp((t - 50) / 3.0, 0.0, 1.0); };
-  const auto samples = samples_of(100, 0.05, random, truth);
+  constexpr double kEachFrame = 0.5;
+  const auto truth = [](int t) { return kEachFrame * std::clamp(t - 50.0, 0.0, 3.0); };
+  const auto samples = samples_of(100, kStudent.noise, random, truth);
   const auto error = [&](const IntervalModel& model, std::size_t from, std::size_t until) {
     const auto result = smoothed(model, samples, 12);
     double worst = 0.0;
@@ -98,9 +101,9 @@ TEST(IntervalSmoother, SuddenMotionIsFollowedAndRestIsSteady) {
     }
     return worst;
   };
-  EXPECT_LT(error(kStudent, 15, 45), 0.06) << "noise of 0.05, whose largest of 30 is about 0.1";
-  EXPECT_LT(error(kStudent, 46, 60), 0.15);
-  EXPECT_GT(error(kNormal, 46, 60), 2.0 * error(kStudent, 46, 60)) << "which normal accelerations are not";
+  EXPECT_LT(error(kStudent, 15, 45), 1.2 * kStudent.noise) << "the largest noise of 30 is about twice that";
+  EXPECT_LT(error(kStudent, 46, 60), 0.5 * kEachFrame) << "late or early by less than half a frame";
+  EXPECT_GT(error(kNormal, 46, 60), 0.6 * kEachFrame) << "which is not so with normal accelerations";
 }
 
 TEST(IntervalSmoother, SeveralNumbersAreSmoothedTogether) {
