@@ -332,5 +332,74 @@ TEST(CoveredHands, HiddenHandsGoToRestGently) {
   }
 }
 
+TEST(CoveredHands, FingersOfStillClaspedHandsAreStill) {
+  const Input in = input("dev_practical/desk_talk/video.mp4");
+  if (!in.missing.empty()) {
+    GTEST_SKIP() << in.missing;
+  }
+  const auto motion = steadied(still(frames_of(in.file, 262, 1).at(0).image, 60), 60.0, true);
+  EXPECT_LE(largest_change(motion, kSettled), 5.0);
+}
+
+TEST(CoveredHands, HandsBehindTheHeadAreAtRest) {
+  const Input in = input("dev/joy/video.mp4");
+  if (!in.missing.empty()) {
+    GTEST_SKIP() << in.missing;
+  }
+  // Both hands go to the face; the head of the first frame is before them.
+  const cv::Mat first = frames_of(in.file, 0, 1).at(0).image;
+  std::vector<Frame> frames = frames_of(in.file, 100, 40);
+  cv::Mat head = cv::Mat::zeros(first.size(), CV_8UC1);
+  cv::ellipse(head, {317, 182}, {52, 66}, 0, 0, 360, 255, cv::FILLED);
+  for (Frame& frame : frames) {
+    frame.image = frame.image.clone();
+    first.copyTo(frame.image, head);
+  }
+  const auto motion = steadied(frames, 60.0, true);
+  EXPECT_LE(largest_change(motion, 1), 15.0);
+  constexpr std::size_t kAtRest = 34;
+  EXPECT_LE(largest_change(motion, kAtRest), 5.0);
+}
+
+TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
+  const Input in = input("dev_practical/desk_talk/video.mp4");
+  if (!in.missing.empty()) {
+    GTEST_SKIP() << in.missing;
+  }
+  // Of gesturing hands the picture has only the right one; then the left one comes in, too.
+  std::vector<Frame> frames = frames_of(in.file, 158, 36);
+  constexpr int kWidth = 460;
+  for (Frame& frame : frames) {
+    frame.image = frame.image(cv::Rect(0, 0, kWidth, frame.image.rows)).clone();
+  }
+  const auto motion = steadied(frames, 45.1, true);
+  EXPECT_LE(largest_change(motion, 1), 15.0);
+  constexpr std::size_t kStillOutside = 14;
+  for (std::size_t t = 1; t < kStillOutside; ++t) {
+    EXPECT_LE(motion[t].hands.value()[0].visibility, 0.1) << t;
+  }
+}
+
+TEST(CoveredHands, HandOfSomebodyElseIsNotTaken) {
+  const Input in = input("dev_practical/desk_talk/video.mp4");
+  if (!in.missing.empty()) {
+    GTEST_SKIP() << in.missing;
+  }
+  // Another hand is at the edge while the man's own are below the picture.
+  const cv::Mat other = frames_of(in.file, 45, 1).at(0).image(cv::Rect(500, 290, 100, 135)).clone();
+  std::vector<Frame> frames = frames_of(in.file, 220, 18);
+  for (Frame& frame : frames) {
+    frame.image = frame.image.clone();
+    other.copyTo(frame.image(cv::Rect(540, 180, other.cols, other.rows)));
+  }
+  const auto motion = steadied(frames, 60.0, true);
+  EXPECT_LE(largest_change(motion, 1), 5.0);
+  for (const MotionFrame& frame : motion) {
+    for (const HandMotion& mine : frame.hands.value()) {
+      EXPECT_LE(mine.visibility, 0.1) << frame.frame;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace telemime

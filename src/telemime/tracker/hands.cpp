@@ -78,6 +78,18 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
   return as_seen && (!reversed || as_seen->cost <= reversed->cost) ? as_seen : reversed;
 }
 
+// How much a palm can be believed that is turned like this: less, the more it would have turned faster than
+// hands do since it was last seen.
+double trust_in_turn(const Eigen::Quaterniond& palm, double time,
+                     const std::optional<HandState::Last>& last) {
+  constexpr double kFastest = 25.0;  // rad/s
+  if (!last || !last->motion.seen || !(time > last->time)) {
+    return 1.0;
+  }
+  const double possible = kFastest * (time - last->time);
+  return std::min(1.0, possible / std::max(possible, last->motion.seen->angularDistance(palm)));
+}
+
 // The model on a finding; empty if it is not a hand.
 std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const HandScene& scene,
                                  HandState& state) {
@@ -98,7 +110,8 @@ std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const Han
   motion.sizes = *state.sizes;
   motion.angles = likely->angles;
   motion.seen = Eigen::Quaterniond(likely->frame_from_hand).normalized();
-  motion.visibility = std::clamp(hand.presence * (1.0 - off * off), 0.0, 1.0);
+  const double trust = trust_in_turn(*motion.seen, scene.time, state.last[static_cast<std::size_t>(side)]);
+  motion.visibility = std::clamp(hand.presence * (1.0 - off * off) * trust, 0.0, 1.0);
   motion.spread = std::hypot(kNoise, error);
   return motion;
 }

@@ -163,6 +163,27 @@ TEST_F(Hands, HandThatIsNotSeenIsHeldAndThenRests) {
   EXPECT_EQ(hands[0].angles, resting_hand());
 }
 
+TEST_F(Hands, PalmThatTurnsTooFastIsDoubted) {
+  // Seen as the palm, then as the back, within a frame and within half a second.
+  const HandAngles angles = some_angles(0.3);
+  SeenHand turned = seen(Side::left, angles);
+  const Eigen::Vector3d wrist = turned.found->points[0].world;
+  const HandLandmarks as_it_is = *turned.found;
+  for (std::size_t i = 0; i < kHandJointCount; ++i) {
+    HandLandmark& p = turned.found->points[i];
+    p.pixel.x() = 2.0 * as_it_is.points[0].pixel.x() - p.pixel.x();
+    p.world.x() = 2.0 * wrist.x() - p.world.x();
+    p.world.z() = 2.0 * wrist.z() - p.world.z();
+  }
+  const auto visibility = [&](double time) {
+    HandState state;
+    observe_hands({seen(Side::left, angles), SeenHand{}}, scene(0.0), state);
+    return observe_hands({turned, SeenHand{}}, scene(time), state)[0].visibility;
+  };
+  EXPECT_LT(visibility(0.04), 0.5);
+  EXPECT_GT(visibility(0.5), 0.8);
+}
+
 TEST_F(Hands, SizesAreLearnedAndThenStay) {
   HandState state;
   const HandAngles angles = some_angles(0.3);
