@@ -337,8 +337,8 @@ TEST(CoveredHands, FingersOfStillClaspedHandsAreStill) {
   if (!in.missing.empty()) {
     GTEST_SKIP() << in.missing;
   }
-  const auto motion = steadied(still(frames_of(in.file, 262, 1).at(0).image, 60), 60.0, true);
-  EXPECT_LE(largest_change(motion, kSettled), 5.0);
+  const auto frames = still(frames_of(in.file, 262, 1).at(0).image, 60);
+  EXPECT_LE(largest_change(steadied(frames, 60.0, true), kSettled), 5.0);
 }
 
 TEST(CoveredHands, HandsBehindTheHeadAreAtRest) {
@@ -357,8 +357,7 @@ TEST(CoveredHands, HandsBehindTheHeadAreAtRest) {
   }
   const auto motion = steadied(frames, 60.0, true);
   EXPECT_LE(largest_change(motion, 1), 15.0);
-  constexpr std::size_t kAtRest = 34;
-  EXPECT_LE(largest_change(motion, kAtRest), 5.0);
+  EXPECT_LE(largest_change(motion, 34), 5.0) << "at rest";
 }
 
 TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
@@ -368,14 +367,12 @@ TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
   }
   // Of gesturing hands the picture has only the right one; then the left one comes in, too.
   std::vector<Frame> frames = frames_of(in.file, 158, 36);
-  constexpr int kWidth = 460;
   for (Frame& frame : frames) {
-    frame.image = frame.image(cv::Rect(0, 0, kWidth, frame.image.rows)).clone();
+    frame.image = frame.image(cv::Rect(0, 0, 460, frame.image.rows)).clone();
   }
   const auto motion = steadied(frames, 45.1, true);
   EXPECT_LE(largest_change(motion, 1), 15.0);
-  constexpr std::size_t kStillOutside = 14;
-  for (std::size_t t = 1; t < kStillOutside; ++t) {
+  for (std::size_t t = 1; t < 14; ++t) {
     EXPECT_LE(motion[t].hands.value()[0].visibility, 0.1) << t;
   }
 }
@@ -392,9 +389,7 @@ TEST(CoveredHands, HandOfSomebodyElseIsNotTaken) {
     frame.image = frame.image.clone();
     other.copyTo(frame.image(cv::Rect(540, 180, other.cols, other.rows)));
   }
-  const auto motion = steadied(frames, 60.0, true);
-  EXPECT_LE(largest_change(motion, 1), 5.0);
-  for (const MotionFrame& frame : motion) {
+  for (const MotionFrame& frame : steadied(frames, 60.0, true)) {
     for (const HandMotion& mine : frame.hands.value()) {
       EXPECT_LE(mine.visibility, 0.1) << frame.frame;
     }

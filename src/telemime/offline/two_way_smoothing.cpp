@@ -8,16 +8,60 @@
 namespace telemime {
 namespace {
 
-std::optional<MeasuredPose> measured_pose(const MotionFrame& motion, const Camera& camera) {
+// A hand that is seen at `time` was on its way there before: where it was not seen, it is the less surely at
+// rest the nearer that is.
+void loosen_before(double time, std::size_t side, TwoWaySmoothing& smoothing) {
+  HandNoise noise;
+  for (auto pose = smoothing.measured.rbegin(); pose != smoothing.measured.rend(); ++pose) {
+    if (!*pose || (*pose)->hands[side].seen) {
+      return;
+    }
+    MeasuredHand& hand = (*pose)->hands[side];
+    noise.observe({}, time - (*pose)->time);
+    hand.noise = std::max(hand.noise, noise.ratio());
+    time = (*pose)->time;
+  }
+}
+
+// What a frame says of the hands, `step` seconds after the one before it.
+void measure_hands_of(const MotionFrame& motion, double step, TwoWaySmoothing& smoothing,
+                      MeasuredPose& pose) {
+  constexpr std::array<Segment, 2> kHands = {Segment::l_hand, Segment::r_hand};
+  const Kinematics kinematics = forward_kinematics(smoothing.body, motion.pose);
+  for (std::size_t side = 0; side < kHands.size(); ++side) {
+    const HandMotion& hand = (*motion.hands)[side];
+    HandNoise& noise = smoothing.hand_noise[side];
+    noise.observe(hand, step);
+    pose.hands[side] = {
+        .angles = hand.angles,
+        .palm = hand.seen.value_or(Eigen::Quaterniond(kinematics[kHands[side]].linear())),
+        .noise = noise.ratio(),
+        .seen = hand.visibility > 0.0,
+    };
+    if (pose.hands[side].seen) {
+      loosen_before(pose.time, side, smoothing);
+    }
+  }
+}
+
+std::optional<MeasuredPose> measured_pose(TwoWaySmoothing& smoothing, const MotionFrame& motion) {
   if (motion.state == TrackState::lost || !motion.pose.vector().allFinite()) {
+    smoothing.hand_noise = {};
     return std::nullopt;
   }
-  return MeasuredPose{
-      .time = motion.time, .rotations = rotations_of(motion.pose), .noise = noise_of(motion, camera)};
+  MeasuredPose pose{.time = motion.time,
+                    .rotations = rotations_of(motion.pose),
+                    .noise = noise_of(motion, smoothing.camera)};
+  if (motion.hands) {
+    const auto& last = smoothing.measured;
+    const bool follows = !last.empty() && last.back() && are_neighbours(last.back()->time, motion.time);
+    measure_hands_of(motion, follows ? motion.time - last.back()->time : 0.0, smoothing, pose);
+  }
+  return pose;
 }
 
 /// Takes the first measured pose and smooths it with those that follow it without a gap, `count` in all.
-std::optional<JointRotations> next_body(TwoWaySmoothing& smoothing, std::size_t count) {
+std::optional<SmoothedPose> next_pose(TwoWaySmoothing& smoothing, std::size_t count) {
   std::deque<MeasuredPose> poses;
   for (const auto& pose : smoothing.measured) {
     if (poses.size() == count || !pose ||
@@ -37,6 +81,19 @@ std::optional<JointRotations> next_body(TwoWaySmoothing& smoothing, std::size_t 
   return smoothed_first(smoothing.options.file, poses, smoothing.before);
 }
 
+MotionFrame with_smoothed(const MotionFrame& frame, const SmoothedPose& smoothed,
+                          const TwoWaySmoothing& smoothing) {
+  MotionFrame result = frame;
+  for (std::size_t side = 0; result.hands && side < result.hands->size(); ++side) {
+    HandMotion& hand = (*result.hands)[side];
+    hand.angles = smoothed.hands[side].angles;
+    if (hand.seen) {
+      hand.seen = smoothed.hands[side].palm;
+    }
+  }
+  return with_pose(result, pose_of(smoothed.rotations, result.pose), smoothing.body, smoothing.camera);
+}
+
 }  // namespace
 
 TwoWaySmoothing make_two_way_smoothing(const SmoothingOptions& options, const Body& body,
@@ -46,13 +103,14 @@ TwoWaySmoothing make_two_way_smoothing(const SmoothingOptions& options, const Bo
           .camera = camera,
           .forward = make_smoother(options, body, camera),
           .measured = {},
-          .before = {}};
+          .before = {},
+          .hand_noise = {}};
 }
 
 void smooth_forward(TwoWaySmoothing& smoothing, RecordQueue& queue) {
   for (; queue.smoothed < queue.chosen; ++queue.smoothed) {
     MotionFrame& motion = queue.records[queue.smoothed].estimate.motion;
-    smoothing.measured.push_back(measured_pose(motion, smoothing.camera));
+    smoothing.measured.push_back(measured_pose(smoothing, motion));
     motion = (*smoothing.forward)(motion);
   }
 }
@@ -85,11 +143,9 @@ std::optional<MotionFrame> smoothed_front(TwoWaySmoothing& smoothing, const Reco
     result = (*backward)(result);
   }
   result.time = time;
-  const auto rotations = next_body(smoothing, count);
-  if (rotations && smoothing.options.name == "one-euro") {
-    result = with_pose(result, pose_of(*rotations, result.pose), smoothing.body, smoothing.camera);
-  }
-  return result;
+  const auto smoothed = next_pose(smoothing, count);
+  return smoothed && smoothing.options.name == "one-euro" ? with_smoothed(result, *smoothed, smoothing)
+                                                          : result;
 }
 
 }  // namespace telemime

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
 
 #include "telemime/offline/body_smoothing.h"
 #include "telemime/offline/record_queue.h"
+#include "telemime/tracker/hand_noise.h"
 #include "telemime/tracker/smoother.h"
 
 namespace telemime {
 
 /// Smooths with what comes after a frame as well as with what came before. Frames come out
-/// SmoothingOptions::look_ahead (1/25 s) late; with 0 it is the plain filter. Otherwise the body of
-/// "one-euro" is smoothed over the interval (smoothed_first). The face, the hands and the body of "recursive"
-/// are filtered forward in time, and then backward over the result: what lags one way runs ahead the other
-/// way.
+/// SmoothingOptions::look_ahead (1/25 s) late; with 0 it is the plain filter. Otherwise body and hands of
+/// "one-euro" are smoothed over the interval (smoothed_first). The face, and all of "recursive", are filtered
+/// forward in time, and then backward over the result: what lags one way runs ahead the other way.
 struct TwoWaySmoothing {
   SmoothingOptions options;
   Body body;
@@ -23,6 +24,7 @@ struct TwoWaySmoothing {
   std::unique_ptr<Smoother> forward;
   std::deque<std::optional<MeasuredPose>> measured;  ///< of the smoothed records; empty: nobody was found
   std::optional<BodyState> before;                   ///< at the frame before these
+  std::array<HandNoise, 2> hand_noise;               ///< of the last of these
 };
 
 /// Throws Error(config) when a name or a number is not usable.

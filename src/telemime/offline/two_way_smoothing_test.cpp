@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "telemime/core/errors.h"
@@ -194,6 +196,76 @@ TEST_F(TwoWaySmoothingTest, RefusesALookAheadThatCannotBe) {
     SmoothingOptions options;
     options.look_ahead = look_ahead;
     EXPECT_THROW(make_two_way_smoothing(options, body, camera), Error) << look_ahead;
+  }
+}
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// Both hands as they are seen: their fingers bent by `bend` from rest; without it, not seen.
+HandMotions hands_with(const std::optional<double>& bend) {
+  HandMotions hands;
+  for (HandMotion& hand : hands) {
+    if (bend) {
+      hand.visibility = 0.9;
+      hand.seen = Eigen::Quaterniond::Identity();
+      for (std::size_t f = 1; f < kFingerCount; ++f) {
+        hand.angles[kFirstFingerAngle[f]] += *bend;
+      }
+    }
+  }
+  return hands;
+}
+
+// How far the index finger of a hand is bent from rest.
+double bend_of(const MotionFrame& frame, std::size_t side) {
+  return frame.hands.value()[side].angles[4] - resting_hand()[4];
+}
+
+TEST_F(TwoWaySmoothingTest, FingersAreSteadyAndFollow) {
+  // Open for a second, closed within a fifth of a second, and closed.
+  const auto truth = [](int t) { return 1.0 * std::clamp((t - 25) / 5.0, 0.0, 1.0); };
+  Random random(5);
+  auto input = frames(60, [](int) { return standing(); });
+  for (MotionFrame& f : input) {
+    f.hands = hands_with(truth(static_cast<int>(f.frame)));
+    for (HandMotion& hand : *f.hands) {
+      for (double& angle : hand.angles) {
+        angle += random.normal(0.0, 5.0 * kDegree);
+      }
+    }
+  }
+  const auto result = smoothed(input, 12);
+  for (std::size_t t = 0; t < result.size(); ++t) {
+    const bool moves = t > 15 && t < 40;
+    EXPECT_NEAR(bend_of(result[t], 0), truth(static_cast<int>(t)), (moves ? 25.0 : 8.0) * kDegree) << t;
+  }
+}
+
+TEST_F(TwoWaySmoothingTest, HandsComeAndGoGently) {
+  // Seen bent for a second between two in which they are not seen.
+  auto input = frames(75, [](int) { return standing(); });
+  for (MotionFrame& f : input) {
+    f.hands = hands_with(f.frame >= 25 && f.frame < 50 ? std::optional(1.2) : std::nullopt);
+  }
+  const auto result = smoothed(input, 12);
+  for (std::size_t t = 1; t < result.size(); ++t) {
+    EXPECT_LT(std::abs(bend_of(result[t], 0) - bend_of(result[t - 1], 0)), 15.0 * kDegree) << t;
+  }
+  EXPECT_NEAR(bend_of(result[5], 0), 0.0, 5.0 * kDegree);
+  EXPECT_NEAR(bend_of(result[37], 0), 1.2, 5.0 * kDegree);
+  EXPECT_NEAR(bend_of(result.back(), 0), 0.0, 5.0 * kDegree);
+}
+
+TEST_F(TwoWaySmoothingTest, StillHandsStay) {
+  auto input = frames(30, [](int) { return standing(); });
+  for (MotionFrame& f : input) {
+    f.hands = hands_with(0.7);
+  }
+  for (const MotionFrame& f : smoothed(input, 12)) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_NEAR(bend_of(f, side), 0.7, 1e-9);
+      EXPECT_LT(f.hands.value()[side].seen.value().angularDistance(Eigen::Quaterniond::Identity()), 1e-9);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "telemime/body/hand_motion.h"
+#include "telemime/tracker/hand_noise.h"
 #include "telemime/tracker/one_euro.h"
 
 namespace telemime {
@@ -27,20 +28,12 @@ class HandSmoother {
   HandMotions operator()(const HandMotions& measured, const Kinematics& body, double step);
 
  private:
-  static std::array<Eigen::Vector3d, kFingerCount> no_change() {
-    std::array<Eigen::Vector3d, kFingerCount> change;
-    change.fill(Eigen::Vector3d::Zero());
-    return change;
-  }
   struct State {
     std::array<SpeedShare, kFingerCount> finger_speed;
     SpeedShare palm_speed;
-    std::array<Eigen::Vector3d, kFingerCount> change = no_change();  ///< of the first angles of each finger
-    double variance = 0.0;  ///< of an angle that is measured with this visibility, rad^2
-    double jitter = 0.0;    ///< variance of white noise that explains the changes, rad^2; negative in motion
-    double resting = 0.0;   ///< from 0 to 1 while the hand is not seen
+    HandNoise noise;
     Eigen::Quaterniond palm = Eigen::Quaterniond::Identity();  ///< camera from hand
-    HandMotion last;                                           ///< measured
+    std::optional<Eigen::Quaterniond> last_seen;               ///< palm as measured
   };
   void follow(const HandMotion& measured, const Eigen::Quaterniond& target, double step, State& state,
               HandMotion& smooth) const;

@@ -171,6 +171,7 @@ SettingTable settings_of(SmoothingOptions& o) {
   table.append(one_euro_settings(o.hands, "smoother.hands", "rad/s"));
   table.append(interval_settings(o.file.angles, "smoother.file.angles", "rad"));
   table.append(interval_settings(o.file.root, "smoother.file.root", "m"));
+  table.append(interval_settings(o.file.fingers, "smoother.file.fingers", "rad"));
   return table;
 }
 

@@ -13,10 +13,11 @@
 
 namespace telemime {
 
-/// How the body moves, for the smoothing of files.
+/// How body and fingers move, for the smoothing of files.
 struct FileSmoothing {
   IntervalModel angles = {.noise = 0.03, .motion = 1.0, .sudden = 2.0};  ///< rad
   IntervalModel root = {.noise = 0.01, .motion = 0.3, .sudden = 2.0};    ///< m
+  IntervalModel fingers = {.noise = 0.1, .motion = 2.5, .sudden = 2.0};  ///< rad, where seen well
 };
 
 /// Settings of the smoother; the table (settings_of) gives the meaning, unit and range of each.
