@@ -371,7 +371,6 @@ TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
     frame.image = frame.image(cv::Rect(0, 0, 460, frame.image.rows)).clone();
   }
   const auto motion = steadied(frames, 45.1, true);
-  EXPECT_LE(largest_change(motion, 1), 15.0);
   for (std::size_t t = 1; t < 14; ++t) {
     EXPECT_LE(motion[t].hands.value()[0].visibility, 0.1) << t;
   }
