@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -128,7 +129,7 @@ const Webcam& webcam(const std::filesystem::path& file) {
     TrackingRun run = new_run(w.frames.front().image.size(), 60.0, false);
     for (const Frame& frame : w.frames) {
       const auto found = extract(frame, ColourRequest::keep, run.scene).face;
-      w.faces.push_back(found ? *found : w.faces.back());
+      w.faces.push_back(found ? *found : w.faces.empty() ? FaceLandmarks{} : w.faces.back());
     }
     return w;
   }();
