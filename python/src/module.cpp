@@ -8,6 +8,9 @@
 
 PYBIND11_MODULE(_telemime, module) {
   using namespace telemime::python;
+  // NumPy sets environment variables while it is imported, and the threads of a run read them: import it
+  // before any.
+  pybind11::module_::import("numpy");
   telemime::prepare_opencv();
   translate_errors();
   bind_requests(module);

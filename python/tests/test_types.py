@@ -35,3 +35,9 @@ def test_names_are_those_of_the_package():
     assert set(telemime.__all__) <= set(dir(telemime))
     assert telemime.__version__ == _telemime.__version__
     assert str(telemime.Frame) == "<class 'telemime.Frame'>"
+
+
+def test_numpy_is_imported_before_any_thread_runs():
+    # It changes environment variables while it is imported: a thread that reads them meanwhile may crash.
+    code = "import sys, telemime; sys.exit(0 if 'numpy' in sys.modules else 1)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
