@@ -111,7 +111,7 @@ def scenery(folder, project, build):
 
 
 def run_block(way, code, folder, environment):
-    """The output of a block, and whether it failed."""
+    """The output of a block, and its exit status."""
     if way == "help":
         commands = {
             " ".join(re.match(r"[a-z-]+(?: [a-z]+)?", line)[0].split()) + " --help"
@@ -129,7 +129,7 @@ def run_block(way, code, folder, environment):
     done = subprocess.run(
         command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120
     )
-    return done.stdout, done.returncode != 0
+    return done.stdout, done.returncode
 
 
 def main():
@@ -142,17 +142,18 @@ def main():
         folder = pathlib.Path(name)
         tools = scenery(folder, project, build)
         environment = dict(os.environ, PATH=f"{tools}:{os.environ['PATH']}", PYTHONPATH=str(build / "python"))
+        environment["PYTHONFAULTHANDLER"] = "1"  # a crash says where
         ran = failed = 0
         for document, text in texts.items():
             for line, mark, code in blocks_of(text):
                 if mark is None or mark[1] != "run":
                     continue
                 began = time.monotonic()
-                output, bad = run_block(mark[2], code, folder, environment)
+                output, status = run_block(mark[2], code, folder, environment)
                 ran += 1
-                failed += bad
-                print(f"{'FAILED' if bad else 'ok'} {document}:{line} ({time.monotonic() - began:.1f} s)", flush=True)
-                if bad:
+                failed += status != 0
+                print(f"{f'FAILED ({status})' if status else 'ok'} {document}:{line} ({time.monotonic() - began:.1f} s)", flush=True)
+                if status:
                     print(code, output[-3000:], sep="\n--\n")
     print(f"{ran} blocks run, {failed} failed, {len(faults)} without a marker that says what to do")
     return 1 if failed or faults or ran < 10 else 0
