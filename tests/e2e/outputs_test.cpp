@@ -121,6 +121,7 @@ TEST(Results, OfARunThatWasStoppedAreValid) {
       fs::create_symlink(from, folder / "long/frame_" + std::to_string(10000 + i) + ".png");
     }
     auto arguments = command(folder / "long", folder / "out");
+    arguments.insert(arguments.end(), {"--set", "calibration.look_ahead=12"});
     if (number == SIGTERM) {
       arguments.push_back("--no-offline");
     }
