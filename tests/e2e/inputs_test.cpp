@@ -29,10 +29,8 @@ namespace fs = std::filesystem;
   return ::testing::AssertionSuccess();
 }
 
-Ended track(const std::string& input, const Folder& folder, std::vector<std::string> more = {}) {
-  more.insert(more.begin(), {"track", input, "--out", folder / "out", "--set", "image.width=160", "--set",
-                             "image.height=120", "--set", "registration.iterations=100"});
-  return run(more);
+Ended track(const std::string& input, const Folder& folder, const std::vector<std::string>& more = {}) {
+  return run(joined({{"track", input, "--out", folder / "out"}, quickly(), more}));
 }
 
 TEST(Program, TellsItsVersionAndHelp) {

@@ -17,16 +17,11 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> command(const std::vector<std::string>& inputs, const std::string& out,
                                  const std::vector<std::string>& more = {}) {
-  std::vector<std::string> all = {"track"};
-  all.insert(all.end(), inputs.begin(), inputs.end());
-  for (const char* option :
-       {"--background", wall_clip().c_str(), "--set", "image.width=160", "--set", "image.height=120", "--set",
-        "registration.iterations=100", "--no-overlay", "--out"}) {
-    all.emplace_back(option);
-  }
-  all.push_back(out);
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
+  return joined({{"track"},
+                 inputs,
+                 {"--background", wall_clip(), "--no-overlay", "--out", out, "--particles", "300"},
+                 quickly(),
+                 more});
 }
 
 std::size_t frames_in(const std::string& folder) {

@@ -23,13 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> command(const std::string& input, const std::string& out) {
-  return {"track",        input,
-          "--background", wall_clip(),
-          "--out",        out,
-          "--set",        "image.width=160",
-          "--set",        "image.height=120",
-          "--set",        "registration.iterations=150",
-          "--no-overlay"};
+  return joined({{"track", input, "--background", wall_clip(), "--out", out, "--particles", "300"},
+                 quickly(),
+                 {"--no-overlay"}});
 }
 
 // The lines of a pose.jsonl without what depends on the clock.
@@ -100,9 +96,7 @@ TEST(Results, AreTheSameForTheSameSeed) {
 TEST(Results, LookedBackOnHoldEveryFrameOnceInOrder) {
   const Folder folder;
   for (const char* out : {"a", "b"}) {
-    auto arguments = command(person_clip(), folder / out);
-    arguments.insert(arguments.end(), {"--particles", "200"});
-    ASSERT_EQ(run(arguments).code, 0);
+    ASSERT_EQ(run(command(person_clip(), folder / out)).code, 0);
   }
   const auto lines = timeless(folder / "a/pose.jsonl");
   ASSERT_EQ(lines.size(), 1U + kPersonFrames);

@@ -102,6 +102,24 @@ Ended run(const std::vector<std::string>& arguments) {
   return Program(arguments).wait();
 }
 
+std::vector<std::string> quickly() {
+  std::vector<std::string> options;
+  for (const char* setting :
+       {"image.width=160", "image.height=120", "filter.mode_least=50", "filter.landmark_evaluations=50",
+        "calibration.pose_iterations=200", "calibration.shape_iterations=100", "calibration.rounds=1"}) {
+    options.insert(options.end(), {"--set", setting});
+  }
+  return options;
+}
+
+std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> parts) {
+  std::vector<std::string> all;
+  for (const std::vector<std::string>& part : parts) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
 std::string bytes_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,12 @@ class Program {
 };
 
 Ended run(const std::vector<std::string>& arguments);
+
+/// Options for small images and few evaluations, for what does not depend on how exact the poses are.
+std::vector<std::string> quickly();
+
+/// Command lines or parts of them, one after the other.
+std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> parts);
 
 /// A new empty folder that goes away with its content.
 class Folder : public ScratchFolder {
