@@ -55,11 +55,12 @@ double square_of_unknown_noise(double square, double usual) {
   return 2.0 * usual * std::log1p(square / usual);
 }
 
-double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score) {
-  return log_likelihood(c, pose, score, forward_kinematics(c.model.body, pose));
+double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score, int parent) {
+  return log_likelihood(c, pose, score, parent, forward_kinematics(c.model.body, pose));
 }
 
-double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score, const Kinematics& k) {
+double log_likelihood(const FilterContext& c, const Pose& pose, const Score& score, int parent,
+                      const Kinematics& k) {
   // Equation 4.12: the costs of the cues are independent and normally distributed.
   const CueTable& cues = c.evaluators.cues();
   double squares = 0.0;
@@ -80,7 +81,8 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
              ? c.config.natural * natural_cost(body, pose, k, c.heading, arm_prior_of(c.frame))
              : 0.0;
   if (c.config.temporal > 0.0) {
-    sum -= c.config.temporal * distance_from_predicted(k, c.predicted_joints);
+    sum -=
+        c.config.temporal * distance_from_predicted(k, c.predicted_joints[static_cast<std::size_t>(parent)]);
   }
   return sum;
 }
@@ -104,7 +106,7 @@ void measure(const FilterContext& context, std::span<Particle> particles) {
   context.evaluators.each(which.size(), [&](std::size_t i, Backend&) {
     Particle& p = particles[which[i]];
     p.score = scores[i];
-    p.log_likelihood = log_likelihood(context, p.pose, p.score, kinematics[i]);
+    p.log_likelihood = log_likelihood(context, p.pose, p.score, p.parent, kinematics[i]);
     p.measured = true;
   });
 }

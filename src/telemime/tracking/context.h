@@ -57,12 +57,13 @@ struct FilterContext {
   const FilterModel& numbers;
   const RegistrationConfig& search;  ///< local search of FilterConfig::blocks
   const Pose& estimate;              ///< estimate of the frame before
-  const Pose& predicted;             ///< prediction for this frame
   double heading = 0.0;  ///< rad, predicted torsion of the root: people who walk look where they go
   Evaluators& evaluators;
   std::uint64_t seed = 0;  ///< seed of this frame
-  /// Joints of `predicted`, m, camera frame; computed once a frame rather than once a particle.
-  JointPositions predicted_joints = forward_kinematics(model.body, predicted).joints;
+  Pose predicted = {};     ///< where the motion of the heaviest parent leads
+  /// Joints where the motion of each parent leads, m, camera frame: every hypothesis has its own past, by
+  /// which its children are judged. Empty where FilterConfig::temporal is 0.
+  std::vector<JointPositions> predicted_joints = {};
 
   /// A separate generator for each purpose and particle.
   Random random(std::uint64_t purpose, std::uint64_t index = 0) const;
@@ -74,12 +75,12 @@ struct FilterContext {
 double square_of_unknown_noise(double square, double usual);
 
 /// Log likelihood log p(z | x): the sum over all enabled cues of thesis equation 4.12, and the terms that do
-/// not depend on the image (FilterConfig::natural, temporal, invalid). In frames with landmarks the noise of
-/// a cue with FilterModel::usual is taken as unknown: where a room has the colours of the person, F is large
-/// in every pose, and its differences say little.
-double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score);
+/// not depend on the image (FilterConfig::natural, temporal, invalid). `parent` is that of the particle. In
+/// frames with landmarks the noise of a cue with FilterModel::usual is taken as unknown: where a room has the
+/// colours of the person, F is large in every pose, and its differences say little.
+double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score, int parent);
 /// The same; `kinematics` are those of the pose.
-double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score,
+double log_likelihood(const FilterContext& context, const Pose& pose, const Score& score, int parent,
                       const Kinematics& kinematics);
 
 /// Computes scores and log likelihoods of the particles that are not measured yet.

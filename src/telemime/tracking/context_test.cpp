@@ -37,11 +37,11 @@ Scene image_alone() {
 
 TEST(LogLikelihood, IsThatOfTwoGaussians) {
   Scene scene = image_alone();
-  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.5 * (9.0 + 4.0),
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0), 0), -0.5 * (9.0 + 4.0),
               1e-12);
-  EXPECT_EQ(log_likelihood(scene.context(), both_arms_seen(), score_of(0.0, 0.0)), 0.0);
+  EXPECT_EQ(log_likelihood(scene.context(), both_arms_seen(), score_of(0.0, 0.0), 0), 0.0);
   scene.config.trust = 0.1;
-  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0)), -0.05 * 13.0, 1e-12);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score_of(0.3, 12.0), 0), -0.05 * 13.0, 1e-12);
 }
 
 TEST(LogLikelihood, UnknownNoiseCountsByRatio) {
@@ -66,8 +66,8 @@ TEST(LogLikelihood, RegionsCountLessInANoisyRoom) {
   scene.numbers.sigma[cue::kRegion] = 0.01;
   scene.numbers.usual[cue::kRegion] = 0.1;
   const auto gain = [&](double better, double worse) {
-    return log_likelihood(scene.context(), both_arms_seen(), score_of(better, 0.0)) -
-           log_likelihood(scene.context(), both_arms_seen(), score_of(worse, 0.0));
+    return log_likelihood(scene.context(), both_arms_seen(), score_of(better, 0.0), 0) -
+           log_likelihood(scene.context(), both_arms_seen(), score_of(worse, 0.0), 0);
   };
   // Colours and outlines alone: equation 4.12 as it is.
   EXPECT_GT(gain(0.50, 0.51), gain(0.10, 0.11));
@@ -87,12 +87,12 @@ TEST(LogLikelihood, CountsAddedAndDisabledCues) {
   scene.numbers.sigma[kCues.size()] = load_filter_model("", cues).sigma[kCues.size()];
   Score score = score_of(0.3, 12.0);
   score.costs[kCues.size()] = 1.2;  // 2 sigma of a picture 120 pixels wide
-  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (9.0 + 4.0), 1e-12);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score, 0), -0.5 * (9.0 + 4.0), 1e-12);
   scene.evaluators = Evaluators("scalar", 1, cues);
-  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (9.0 + 4.0 + 4.0), 1e-12);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score, 0), -0.5 * (9.0 + 4.0 + 4.0), 1e-12);
   cues.enable(cue::kRegion, false);
   scene.evaluators = Evaluators("scalar", 1, cues);
-  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score), -0.5 * (4.0 + 4.0), 1e-12);
+  EXPECT_NEAR(log_likelihood(scene.context(), both_arms_seen(), score, 0), -0.5 * (4.0 + 4.0), 1e-12);
 }
 
 TEST(LogLikelihood, TakesOffWhatIsKnownWithoutTheImage) {
@@ -104,17 +104,21 @@ TEST(LogLikelihood, TakesOffWhatIsKnownWithoutTheImage) {
   ASSERT_GT(depth, 0.0);
   const Score none = score_of(0.0, 0.0);
   scene.config.invalid = 400.0;
-  EXPECT_NEAR(log_likelihood(scene.context(), inside, none), -400.0 * depth, 1e-9);
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none, 0), -400.0 * depth, 1e-9);
   scene.config.invalid = 0.0;
   scene.config.natural = 3.0;
   scene.heading = 0.4;
-  EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none, 0),
               -3.0 * natural_cost(scene.model.body, inside, k, 0.4), 1e-9);
   scene.config.natural = 0.0;
   scene.config.temporal = 2.0;
-  EXPECT_NEAR(log_likelihood(scene.context(), inside, none),
+  EXPECT_NEAR(log_likelihood(scene.context(), inside, none, 0),
               -2.0 * distance_from_predicted(k, scene.joints(scene.predicted)), 1e-9);
-  EXPECT_EQ(log_likelihood(scene.context(), scene.predicted, none), 0.0);
+  EXPECT_EQ(log_likelihood(scene.context(), scene.predicted, none, 0), 0.0);
+  // Each hypothesis is compared with its own past.
+  FilterContext two = scene.context();
+  two.predicted_joints.push_back(k.joints);
+  EXPECT_EQ(log_likelihood(two, inside, none, 1), 0.0);
 }
 
 TEST(Measure, GivesEachItsOwnScoreAndLeavesTheOthers) {
@@ -140,7 +144,7 @@ TEST(Measure, GivesEachItsOwnScoreAndLeavesTheOthers) {
     backend->evaluate(scene.frame, scene.model, {&particles[i].pose, 1}, Reduction::all, {&alone, 1});
     EXPECT_EQ(particles[i].score.region(), alone.region()) << i;
     EXPECT_EQ(particles[i].score.contour(), alone.contour()) << i;
-    EXPECT_EQ(particles[i].log_likelihood, log_likelihood(context, particles[i].pose, alone)) << i;
+    EXPECT_EQ(particles[i].log_likelihood, log_likelihood(context, particles[i].pose, alone, 0)) << i;
   }
   EXPECT_GT(particles[0].log_likelihood, particles[6].log_likelihood);
 }

@@ -34,7 +34,7 @@ struct FilterConfig {
   int walk_evaluations = 1000;
   int flip_candidates = 2;
   int landmark_searches = 2;
-  int landmark_evaluations = 70;
+  int landmark_evaluations = 300;
   double landmark_share = 0.5;
 };
 

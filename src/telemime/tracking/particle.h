@@ -16,11 +16,12 @@ enum class Origin : std::uint8_t { start, kept, diffused, optimised, flipped, ex
 /// One hypothesis of the pose.
 struct Particle {
   Pose pose;
+  Pose before;                ///< of the parent, in the frame before; the same as `pose` at the start
   Score score;                ///< in the frame in which it was measured
   double log_likelihood = 0;  ///< see log_likelihood()
   double prior = 0;           ///< weight before the measurement; searches and flips add to a sum of 1
   double weight = 0;          ///< weight after it; the weights sum to 1
-  int parent = -1;            ///< index into Generation::parents of its frame; -1: none
+  int parent = 0;             ///< index into Generation::parents of its frame
   Origin origin = Origin::start;
   bool measured = false;  ///< whether score and log_likelihood are known
 };

@@ -52,6 +52,23 @@ void diffuse(const FilterContext& context, Generation& generation) {
   });
 }
 
+// Continues the motion of every parent: of its arms, the trunk stays. A pose is compared with the past of its
+// own hypothesis: compared with that of the best one, the others would start anew in each frame and never
+// win.
+void predict(const StepInput& input, double time_step_before, std::span<const Particle> parents,
+             FilterContext& context) {
+  const double share = input.velocity * input.time_step / time_step_before;
+  const auto after = [&](const Particle& parent) {
+    return predict_pose(parent.pose, parent.before, share, context.limits);
+  };
+  context.predicted = after(parents[heaviest(parents)]);
+  if (context.config.temporal > 0.0) {
+    for (const Particle& parent : parents) {
+      context.predicted_joints.push_back(forward_kinematics(input.model.body, after(parent)).joints);
+    }
+  }
+}
+
 // Removes the lightest particles until `count` remain.
 void drop_lightest(std::size_t count, std::vector<Particle>& particles) {
   if (particles.size() <= count) {
@@ -100,9 +117,10 @@ ParticleFilter::ParticleFilter(const FilterConfig& config, const RegistrationCon
 void start_filter(const Pose& pose, const JointLimits& limits, FilterState& state, bool backward) {
   Particle particle;
   particle.pose = limits.clamp(pose);
+  particle.before = particle.pose;
   particle.weight = particle.prior = 1.0;
   state.particles = {particle};
-  state.estimate = state.before = particle.pose;
+  state.estimate = particle.pose;
   state.time_step_before = 1.0;
   state.backward = backward;
   state.velocity.setZero();
@@ -124,13 +142,10 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
   check(input);
   const double frames = input.time_step;
 
-  // Predict: the arms continue their last motion; who walks looks where they go.
   const FilterConfig enough = input.frame.landmarks ? with_landmarks(config_) : config_;
   const FilterConfig config = for_time_step(with_effort(enough, input.effort), frames);
   const RegistrationConfig search = for_time_step(search_, frames);
-  const Pose predicted =
-      predict_pose(state.estimate, state.before, input.velocity * frames / state.time_step_before, limits_);
-  const FilterContext context{
+  FilterContext context{
       .frame = input.frame,
       .labels_before = state.labels_before.empty() ? nullptr : &state.labels_before,
       .model = input.model,
@@ -139,15 +154,17 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
       .numbers = numbers_,
       .search = search,
       .estimate = state.estimate,
-      .predicted = predicted,
       .heading = input.heading.value_or(heading_of(state.backward ? -state.velocity : state.velocity)),
       .evaluators = evaluators_,
       .seed = state.seeds.bits()};
   Generation generation;
   generation.parents = std::move(state.particles);
 
-  // Resample: how many children each parent has (thesis 4.2.3; equation 4.14 with the heuristic wd).
+  // Predict: the arms continue their last motion; who walks looks where they go.
   run(Stage::merge, context, generation);
+  predict(input, state.time_step_before, generation.parents, context);
+
+  // Resample: how many children each parent has (thesis 4.2.3; equation 4.14 with the heuristic wd).
   run(Stage::resample, context, generation);
   if (generation.counts.empty()) {
     resample_at_random(context, generation);
@@ -172,8 +189,11 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
   state.particles = std::move(generation.particles);
 
   // Choose: the heaviest particle or the weighted mean.
+  for (Particle& particle : state.particles) {
+    particle.before = generation.parents[static_cast<std::size_t>(particle.parent)].pose;
+  }
   const Particle& best = state.particles[heaviest(state.particles)];
-  state.before = state.estimate;
+  const Pose before = state.estimate;
   state.estimate = best.pose;
   result.score = best.score;
   if (config_.estimate == "mean") {
@@ -184,7 +204,7 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
 
   // Remember what the next prediction needs.
   const double rate = frames == 1.0 ? kVelocityRate : 1.0 - std::pow(1.0 - kVelocityRate, frames);
-  state.velocity += rate * ((state.estimate.root - state.before.root) / frames - state.velocity);
+  state.velocity += rate * ((state.estimate.root - before.root) / frames - state.velocity);
   state.time_step_before = frames;
   input.frame.labels.copyTo(state.labels_before);
   result.pose = state.estimate;

@@ -41,8 +41,7 @@ struct FilterState {
   /// or into the modes to which that was merged.
   std::vector<Particle> particles;
   Pose estimate;                                       ///< in the last frame
-  Pose before;                                         ///< in the frame before that
-  double time_step_before = 1.0;                       ///< 1/25 s from `before` to `estimate`
+  double time_step_before = 1.0;                       ///< 1/25 s from the frame before that
   bool backward = false;                               ///< the frames come against the order of time
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the root, m in 1/25 s, smoothed
   cv::Mat labels_before;                               ///< of the last frame

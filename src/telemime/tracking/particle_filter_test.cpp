@@ -270,6 +270,50 @@ TEST(ParticleFilter, FlippingFindsTheArmThatTheImageShows) {
   }
 }
 
+// The image says a little more for one hypothesis in each frame, less than the jump to it from the other
+// costs.
+TEST(ParticleFilter, AHypothesisThatAlwaysFitsBetterWins) {
+  Scene scene;
+  Pose wrong = both_arms_seen();
+  wrong[Angle::l_elbow_flexion] -= 60 * kDegree;
+  FilterConfig config;
+  config.heuristics = "modes,wd";
+  config.diffusion = 0.001;
+  config.natural = 0.0;
+  config.trust = scene.config.trust = 1.0;
+  const auto likelihood = [&](const Pose& pose) {
+    Score score;
+    scene.evaluators.evaluate(scene.frame, scene.model, {&pose, 1}, {&score, 1});
+    return log_likelihood(scene.context(), pose, score, 0);
+  };
+  scene.config.temporal = scene.config.natural = 0.0;
+  constexpr double kEvidence = 0.6;  // nats a frame
+  config.trust = kEvidence / (likelihood(both_arms_seen()) - likelihood(wrong));
+  ASSERT_GT(config.trust, 0.0);
+  RunningFilter filter = make_filter(scene, config);
+  filter.start(wrong);
+  filter.state.particles.front().weight = 0.9;
+  Particle other = filter.state.particles.front();
+  other.pose = other.before = both_arms_seen();
+  other.weight = 0.1;
+  filter.state.particles.push_back(other);
+  for (int i = 0; i < 20; ++i) {
+    filter.step(input(scene, 0.5));
+  }
+  EXPECT_LT(left_wrist_error(scene, filter.state.estimate, both_arms_seen()), 0.02);
+}
+
+TEST(ParticleFilter, EachParticleKnowsThePoseOfItsParent) {
+  Scene scene;
+  RunningFilter filter = started(scene, thesis("wd", 20));
+  filter.step(input(scene, 0.0));
+  const std::vector<Particle> parents = filter.particles();
+  filter.step(input(scene, 0.0));
+  for (const Particle& particle : filter.particles()) {
+    EXPECT_EQ(particle.before.vector(), parents.at(static_cast<std::size_t>(particle.parent)).pose.vector());
+  }
+}
+
 TEST(ParticleFilter, WithoutAPersonTheNumbersStayFinite) {
   Scene scene;
   Pose away = both_arms_seen();

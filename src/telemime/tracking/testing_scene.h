@@ -50,10 +50,11 @@ struct Scene {
             .numbers = numbers,
             .search = search,
             .estimate = estimate,
-            .predicted = predicted,
             .heading = heading,
             .evaluators = evaluators,
-            .seed = seed};
+            .seed = seed,
+            .predicted = predicted,
+            .predicted_joints = {joints(predicted)}};
   }
   JointPositions joints(const Pose& pose) const { return forward_kinematics(model.body, pose).joints; }
 };

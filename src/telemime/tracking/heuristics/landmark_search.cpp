@@ -55,7 +55,7 @@ void search_landmarks(const FilterContext& context, Generation& generation) {
     const RegistrationResult found = register_pose(objective, particle.pose, search, random);
     particle.pose = found.pose;
     particle.score = found.score;
-    particle.log_likelihood = log_likelihood(context, found.pose, found.score);
+    particle.log_likelihood = log_likelihood(context, found.pose, found.score, particle.parent);
     particle.prior = static_cast<double>(effort) / context.config.particles;
     particle.origin = Origin::optimised;
   });

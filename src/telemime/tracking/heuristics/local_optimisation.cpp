@@ -47,7 +47,7 @@ std::vector<Particle> descend(const FilterContext& context, const Generation& ge
     Particle child;
     child.pose = context.limits.clamp(space.block.decode(x));
     child.score = objective.score(child.pose, objective.cues().needs());
-    child.log_likelihood = log_likelihood(context, child.pose, child.score);
+    child.log_likelihood = log_likelihood(context, child.pose, child.score, job.parent);
     child.parent = job.parent;
     child.prior = 1.0 / context.config.particles;
     child.origin = Origin::optimised;
@@ -106,7 +106,7 @@ std::vector<Particle> search_blocks(const FilterContext& context, const Generati
   Particle child;
   child.pose = found.pose;
   child.score = found.score;
-  child.log_likelihood = log_likelihood(context, child.pose, child.score);
+  child.log_likelihood = log_likelihood(context, child.pose, child.score, job.parent);
   child.parent = job.parent;
   child.prior = static_cast<double>(job.evaluations) / context.config.particles;
   child.origin = Origin::optimised;
