@@ -2,6 +2,7 @@
 #include "telemime/offline/look_ahead.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -80,12 +81,53 @@ Portrait portrait_of(const Config& config, Backend& backend, const JointLimits& 
   return portrait;
 }
 
-// Somebody who walks in is first seen from the side: where later frames fit much better, the person is fitted
-// there, and all poses are looked for again. One such frame may still hide where a sleeve ends or how far
-// away the arms are: all of them are tried. Else what the first frame gave.
+// The most different of the candidates, and the first, whose pose is needed for every shape; empty when there
+// are too few.
+std::vector<Keyframe> keyframes_of(const Config& config, const Portrait& portrait) {
+  std::vector<Keyframe> all;
+  all.reserve(portrait.candidates.size());
+  for (const Candidate& candidate : portrait.candidates) {
+    all.push_back(candidate.keyframe);
+  }
+  const auto count = static_cast<std::size_t>(config.calibration.refine.keyframes);
+  const std::vector<std::size_t> picked = pick_keyframes(make_body(portrait.start.person.shape), all, count);
+  std::vector<Keyframe> keyframes;
+  if (picked.size() >= kFewest) {
+    keyframes.push_back(all.front());
+    for (const std::size_t i : picked) {
+      keyframes.push_back(all[i]);
+    }
+  }
+  return keyframes;
+}
+
+// The shape fitted to all keyframes in this many rounds; 0 only tells what it costs.
+ShapeRefinement refined(const Config& config, const std::string& backend, const JointLimits& limits,
+                        const Portrait& portrait, const std::vector<Keyframe>& keyframes, int rounds) {
+  ShapeRefineConfig refine = config.calibration.refine;
+  refine.rounds = rounds;
+  return refine_shape([&] { return make_backend(backend, {.cues = config.cues}); }, keyframes,
+                      portrait.start.person.shape, limits, config.calibration.shape, refine);
+}
+
+// How badly the person explains the keyframes before the shape is fitted to them; nothing without keyframes.
+std::optional<double> cost_of(const Config& config, const std::string& backend, const JointLimits& limits,
+                              const Portrait& portrait) {
+  const std::vector<Keyframe> keyframes = keyframes_of(config, portrait);
+  if (keyframes.empty()) {
+    return std::nullopt;
+  }
+  return refined(config, backend, limits, portrait, keyframes, 0).cost;
+}
+
+// Somebody who walks in is first seen from the side: where later frames fit much better, or explain the
+// others much better, the person is fitted there, and all poses are looked for again. One such frame may
+// still hide where a sleeve ends or how far away the arms are: all of them are tried. Else what the first
+// frame gave.
 std::vector<Portrait> portraits_of(const Config& config, const std::string& backend_name,
                                    const JointLimits& limits, Portrait first) {
-  constexpr double kMuchBetter = 0.8;
+  constexpr double kMuchBetter = 0.8;    // F of the frame that the person was fitted in
+  constexpr double kExplainsMore = 0.9;  // cost of the keyframes
   const auto backend = make_backend(backend_name, {.cues = config.cues});
   Random random(config.seed);
   std::vector<std::pair<std::size_t, Calibration>> fits;
@@ -95,49 +137,22 @@ std::vector<Portrait> portraits_of(const Config& config, const std::string& back
                                    limits, config.calibration, config.registration, random));
     better = better || fits.back().second.score.region() <= kMuchBetter * first.start.person.score.region();
   }
+  const std::optional<double> usual = better ? std::nullopt : cost_of(config, backend_name, limits, first);
   std::vector<Portrait> portraits;
   for (const auto& [where, fit] : fits) {
-    if (better && fit.score.region() < first.start.person.score.region()) {
-      portraits.push_back(portrait_of(config, *backend, limits, first, fit, where, random));
+    if (better ? fit.score.region() >= first.start.person.score.region() : !usual.has_value()) {
+      continue;
+    }
+    Portrait portrait = portrait_of(config, *backend, limits, first, fit, where, random);
+    const std::optional<double> cost = usual ? cost_of(config, backend_name, limits, portrait) : std::nullopt;
+    if (better || (cost && *cost < kExplainsMore * *usual)) {
+      portraits.push_back(std::move(portrait));
     }
   }
   if (portraits.empty()) {
     portraits.push_back(std::move(first));
   }
   return portraits;
-}
-
-// The shape fitted to the most different of the candidates; nothing when there are too few.
-std::optional<FittedPerson> refined(const Config& config, const std::string& backend,
-                                    const JointLimits& limits, const Portrait& portrait) {
-  std::vector<Keyframe> all;
-  all.reserve(portrait.candidates.size());
-  for (const Candidate& candidate : portrait.candidates) {
-    all.push_back(candidate.keyframe);
-  }
-  const auto count = static_cast<std::size_t>(config.calibration.refine.keyframes);
-  const Body body = make_body(portrait.start.person.shape);
-  std::vector<Keyframe> keyframes;
-  for (const std::size_t i : pick_keyframes(body, all, count)) {
-    keyframes.push_back(all[i]);
-  }
-  if (keyframes.size() < kFewest) {
-    return std::nullopt;
-  }
-  FittedPerson found;
-  found.start = portrait.start;
-  found.keyframes = keyframes.size();
-  found.start.person.refusal.clear();  // whatever the first frame hid, these show
-  // The pose in the first frame is needed for the new shape, too.
-  keyframes.insert(keyframes.begin(), all.front());
-  const ShapeRefinement refined =
-      refine_shape([&] { return make_backend(backend, {.cues = config.cues}); }, keyframes,
-                   portrait.start.person.shape, limits, config.calibration.shape, config.calibration.refine);
-  found.start.person.shape = refined.shape;
-  found.start.pose = refined.poses.front();
-  found.cost_before = refined.cost_before;
-  found.cost = refined.cost;
-  return found;
 }
 
 // The frame in which somebody is first tracked, and the tracked frames from there on.
@@ -183,13 +198,24 @@ FittedPerson fit_person(const Tracker& tracker, Scouting scouting) {
       portraits_of(tracker.config, backend, tracker.limits, std::move(scouting.first));
   FittedPerson best;
   best.start = portraits.front().start;
+  best.frames = scouting.tracked;
   for (const Portrait& portrait : portraits) {
-    const auto found = refined(tracker.config, backend, tracker.limits, portrait);
-    if (found && (best.keyframes == 0 || found->cost < best.cost)) {
-      best = *found;
+    const std::vector<Keyframe> keyframes = keyframes_of(tracker.config, portrait);
+    if (keyframes.empty()) {
+      continue;
+    }
+    const ShapeRefinement fit = refined(tracker.config, backend, tracker.limits, portrait, keyframes,
+                                        tracker.config.calibration.refine.rounds);
+    if (best.keyframes == 0 || fit.cost < best.cost) {
+      best.start = portrait.start;
+      best.start.person.refusal.clear();  // whatever the first frame hid, the keyframes show
+      best.start.person.shape = fit.shape;
+      best.start.pose = fit.poses.front();
+      best.keyframes = keyframes.size() - 1;
+      best.cost_before = fit.cost_before;
+      best.cost = fit.cost;
     }
   }
-  best.frames = scouting.tracked;
   return best;
 }
 
