@@ -130,7 +130,8 @@ function(telemime_page_test name file)
                   "TELEMIME_MEETING_CLUSTER=${CMAKE_SOURCE_DIR}/meeting/scripts/cluster.py"
                   "TELEMIME_MEETING_SESSION=${CMAKE_SOURCE_DIR}/meeting/scripts/recording.py"
                   "TELEMIME_CLIPS=${CMAKE_SOURCE_DIR}/../shared/data/dev")
-  # Two processors: one for the program, one for a browser without a graphics card.
-  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77 PROCESSORS 2
+  # Two processors: one for the program, one for a browser without a graphics card. They begin first, while there are
+  # other tests to run beside each of them.
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77 PROCESSORS 2 COST 100
                                           ENVIRONMENT "${environment}")
 endfunction()
