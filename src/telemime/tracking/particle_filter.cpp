@@ -53,8 +53,8 @@ void diffuse(const FilterContext& context, Generation& generation) {
 }
 
 // Continues the motion of every parent: of its arms, the trunk stays. A pose is compared with the past of its
-// own hypothesis: compared with that of the best one, the others would start anew in each frame and never
-// win.
+// own hypothesis: compared with that of the best one, the others would pay for the jump in each frame and
+// never win.
 void predict(const StepInput& input, double time_step_before, std::span<const Particle> parents,
              FilterContext& context) {
   const double share = input.velocity * input.time_step / time_step_before;
