@@ -71,14 +71,12 @@ void pack_frame(const PreparedFrame& frame, const PackedSkeleton& skeleton, Redu
 }
 
 void pack_poses(std::span<const Pose> poses, std::vector<float>& numbers) {
-  numbers.clear();
+  numbers.resize(kPoseSize * poses.size());
+  auto out = numbers.begin();
+  const auto to_float = [](double number) { return static_cast<float>(number); };
   for (const Pose& pose : poses) {
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      numbers.push_back(static_cast<float>(pose.root[i]));
-    }
-    for (const double angle : pose.angles) {
-      numbers.push_back(static_cast<float>(angle));
-    }
+    out = std::transform(pose.root.begin(), pose.root.end(), out, to_float);
+    out = std::transform(pose.angles.begin(), pose.angles.end(), out, to_float);
   }
 }
 

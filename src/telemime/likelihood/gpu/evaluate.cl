@@ -202,6 +202,8 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   SHARED float v[MOST_VERTICES];
   SHARED float w[MOST_VERTICES];
   SHARED unsigned char facing[MOST_VERTICES];
+  SHARED unsigned short drawn[MOST_VERTICES];  // quadrilaterals that face the camera, in any order
+  SHARED int drawn_count;
   SHARED unsigned int depth[BAND_PIXELS];
   SHARED int box[4];
   SHARED int counts[7];
@@ -213,6 +215,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
     box[1] = frame.height;
     box[2] = -1;
     box[3] = -1;
+    drawn_count = 0;
     for (int i = 0; i < 7; ++i) {
       counts[i] = 0;
     }
@@ -254,7 +257,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   const int right = min(box[2], frame.width - 1);
   const int last_row = min(box[3], frame.height - 1);
 
-  // Facing of the triangles.
+  // Facing of the triangles, and a list of those to draw: neighbours in it are neighbours in a warp.
   for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
     const unsigned int word = words[i];
     unsigned int f = 0u;
@@ -267,6 +270,9 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
       f = facing_of(&a, &b, &c, &d, word);
     }
     facing[i] = (unsigned char)f;
+    if ((f & (FRONT1 | FRONT2)) != 0u) {
+      drawn[ATOMIC_ADD(&drawn_count, 1)] = (unsigned short)i;
+    }
   }
 
   // Draw and count in bands of rows that fit into the memory of the group.
@@ -274,24 +280,24 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   float sum = 0.0f;
   const int span = right + 1 - left;
   const int band_rows = span > 0 ? max(BAND_PIXELS / span, 1) : 1;
-  for (int top = first_row; span > 0 && top <= last_row; top += band_rows) {
-    const int bottom = min(top + band_rows - 1, last_row);
-    const int pixels = (bottom + 1 - top) * span;
+  int rows = 0;  // of the band; with its end clamped instead, ptxas 13.0 compiles loops for sm_90 that leave the band
+  for (int top = first_row; span > 0 && top <= last_row; top += rows) {
+    rows = min(band_rows, last_row + 1 - top);
+    const int bottom = top + rows - 1;
+    const int pixels = rows * span;
     for (int p = THREAD; p < pixels; p += GROUP_SIZE) {
       depth[p] = 0u;
     }
     SYNCHRONISE;
-    for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
+    for (int k = THREAD; k < drawn_count; k += GROUP_SIZE) {
+      const int i = drawn[k];
       const unsigned int word = words[i];
-      const unsigned int f = facing[i];
-      if ((f & (FRONT1 | FRONT2)) != 0u) {
-        const int s = LANE_STRIDE(word);
-        const Corner a = corner_of(u, v, w, i);
-        const Corner b = corner_of(u, v, w, i + s);
-        const Corner c = corner_of(u, v, w, i + 1);
-        const Corner d = corner_of(u, v, w, i + s + 1);
-        draw_quad(&a, &b, &c, &d, f, LANE_SURFACE(word), left, right, top, bottom, depth);
-      }
+      const int s = LANE_STRIDE(word);
+      const Corner a = corner_of(u, v, w, i);
+      const Corner b = corner_of(u, v, w, i + s);
+      const Corner c = corner_of(u, v, w, i + 1);
+      const Corner d = corner_of(u, v, w, i + s + 1);
+      draw_quad(&a, &b, &c, &d, facing[i], LANE_SURFACE(word), left, right, top, bottom, depth);
     }
     SYNCHRONISE;
     // Overlap of the band with the labels.
