@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
+
+#include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
@@ -15,15 +18,18 @@ struct Clock {
   int device_batches = 0;
 };
 
-// Takes a fixed time and a time for each pose; D_C says which of the two back ends counted.
+// Takes a fixed time and a time for each pose; D_C says which of the two back ends counted. Fails from batch
+// `fails_at` on.
 class Worker final : public Backend {
  public:
-  Worker(Clock& clock, int& batches, double start, double each, double mark)
-      : clock_(clock), batches_(batches), start_(start), each_(each), mark_(mark) {}
+  Worker(Clock& clock, int& batches, double start, double each, double mark, int fails_at = 1000)
+      : clock_(clock), batches_(batches), start_(start), each_(each), mark_(mark), fails_at_(fails_at) {}
   std::string_view name() const override { return "worker"; }
   void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
              std::span<Reductions> counts) override {
-    ++batches_;
+    if (++batches_ >= fails_at_) {
+      throw Error(ErrorKind::usage, "the device was unplugged");
+    }
     clock_.now += start_ + each_ * static_cast<double>(poses.size());
     for (Reductions& r : counts) {
       EXPECT_EQ(r.contour_points, 0) << "counts come in empty";
@@ -37,10 +43,11 @@ class Worker final : public Backend {
   Clock& clock_;
   int& batches_;
   double start_, each_, mark_;
+  int fails_at_;
 };
 
 constexpr double kProcessor = 0.25;
-constexpr double kDevice = 0.75;
+constexpr double kDevice = 0.2501;
 
 class Auto : public ::testing::Test {
  protected:
@@ -55,10 +62,13 @@ class Auto : public ::testing::Test {
   Clock clock_;
   PreparedFrame frame_;
   Model model_;
-  std::unique_ptr<Backend> backend_ =
-      make_auto_backend(std::make_unique<Worker>(clock_, clock_.processor_batches, 0.0, 6e-6, kProcessor),
-                        std::make_unique<Worker>(clock_, clock_.device_batches, 1e-3, 1e-7, kDevice),
-                        [this] { return clock_.now; });
+  std::unique_ptr<Backend> with_device(double mark, int fails_at = 1000) {
+    return make_auto_backend(
+        std::make_unique<Worker>(clock_, clock_.processor_batches, 0.0, 6e-6, kProcessor),
+        std::make_unique<Worker>(clock_, clock_.device_batches, 1e-3, 1e-7, mark, fails_at),
+        [this] { return clock_.now; });
+  }
+  std::unique_ptr<Backend> backend_ = with_device(kDevice);
 };
 
 TEST_F(Auto, GivesLargeBatchesToTheDevice) {
@@ -81,6 +91,27 @@ TEST_F(Auto, MeasuresEachKindOfBatchOnce) {
   const int before = clock_.device_batches;
   evaluate(600, 320);
   EXPECT_EQ(clock_.device_batches, before + 2) << "another image size is another kind";
+}
+
+TEST_F(Auto, DoesNotUseADeviceThatCountsSomethingElse) {
+  for (const double wrong : {9.0, 0.25 + 1e9, std::numeric_limits<double>::quiet_NaN()}) {
+    backend_ = with_device(wrong);
+    EXPECT_EQ(evaluate(10000), kProcessor);
+    EXPECT_EQ(evaluate(10000), kProcessor) << wrong;
+    const int batches = clock_.device_batches;
+    evaluate(10000, 320);
+    EXPECT_EQ(clock_.device_batches, batches) << "it is not asked again";
+  }
+}
+
+TEST_F(Auto, GoesOnWithoutADeviceThatFails) {
+  backend_ = with_device(kDevice, 4);
+  evaluate(10000);
+  EXPECT_EQ(evaluate(10000), kDevice);
+  EXPECT_EQ(evaluate(10000), kProcessor);
+  EXPECT_FALSE(backend_->device_times().has_value());
+  EXPECT_EQ(evaluate(10000), kProcessor);
+  EXPECT_EQ(clock_.device_batches, 4) << "it is not asked again";
 }
 
 TEST(Backends, AreFoundByName) {
