@@ -14,7 +14,8 @@ struct CueInput {
   const Model& model;
   const Reductions& reductions;            ///< those of Cue::needs are counted, the others are 0
   const Kinematics* kinematics = nullptr;  ///< of the pose; set if Cue::needs_kinematics is; else unspecified
-  /// The same of its landmarks, where the frame has some; m, camera frame.
+  /// Landmarks of the pose, m, camera frame; set if Cue::needs_landmarks is and the frame has landmarks; else
+  /// unspecified.
   const LandmarkPositions* landmarks = nullptr;
 };
 
@@ -33,6 +34,7 @@ struct Cue {
   CueUnit unit = CueUnit::ratio;
   Reduction needs = Reduction::none;  ///< what back ends must count for it; often none
   bool needs_kinematics = false;      ///< whether CueInput::kinematics is set
+  bool needs_landmarks = false;       ///< whether CueInput::landmarks is set where the frame has landmarks
   double region_step = 0.0;           ///< default weight in the first step of registration
   double edge_step = 1.0;             ///< default weight in the second step, in calibration and recovery
   double scale = 1.0;                 ///< the cost that an objective counts as 1

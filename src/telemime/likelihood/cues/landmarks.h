@@ -11,7 +11,7 @@ double landmark_cost(const CueInput& input);
 inline constexpr Cue kLandmarkCue = {
     .name = "landmarks",
     .what = "Distance of the model's joints from where a network sees them, in standard deviations",
-    .needs_kinematics = true,
+    .needs_landmarks = true,
     .region_step = 0.05,
     .edge_step = 0.05,
     .sigma_key = "sigma_landmarks",
@@ -25,7 +25,7 @@ double bone_cost(const CueInput& input);
 inline constexpr Cue kBoneCue = {
     .name = "bones",
     .what = "Difference of the bones' slopes in depth from those that a network sees",
-    .needs_kinematics = true,
+    .needs_landmarks = true,
     .region_step = 0.01,
     .edge_step = 0.01,
     .sigma_key = "sigma_bones",

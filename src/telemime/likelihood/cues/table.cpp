@@ -51,11 +51,12 @@ CueValues cue_costs(const CueTable& cues, CueInput input, const Pose& pose, Redu
     if (!covers(counted, cues[i].needs)) {
       continue;
     }
-    if (cues[i].needs_kinematics && input.kinematics == nullptr) {
+    const bool compared = cues[i].needs_landmarks && input.frame.landmarks;
+    if ((cues[i].needs_kinematics || compared) && input.kinematics == nullptr) {
       kinematics = forward_kinematics(input.model.body, pose);
       input.kinematics = &kinematics;
     }
-    if (cues[i].needs_kinematics && input.landmarks == nullptr && input.frame.landmarks) {
+    if (compared && input.landmarks == nullptr) {
       landmarks = landmark_positions(input.model.body, *input.kinematics);
       input.landmarks = &landmarks;
     }
