@@ -282,6 +282,7 @@ Evaluation evaluate(const std::vector<MotionFrame>& given, const Camera& input, 
   result.jitter = wrist_jitter(tracks.estimate);
   result.truth_jitter = wrist_jitter(tracks.truth);
   result.lag = lag_behind(centred(tracks.estimate), centred(tracks.truth));
+  result.turn = measure_turn(tracks.estimate, tracks.truth);
   result.bones = bone_lengths(tracks.estimate);
   result.truth_bones = bone_lengths(tracks.truth);
   result.hands = measure_hands(frames, truth);

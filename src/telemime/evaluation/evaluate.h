@@ -82,6 +82,7 @@ struct Evaluation {
   std::optional<double> jitter;         ///< m/frame^2, scored and tracked frames
   std::optional<double> truth_jitter;   ///< the truth's own, same frames
   std::optional<Lag> lag;
+  std::optional<TurnReport> turn;  ///< scored and tracked frames
   std::array<std::optional<BoneLength>, kBoneNames.size()> bones{};
   std::array<std::optional<BoneLength>, kBoneNames.size()> truth_bones{};
   std::optional<HandReport> hands;  ///< nothing when the truth or the pose file has none

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
+#include "telemime/evaluation/error_means.h"
 #include "telemime/evaluation/frame_errors.h"
 
 namespace telemime {
@@ -120,6 +122,38 @@ std::optional<Lag> lag_behind(const JointTrack& estimate, const JointTrack& trut
   const double curvature = before - 2.0 * here + after;
   const double offset = curvature < 0.0 ? 0.5 * (before - after) / curvature : 0.0;
   return Lag{static_cast<double>(peak - values.begin()) - longest + offset, here};
+}
+
+std::optional<TurnReport> measure_turn(const JointTrack& estimate, const JointTrack& truth) {
+  constexpr double kTurned = std::numbers::pi / 12.0;
+  TurnReport report;
+  Mean error, error_turned;
+  for (std::size_t t = 0; t < truth.size(); ++t) {
+    const auto direction = [t](const JointTrack& track) -> std::optional<double> {
+      const auto* const l = joint_at(track, t, Joint::l_shoulder);
+      const auto* const r = joint_at(track, t, Joint::r_shoulder);
+      return l && r ? std::optional(std::atan2(l->z() - r->z(), l->x() - r->x())) : std::nullopt;
+    };
+    const std::optional<double> found = direction(estimate);
+    const std::optional<double> exact = direction(truth);
+    if (!found || !exact) {
+      continue;
+    }
+    const double difference = std::abs(std::remainder(*found - *exact, 2.0 * std::numbers::pi));
+    ++report.frames;
+    error.add(difference);
+    if (std::abs(*exact) >= kTurned) {
+      ++report.turned;
+      error_turned.add(difference);
+      report.wrong_way += std::signbit(*found) != std::signbit(*exact) ? 1 : 0;
+    }
+  }
+  if (report.frames == 0) {
+    return std::nullopt;
+  }
+  report.error = *error.value();
+  report.error_turned = error_turned.value();
+  return report;
 }
 
 std::array<std::optional<BoneLength>, kBoneNames.size()> bone_lengths(const JointTrack& track) {

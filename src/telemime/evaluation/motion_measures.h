@@ -28,6 +28,19 @@ struct Lag {
 /// of the range [-longest, longest].
 std::optional<Lag> lag_behind(const JointTrack& estimate, const JointTrack& truth, int longest = 15);
 
+/// How well the direction of the trunk is followed: that of the line through the shoulders about the
+/// vertical.
+struct TurnReport {
+  std::size_t frames = 0;  ///< with both shoulders in both tracks
+  double error = 0.0;      ///< rad, mean of the sizes of the differences
+  std::size_t turned = 0;  ///< frames in which the true line is at least 15 degrees from the image plane
+  std::optional<double> error_turned;  ///< rad, the mean over these
+  std::size_t wrong_way = 0;           ///< of these, frames in which the estimate is turned to the other side
+};
+
+/// Nothing when no frame has both shoulders.
+std::optional<TurnReport> measure_turn(const JointTrack& estimate, const JointTrack& truth);
+
 /// Length of one bone over a track.
 struct BoneLength {
   double mean = 0.0;       ///< m

@@ -67,6 +67,15 @@ Json hands_json(const std::optional<HandReport>& hands) {
                : Json(nullptr);
 }
 
+Json turn_json(const std::optional<TurnReport>& turn) {
+  return turn ? Json{{"frames", turn->frames},
+                     {"degrees", number(turn->error, kDegreesPerRadian)},
+                     {"turned_frames", turn->turned},
+                     {"turned_degrees", number(turn->error_turned, kDegreesPerRadian)},
+                     {"wrong_way_frames", turn->wrong_way}}
+              : Json(nullptr);
+}
+
 Json head_json(const std::optional<HeadReport>& head) {
   return head ? Json{{"in_truth", head->heads},
                      {"seen", rounded(head->seen, 6)},
@@ -119,6 +128,7 @@ Json evaluation_json(const Evaluation& evaluation) {
        {{"frames", lag ? Json(rounded(lag->frames, 4)) : Json(nullptr)},
         {"ms", lag ? Json(rounded(lag->frames * 1000.0 / evaluation.fps, 2)) : Json(nullptr)},
         {"correlation", lag ? Json(rounded(lag->correlation, 4)) : Json(nullptr)}}},
+      {"turn", turn_json(evaluation.turn)},
       {"bones", bones_json(evaluation)},
       {"hands", hands_json(evaluation.hands)},
       {"head", head_json(evaluation.head)},

@@ -128,6 +128,13 @@ void motion_rows(std::string& table, const Evaluation& evaluation) {
   } else {
     row(table, "lag, frames", {"-"});
   }
+  if (const auto& turn = evaluation.turn) {
+    const auto degrees = [](double angle) { return fixed(angle * kDegreesPerRadian, 1); };
+    row(table, "trunk's direction, degrees",
+        {degrees(turn->error), "   turned " + (turn->error_turned ? degrees(*turn->error_turned) : "-") +
+                                   ", the wrong way in " + std::to_string(turn->wrong_way) + " of " +
+                                   std::to_string(turn->turned) + " frames"});
+  }
   table += "\nbone lengths\n";
   row(table, "", {"mm", "varies", "truth mm", "varies"});
   for (std::size_t b = 0; b < kBoneNames.size(); ++b) {
