@@ -111,6 +111,35 @@ TEST_F(TwoPeople, FarOneIsKeptWhenTheNearOneComes) {
   }
 }
 
+TEST_F(TwoPeople, AMaskIsKeptForOnePicture) {
+  const auto is_same = [](const cv::Mat& a, const cv::Mat& b) {
+    return a.size() == b.size() && cv::countNonZero(a != b) == 0;
+  };
+  const auto find = [&](std::size_t i, bool keep_mask) {
+    const auto found = finder_.find(picture(i, true, false), kFrame * static_cast<double>(i), keep_mask);
+    EXPECT_TRUE(found) << i;
+    return found.value_or(PoseLandmarks{});
+  };
+  std::vector<PoseLandmarks> kept;
+  for (std::size_t i = 0; i < 4; ++i) {
+    kept.push_back(find(i, true));
+  }
+  finder_.reset();
+  for (std::size_t i = 0; i < 4; ++i) {
+    const PoseLandmarks own = find(i, false);
+    ASSERT_EQ(own.mask.size(), cv::Size(kColumns, kRows));
+    EXPECT_EQ(is_same(kept[i].mask, own.mask), i % 2 == 0) << i;
+    EXPECT_EQ(kept[i].points[0].pixel, own.points[0].pixel) << i;
+  }
+  EXPECT_TRUE(is_same(kept[1].mask, kept[0].mask));
+  EXPECT_TRUE(is_same(kept[3].mask, kept[2].mask));
+  // Pictures of a slow camera have their own.
+  const auto first = finder_.find(picture(4, true, false), 10.0, true);
+  const auto second = finder_.find(picture(5, true, false), 10.05, true);
+  ASSERT_TRUE(first && second);
+  EXPECT_FALSE(is_same(first->mask, second->mask));
+}
+
 TEST_F(TwoPeople, SomebodyElseIsNoArm) {
   // Somebody stands behind and touches the outline of the near person.
   const cv::Mat room = empty_picture();

@@ -106,7 +106,8 @@ std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame
     cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0,
                0, cv::INTER_AREA);
   }
-  found_ = finder_.find(picture, frame.time);
+  // Where colours are not known, the mask is the silhouette.
+  found_ = finder_.find(picture, frame.time, calibration_.colours.known() && has_colour(status_));
   if (found_) {
     found_ = scaled_to(std::move(*found_), picture.size(), working_size());
   }

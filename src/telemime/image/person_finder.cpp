@@ -18,7 +18,8 @@ constexpr double kBodyRadius = 0.95;  // m, PersonPlace::size
 }  // namespace
 
 PersonFinder::PersonFinder(const std::filesystem::path& models)
-    : networks_(std::make_shared<PoseNetworks>(load_pose_networks(models, PoseModel::full, true))) {}
+    : networks_(std::make_shared<PoseNetworks>(load_pose_networks(models, PoseModel::full, true))),
+      without_mask_(std::make_shared<Network>(load_pose_landmarker(models, PoseModel::full, false))) {}
 
 PersonPlace place_of(const PoseLandmarks& landmarks) {
   constexpr double kWidthOverRadius = 2.5;  // of a region: region_of_axis()
@@ -83,8 +84,9 @@ std::optional<PoseLandmarks> PersonFinder::detected(const cv::Mat& picture, doub
   return std::nullopt;
 }
 
-std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time) {
+std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time, bool keep_mask) {
   constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
+  constexpr double kMaskAge = 0.045;   // s: every second picture at 25 or 30 a second
   if (!networks_) {
     return std::nullopt;
   }
@@ -93,17 +95,28 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
   }
   // Where the person was; otherwise wherever the detector sees somebody who may be them.
   std::optional<PoseLandmarks> found;
+  double mask_time = time;
   if (followed_) {
-    found = find_landmarks(picture, followed_->region, networks_->landmarker);
+    const bool keeps =
+        keep_mask && followed_->mask.size() == picture.size() && time - followed_->mask_time <= kMaskAge;
+    found = find_landmarks(picture, followed_->region, keeps ? *without_mask_ : networks_->landmarker);
     if (found && !is_followed(*found, time)) {
       found.reset();
+    }
+    if (found && keeps) {
+      found->mask = followed_->mask;
+      mask_time = followed_->mask_time;
     }
   }
   if (!found) {
     found = detected(picture, time);
   }
   if (found) {
-    followed_ = {.region = found->next_region, .place = place_of(*found), .time = time};
+    followed_ = {.region = found->next_region,
+                 .place = place_of(*found),
+                 .time = time,
+                 .mask = found->mask,
+                 .mask_time = mask_time};
     count(picture, followed_->place, time);
   }
   return found;

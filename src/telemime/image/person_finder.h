@@ -45,8 +45,9 @@ class PersonFinder {
   bool has_networks() const { return networks_ != nullptr; }
 
   /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels. `time` is
-  /// that of the picture, s.
-  std::optional<PoseLandmarks> find(const cv::Mat& picture, double time);
+  /// that of the picture, s. With `keep_mask` the mask may be that of a picture up to 45 ms before: it costs
+  /// as much time as the landmarks.
+  std::optional<PoseLandmarks> find(const cv::Mat& picture, double time, bool keep_mask = false);
 
   /// People in the picture when they were last counted, at most 1 s ago.
   int people() const { return people_; }
@@ -59,12 +60,15 @@ class PersonFinder {
     PictureRegion region;  ///< in which to look for the person in the next frame
     PersonPlace place;
     double time = 0.0;
+    cv::Mat mask;
+    double mask_time = 0.0;
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;
   std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);
   void count(const cv::Mat& picture, const PersonPlace& person, double time);
 
   std::shared_ptr<PoseNetworks> networks_;
+  std::shared_ptr<Network> without_mask_;  ///< the landmarker, without its mask
   std::optional<Followed> followed_;
   int people_ = 0;
   std::optional<double> counted_;  ///< when the people were counted
