@@ -388,6 +388,7 @@ TEST(Evaluate, ReportIsWholeForATrackThatWasAlwaysLost) {
   EXPECT_TRUE(result.all.scored.aligned);
   EXPECT_NE(evaluation_table(result).find("100.0 %"), std::string::npos);
   EXPECT_EQ(evaluation_json(result).at("lost").at("all_frames"), 1.0);
+  EXPECT_TRUE(evaluation_json(result).at("turn").is_null());
 }
 
 }  // namespace

@@ -125,7 +125,7 @@ std::optional<Lag> lag_behind(const JointTrack& estimate, const JointTrack& trut
 }
 
 std::optional<TurnReport> measure_turn(const JointTrack& estimate, const JointTrack& truth) {
-  constexpr double kTurned = std::numbers::pi / 12.0;
+  const double kTurned = std::sin(std::numbers::pi / 12.0);
   TurnReport report;
   Mean error, error_turned;
   for (std::size_t t = 0; t < truth.size(); ++t) {
@@ -142,7 +142,7 @@ std::optional<TurnReport> measure_turn(const JointTrack& estimate, const JointTr
     const double difference = std::abs(std::remainder(*found - *exact, 2.0 * std::numbers::pi));
     ++report.frames;
     error.add(difference);
-    if (std::abs(*exact) >= kTurned) {
+    if (std::abs(std::sin(*exact)) >= kTurned) {
       ++report.turned;
       error_turned.add(difference);
       report.wrong_way += std::signbit(*found) != std::signbit(*exact) ? 1 : 0;

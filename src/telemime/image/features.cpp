@@ -93,7 +93,7 @@ FeatureExtractor::FeatureExtractor(const ImageConfig& config)
   }
 }
 
-std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame) {
+std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame, bool own_mask) {
   if (!finder_.has_networks() || found_in_ == frame.index) {
     return found_;
   }
@@ -107,7 +107,8 @@ std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame
                0, cv::INTER_AREA);
   }
   // Where colours are not known, the mask is the silhouette.
-  found_ = finder_.find(picture, frame.time, calibration_.colours.known() && has_colour(status_));
+  const bool keeps_mask = !own_mask && calibration_.colours.known() && has_colour(status_);
+  found_ = finder_.find(picture, frame.time, keeps_mask);
   if (found_) {
     found_ = scaled_to(std::move(*found_), picture.size(), working_size());
   }
@@ -187,7 +188,7 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
   shape_ = HeadShape{};
-  const std::optional<PoseLandmarks> landmarks = find_landmarks(frame);
+  const std::optional<PoseLandmarks> landmarks = find_landmarks(frame, true);
   const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
   head_.reset();
   std::optional<TrackedFace> face =

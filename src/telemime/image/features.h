@@ -47,8 +47,10 @@ class FeatureExtractor {
   PersonReport learn_person(const Frame& frame);
 
   /// What networks see of the person in a frame, in pixels of the working image; they look at a frame once,
-  /// whichever function asks first. Empty without networks or if nobody is found. Throws as extract().
-  std::optional<PoseLandmarks> find_landmarks(const Frame& frame);
+  /// whichever function asks first. Empty without networks or if nobody is found. The mask may be that of a
+  /// picture up to 45 ms before, where colours are known, unless it must be this frame's own. Throws as
+  /// extract().
+  std::optional<PoseLandmarks> find_landmarks(const Frame& frame, bool own_mask = false);
 
   /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
   /// Error(input) if the frame has no 8-bit BGR image.

@@ -44,7 +44,7 @@ const std::array<BackendKind, kBackendCount> kBackends = {{
     {"simd", "vector instructions of the processor", simd, nothing_missing},
     {"opencl", "a GPU, or any device that has an OpenCL driver", opencl, gpu::opencl_missing},
     {"cuda", "an NVIDIA GPU whose driver has no OpenCL", cuda, gpu::cuda_missing},
-    {"auto", "a GPU for batches that it evaluates faster and counts alike, else simd", fastest,
+    {"auto", "a GPU for batches that it evaluates faster, with the same counts; else simd", fastest,
      nothing_missing},
     {"scalar", "the reference: one exact z-buffered mesh after the other",
      [](const BackendOptions& options) { return make_scalar_backend(options.cues); }, nothing_missing},

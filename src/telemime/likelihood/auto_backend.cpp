@@ -58,13 +58,13 @@ class AutoBackend final : public Backend {
       prefers_device_[kind] = measure(frame, model, poses, terms, counts);
       return;
     }
-    if (known->second && device_works_) {
+    if (known->second) {
       try {
         device_->count(frame, model, poses, terms, counts);
         on_device_ = true;
         return;
       } catch (const Error&) {  // unplugged, or reset by its driver
-        device_works_ = false;
+        known->second = false;
         std::fill(counts.begin(), counts.end(), Reductions{});
       }
     }
@@ -86,14 +86,10 @@ class AutoBackend final : public Backend {
       return seconds_() - begin;
     };
     const double processor = seconds_of(*processor_, counts);
-    if (!device_works_) {
-      return false;
-    }
     std::vector<Reductions> others(counts.size());
     try {
       const double device = seconds_of(*device_, others);
-      device_works_ = agree(counts, others);
-      return device_works_ && device < processor;
+      return agree(counts, others) && device < processor;
     } catch (const Error&) {  // the processor evaluates what the device cannot
       return false;
     }
@@ -103,7 +99,6 @@ class AutoBackend final : public Backend {
   std::unique_ptr<Backend> device_;
   std::function<double()> seconds_;
   std::map<Kind, bool> prefers_device_;
-  bool device_works_ = true;
   bool on_device_ = false;
 };
 

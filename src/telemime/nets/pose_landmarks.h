@@ -67,7 +67,7 @@ struct PoseLandmarks {
 
 enum class PoseModel { lite, full, heavy };
 
-/// The network pose_landmark_lite, _full or _heavy. Without the mask it takes half the time.
+/// The network pose_landmark_lite, _full or _heavy. The mask takes a third of its time.
 Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model, bool with_mask);
 
 /// The landmarks of the person in this region of a BGR picture (CV_8UC3); empty if the network sees nobody.

@@ -10,7 +10,7 @@ namespace kernel {
 
 // Macros of the kernel for CUDA. Products and sums are fused only by FUSED (--fmad=false).
 #define GROUP_SIZE 128
-#define BAND_PIXELS 8192
+#define BAND_PIXELS 7936
 #define MOST_VERTICES 1024
 #define FN static __device__ __forceinline__
 #define KERNEL __global__ void __launch_bounds__(GROUP_SIZE)

@@ -22,7 +22,7 @@ namespace telemime::gpu {
 
 /// Limits of the kernel: its threads work in 48 KiB of shared memory, which every GPU since 2013 has.
 inline constexpr int kGroupSize = 128;
-inline constexpr int kBandPixels = 8192;
+inline constexpr int kBandPixels = 7936;
 inline constexpr std::size_t kMostVertices = 1024;
 /// Most poses of one launch.
 inline constexpr std::size_t kMostPoses = std::size_t{1} << 16;

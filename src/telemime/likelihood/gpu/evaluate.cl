@@ -257,7 +257,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   const int right = min(box[2], frame.width - 1);
   const int last_row = min(box[3], frame.height - 1);
 
-  // Facing of the triangles, and a list of those to draw: neighbours in it are neighbours in a warp.
+  // Facing of the triangles, and a list of those to draw, so that all threads have something to draw.
   for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
     const unsigned int word = words[i];
     unsigned int f = 0u;
