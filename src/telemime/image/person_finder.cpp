@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 namespace telemime {
 namespace {
@@ -88,7 +87,6 @@ std::optional<PoseLandmarks> PersonFinder::detected(const cv::Mat& picture, doub
 std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time, bool keep_mask) {
   constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
   constexpr double kMaskAge = 0.045;   // s: every second picture at 25 or 30 a second
-  constexpr double kSlow = 0.025;      // of the width, from picture to picture: what is added around a mask
   if (!networks_) {
     return std::nullopt;
   }
@@ -99,9 +97,8 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
   std::optional<PoseLandmarks> found;
   double mask_time = time;
   if (followed_) {
-    const bool keeps = keep_mask && followed_->mask.size() == picture.size() &&
-                       time - followed_->mask_time <= kMaskAge &&
-                       followed_->wrist_step <= kSlow * picture.cols;
+    const bool keeps =
+        keep_mask && followed_->mask.size() == picture.size() && time - followed_->mask_time <= kMaskAge;
     found = find_landmarks(picture, followed_->region, keeps ? *without_mask_ : networks_->landmarker);
     if (found && !is_followed(*found, time)) {
       found.reset();
@@ -115,16 +112,11 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
     found = detected(picture, time);
   }
   if (found) {
-    Followed now{.region = found->next_region,
+    followed_ = {.region = found->next_region,
                  .place = place_of(*found),
                  .time = time,
                  .mask = found->mask,
-                 .mask_time = mask_time,
-                 .wrists = {found->points[Index::left_wrist].pixel, found->points[Index::right_wrist].pixel}};
-    for (std::size_t i = 0; followed_ && i < now.wrists.size(); ++i) {
-      now.wrist_step = std::max(now.wrist_step, (now.wrists[i] - followed_->wrists[i]).norm());
-    }
-    followed_ = std::move(now);
+                 .mask_time = mask_time};
     count(picture, followed_->place, time);
   }
   return found;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -47,9 +45,8 @@ class PersonFinder {
   bool has_networks() const { return networks_ != nullptr; }
 
   /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels. `time` is
-  /// that of the picture, s. With `keep_mask` the mask may be that of a picture up to 45 ms before, where the
-  /// hands are slow: computing one takes half as long as the landmarks. The finder keeps it, too: do not
-  /// write to it.
+  /// that of the picture, s. With `keep_mask` the mask may be that of a picture up to 45 ms before: computing
+  /// one takes half as long as the landmarks. The finder keeps it, too: do not write to it.
   std::optional<PoseLandmarks> find(const cv::Mat& picture, double time, bool keep_mask = false);
 
   /// People in the picture when they were last counted, at most 1 s ago.
@@ -65,8 +62,6 @@ class PersonFinder {
     double time = 0.0;
     cv::Mat mask;
     double mask_time = 0.0;
-    std::array<Eigen::Vector2d, 2> wrists;  ///< px
-    double wrist_step = 0.0;                ///< px, the longer way of a wrist since the picture before
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;
   std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);
