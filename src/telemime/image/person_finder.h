@@ -46,7 +46,7 @@ class PersonFinder {
 
   /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels. `time` is
   /// that of the picture, s. With `keep_mask` the mask may be that of a picture up to 45 ms before: computing
-  /// one takes half as long as the landmarks. The finder keeps it, too: do not write to it.
+  /// one takes a third of the network's time. The finder keeps it, too: do not write to it.
   std::optional<PoseLandmarks> find(const cv::Mat& picture, double time, bool keep_mask = false);
 
   /// People in the picture when they were last counted, at most 1 s ago.
