@@ -135,7 +135,7 @@ void PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, doub
     const PersonPlace place = place_of(other);
     const double apart = (place.shoulders - person.shoulders).norm() / person.size * kBodyRadius;
     if (place.size > kSmallest * person.size && apart > kApart &&
-        find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
+        find_landmarks(picture, region_of_person(other), *without_mask_)) {
       ++people_;
     }
   }
