@@ -89,21 +89,31 @@ LiveRates LiveStatistics::rates(double now) const {
     rates.input = static_cast<double>(last_.back().index - last_.front().index) / span;
     rates.tracked = static_cast<double>(last_.size() - 1) / span;
   }
-  const auto quantile = [this](double q, const auto& ms_of) {
+  const auto times = [this](const auto& ms_of) {
     std::vector<double> values;
     std::transform(last_.begin(), last_.end(), std::back_inserter(values), ms_of);
-    return quantile_of(std::move(values), q);
+    return values;
   };
-  const auto ms = [&quantile](double FrameTimes::*from, double FrameTimes::*to, double q) {
-    return quantile(q, [from, to](const FrameTimes& t) { return 1000.0 * (t.*to - t.*from); });
+  // The median, of the means of two frames each: every second one has a new person mask and takes longer.
+  const auto median = [&times](const auto& ms_of) {
+    std::vector<double> values = times(ms_of);
+    if (values.size() > 1) {
+      std::transform(values.begin(), values.end() - 1, values.begin() + 1, values.begin(),
+                     [](double a, double b) { return 0.5 * (a + b); });
+      values.pop_back();
+    }
+    return quantile_of(std::move(values), 0.5);
   };
-  rates.ms.networks = quantile(0.5, [](const FrameTimes& t) { return t.networks_ms; });
-  rates.ms.wait = ms(&FrameTimes::taken, &FrameTimes::begun, 0.5);
-  rates.ms.features = ms(&FrameTimes::begun, &FrameTimes::seen, 0.5);
-  rates.ms.queue = ms(&FrameTimes::seen, &FrameTimes::searched, 0.5);
-  rates.ms.search = ms(&FrameTimes::searched, &FrameTimes::decided, 0.5);
-  rates.ms.total = ms(&FrameTimes::taken, &FrameTimes::decided, 0.5);
-  rates.ms.total_p95 = ms(&FrameTimes::taken, &FrameTimes::decided, 0.95);
+  const auto between = [](double FrameTimes::*from, double FrameTimes::*to) {
+    return [from, to](const FrameTimes& t) { return 1000.0 * (t.*to - t.*from); };
+  };
+  rates.ms.networks = median([](const FrameTimes& t) { return t.networks_ms; });
+  rates.ms.wait = median(between(&FrameTimes::taken, &FrameTimes::begun));
+  rates.ms.features = median(between(&FrameTimes::begun, &FrameTimes::seen));
+  rates.ms.queue = median(between(&FrameTimes::seen, &FrameTimes::searched));
+  rates.ms.search = median(between(&FrameTimes::searched, &FrameTimes::decided));
+  rates.ms.total = median(between(&FrameTimes::taken, &FrameTimes::decided));
+  rates.ms.total_p95 = quantile_of(times(between(&FrameTimes::taken, &FrameTimes::decided)), 0.95);
   return rates;
 }
 

@@ -19,7 +19,7 @@ struct FrameTimes {
   double networks_ms = 0.0;  ///< part of the features
 };
 
-/// Medians over the last frames, ms.
+/// Medians over the last frames, each with the mean of two frames in a row, ms.
 struct StageTimes {
   double wait = 0.0;      ///< from the camera to the features
   double features = 0.0;  ///< the image side

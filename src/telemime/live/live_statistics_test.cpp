@@ -51,6 +51,16 @@ TEST(LiveStatistics, CountsRatesAndDroppedFrames) {
   EXPECT_NEAR(rates.ms.total, 34.0, 1e-6);
 }
 
+TEST(LiveStatistics, TimesThatAlternateHaveTheirMiddle) {
+  LiveStatistics statistics;
+  for (int i = 0; i <= 10; ++i) {
+    FrameTimes times = at(i, 0.04 * i);
+    times.networks_ms = i % 2 == 0 ? 10.0 : 16.0;
+    statistics.add(times);
+    EXPECT_NEAR(statistics.rates(0.04 * i).ms.networks, i == 0 ? 10.0 : 13.0, 1e-6);
+  }
+}
+
 TEST(LiveStatistics, ACameraThatStoppedHasNoRate) {
   LiveStatistics statistics;
   EXPECT_EQ(statistics.rates(0.0).input, 0.0);
