@@ -112,11 +112,14 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
     found = detected(picture, time);
   }
   if (found) {
+    std::optional<TrunkFacing> facing = followed_ ? followed_->facing : std::nullopt;
+    found = with_steady_sides(std::move(*found), time, facing);
     followed_ = {.region = found->next_region,
                  .place = place_of(*found),
                  .time = time,
                  .mask = found->mask,
-                 .mask_time = mask_time};
+                 .mask_time = mask_time,
+                 .facing = facing};
     count(picture, followed_->place, time);
   }
   return found;

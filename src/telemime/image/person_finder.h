@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "telemime/image/landmark_sides.h"
 #include "telemime/nets/find_pose.h"
 #include "telemime/nets/pose_detector.h"
 
@@ -62,6 +63,7 @@ class PersonFinder {
     double time = 0.0;
     cv::Mat mask;
     double mask_time = 0.0;
+    std::optional<TrunkFacing> facing;
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;
   std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "telemime/image/landmark_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace telemime {
+namespace {
+
+using Index = PoseLandmarkIndex;
+
+constexpr double kFastestTurn = 10.0;  // rad/s: more than that of a dancer's pirouette
+constexpr double kLongestHold = 0.5;   // s
+
+// Left and right points of the body follow each other, except in the eyes, where three of a side do.
+constexpr std::array<std::pair<int, int>, 16> kPairs{{{1, 4},
+                                                      {2, 5},
+                                                      {3, 6},
+                                                      {7, 8},
+                                                      {9, 10},
+                                                      {11, 12},
+                                                      {13, 14},
+                                                      {15, 16},
+                                                      {17, 18},
+                                                      {19, 20},
+                                                      {21, 22},
+                                                      {23, 24},
+                                                      {25, 26},
+                                                      {27, 28},
+                                                      {29, 30},
+                                                      {31, 32}}};
+
+// The angle of TrunkFacing by how wide the shoulders look, across the trunk; empty for a trunk without
+// length.
+std::optional<double> facing_angle(const PoseLandmarks& landmarks) {
+  constexpr double kWidthOverRegion =
+      0.33 / (2.5 * 0.95);  // of an adult's shoulders; a region is 2.5 radii of 0.95 m
+  const auto at = [&](int i) { return landmarks.points[static_cast<std::size_t>(i)].pixel; };
+  const Eigen::Vector2d up =
+      at(Index::left_shoulder) + at(Index::right_shoulder) - at(Index::left_hip) - at(Index::right_hip);
+  const double width = kWidthOverRegion * landmarks.next_region.width;
+  if (!(up.norm() > 0.0) || !(width > 0.0)) {
+    return std::nullopt;
+  }
+  const Eigen::Vector2d across = Eigen::Vector2d(-up.y(), up.x()).normalized();
+  const double seen = (at(Index::left_shoulder) - at(Index::right_shoulder)).dot(across) / width;
+  return std::asin(std::clamp(seen, -1.0, 1.0));
+}
+
+}  // namespace
+
+PoseLandmarks facing_other_way(PoseLandmarks landmarks) {
+  for (const auto& [left, right] : kPairs) {
+    std::swap(landmarks.points[static_cast<std::size_t>(left)],
+              landmarks.points[static_cast<std::size_t>(right)]);
+  }
+  for (PoseLandmark& point : landmarks.points) {
+    point.depth = -point.depth;
+    point.world.z() = -point.world.z();
+  }
+  return landmarks;
+}
+
+PoseLandmarks with_steady_sides(PoseLandmarks landmarks, double time, std::optional<TrunkFacing>& facing) {
+  const std::optional<double> measured = facing_angle(landmarks);
+  if (!measured) {
+    return landmarks;
+  }
+  if (!facing || time <= facing->time) {
+    facing = {.angle = *measured, .time = time, .agreed = 0.0};
+    return landmarks;
+  }
+  const double elapsed = time - facing->time;
+  const double turn = kFastestTurn * elapsed;
+  const double given = std::abs(*measured - facing->angle);
+  const double other = std::abs(-*measured - facing->angle);
+  const bool contradicts = given > turn && other + turn < given;
+  const double agreed = std::min(kLongestHold, facing->agreed + (contradicts ? -elapsed : elapsed));
+  if (contradicts && agreed <= 0.0) {
+    facing = {.angle = *measured, .time = time, .agreed = elapsed};
+    return landmarks;
+  }
+  const double now = contradicts ? -*measured : *measured;
+  const double angle = facing->angle + std::clamp(now - facing->angle, -turn, turn);
+  // Seen from the side, the person may turn either way.
+  facing = {.angle = angle, .time = time, .agreed = std::abs(angle) > turn ? agreed : 0.0};
+  return contradicts ? facing_other_way(std::move(landmarks)) : landmarks;
+}
+
+}  // namespace telemime

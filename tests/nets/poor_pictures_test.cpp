@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The person finder in poor pictures of a filmed person who faces the camera.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "telemime/capture/source.h"
+#include "telemime/image/person_finder.h"
+#include "telemime/nets/models/table.h"
+
+namespace telemime {
+namespace {
+
+namespace fs = std::filesystem;
+using Index = PoseLandmarkIndex;
+
+const fs::path kModels = TELEMIME_BUILD_MODELS;
+
+cv::Mat blurred(const cv::Mat& picture) {
+  cv::Mat out;
+  cv::GaussianBlur(picture, out, {}, picture.cols / 250.0);
+  return out;
+}
+
+cv::Mat grey(const cv::Mat& picture) {
+  cv::Mat out;
+  cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(out, out, cv::COLOR_GRAY2BGR);
+  return out;
+}
+
+// A dark room and the noise of its camera.
+cv::Mat dark(const cv::Mat& picture) {
+  cv::Mat out;
+  picture.convertTo(out, CV_32FC3, 1.0 / 255.0);
+  cv::pow(out, 1.4, out);
+  cv::Mat noise(out.size(), out.type());
+  cv::theRNG().state = 5;
+  cv::randn(noise, 0.0, 7.0);
+  out = 0.3 * 255.0 * out + noise;
+  out.convertTo(out, CV_8UC3);
+  return out;
+}
+
+TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
+  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+    GTEST_SKIP() << missing;
+  }
+  const char* const variable = std::getenv("TELEMIME_DATA");
+  const fs::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
+  const fs::path clip = data / "real/pose2sim_cam2/clip.mp4";
+  if (!fs::exists(clip)) {
+    const std::string reason = "no test data: set TELEMIME_DATA";
+    std::cout << reason << '\n';
+    GTEST_SKIP() << reason;
+  }
+  const std::vector<std::pair<std::string, std::function<cv::Mat(const cv::Mat&)>>> pictures = {
+      {"blurred", blurred}, {"grey", grey}, {"dark", dark}};
+  for (const auto& [name, made] : pictures) {
+    PersonFinder finder(kModels);
+    const std::unique_ptr<Source> source = open_source(clip.string());
+    std::string exchanged;
+    int found = 0;
+    for (std::optional<Frame> frame = source->next(); frame; frame = source->next()) {
+      const auto person = finder.find(made(frame->image), frame->time);
+      if (!person) {
+        continue;
+      }
+      ++found;
+      // In the first frames the network has not agreed with itself yet.
+      if (frame->time > 0.25 && person->points[Index::left_shoulder].pixel.x() <
+                                    person->points[Index::right_shoulder].pixel.x() - 20.0) {
+        exchanged += " " + std::to_string(frame->index);
+      }
+    }
+    EXPECT_GE(found, 95) << name;
+    EXPECT_EQ(exchanged, "") << name;
+  }
+}
+
+}  // namespace
+}  // namespace telemime
