@@ -280,6 +280,21 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   const double coloured = coloured_share_of(p.bgr);
   status_.coloured_share =
       seen_ ? status_.coloured_share + kColourWeight * (coloured - status_.coloured_share) : coloured;
+  // Whether light has washed out the colours of the head.
+  cv::Mat head = cv::Mat::zeros(p.bgr.size(), CV_8UC1);
+  if (features.head) {
+    const HeadRegion& region = *features.head;
+    cv::ellipse(head,
+                cv::RotatedRect(
+                    cv::Point2f(static_cast<float>(region.centre.x()), static_cast<float>(region.centre.y())),
+                    cv::Size2f(static_cast<float>(2.0 * region.radii.x()),
+                               static_cast<float>(2.0 * region.radii.y())),
+                    0.0F),
+                cv::Scalar::all(255), cv::FILLED);
+    head &= features.silhouette;
+  }
+  const double white = white_share_of(p.bgr, head);
+  status_.white_share = seen_ ? status_.white_share + kColourWeight * (white - status_.white_share) : white;
   seen_ = true;
   status_.known_background = known_background_share();
   background_complete_ = status_.known_background >= 1.0;

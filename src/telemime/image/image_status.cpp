@@ -26,6 +26,7 @@ bool patterned(const ColourMixture& clothes) {
 
 constexpr double kBlack = 12.0;  // mean grey level
 constexpr double kDark = 40.0;
+constexpr double kOverexposed = 0.1;  // share of the head; skin and hair are never that white
 
 }  // namespace
 
@@ -85,6 +86,14 @@ double coloured_share_of(const cv::Mat& bgr) {
   return static_cast<double>(own) / static_cast<double>(u.size());
 }
 
+double white_share_of(const cv::Mat& bgr, const cv::Mat& mask) {
+  constexpr int kWhite = 250;
+  cv::Mat white;
+  cv::inRange(bgr, cv::Scalar::all(kWhite), cv::Scalar::all(255), white);
+  const int area = cv::countNonZero(mask);
+  return area > 0 ? static_cast<double>(cv::countNonZero(white & mask)) / area : 0.0;
+}
+
 std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours) {
   const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
   const std::string grey_level =
@@ -101,6 +110,10 @@ std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColo
   }
   if (status.brightness < kDark) {
     out.push_back("the image is dark " + grey_level + ": turn on a light");
+  }
+  if (status.person && status.white_share > kOverexposed) {
+    out.push_back("the image is overexposed (" + percent(status.white_share) +
+                  " of the head is white): turn the light or the exposure of the camera down");
   }
   if (!status.person) {
     out.emplace_back("no person is visible: sit so that the camera sees your head and your shoulders");

@@ -20,6 +20,7 @@ struct ImageStatus {
   double camera_motion = 0.0;     ///< pixels per check at 160 columns, averaged
   double light_change = 0.0;      ///< ln of the current luminance over the learned one, mean over the image
   double brightness = 0.0;        ///< mean grey level
+  double white_share = 0.0;       ///< of the head's pixels, those without any colour left, averaged over time
   double detail = 255.0;          ///< 99th percentile of the gradient at 160 columns, grey levels a pixel
   double coloured_share = 1.0;    ///< pixels with a colour of their own, averaged over time
   int people = 0;                 ///< in the picture, as far as networks see
@@ -36,6 +37,10 @@ double detail_of(const cv::Mat& grey);
 /// Share of the pixels of an image (CV_8UC3), in a grid, whose chroma differs from that of the whole image: 0
 /// for an infrared or black-and-white image, tinted or not.
 double coloured_share_of(const cv::Mat& bgr);
+
+/// Share of the pixels in the mask (CV_8UC1) of this picture (CV_8UC3) that are as white as the camera can
+/// show. 0 for an empty mask.
+double white_share_of(const cv::Mat& bgr, const cv::Mat& mask);
 
 /// The warnings for these values, as messages for the user.
 std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColours& colours);

@@ -46,6 +46,8 @@ TEST(ImageStatus, EachViolatedAssumptionHasAWarning) {
   EXPECT_TRUE(says(status, "the image is 74 % as bright"));
   status.brightness = 30;
   EXPECT_TRUE(says(status, "turn on a light"));
+  status.white_share = 0.25;
+  EXPECT_TRUE(says(status, "overexposed (25 % of the head is white)"));
   status.people = 2;
   EXPECT_TRUE(says(status, "2 people"));
   status.person = false;
@@ -81,6 +83,17 @@ TEST(ImageStatus, GreyPictureHasNoColour) {
   EXPECT_FALSE(says(status, "sleeves")) << "skin that cannot be told from clothes is no long sleeve";
   status.person = false;
   EXPECT_FALSE(says(status, "no colour")) << "an empty white room";
+}
+
+TEST(ImageStatus, WhiteIsWhatHasNoColourLeft) {
+  cv::Mat image(20, 20, CV_8UC3, cv::Scalar(235, 240, 255));  // bright skin
+  image(cv::Rect(0, 0, 10, 10)).setTo(cv::Scalar::all(253));
+  cv::Mat mask = cv::Mat::zeros(image.size(), CV_8UC1);
+  EXPECT_EQ(white_share_of(image, mask), 0.0);
+  mask.setTo(255);
+  EXPECT_DOUBLE_EQ(white_share_of(image, mask), 0.25);
+  mask(cv::Rect(10, 0, 10, 20)).setTo(0);
+  EXPECT_DOUBLE_EQ(white_share_of(image, mask), 0.5);
 }
 
 // A room of grey furniture with noise; the channels have these gains.
