@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The person finder in poor pictures of a filmed person who faces the camera.
+// What is found in poor pictures of a person who faces the camera.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "telemime/capture/source.h"
+#include "telemime/image/features.h"
 #include "telemime/image/person_finder.h"
 #include "telemime/nets/models/table.h"
 
@@ -77,7 +79,7 @@ TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
         continue;
       }
       ++found;
-      // In the first frames the network has not agreed with itself yet.
+      // In the first frames the network has not agreed with itself yet: in the blurred ones for 0.22 s.
       if (frame->time > 0.25 && person->points[Index::left_shoulder].pixel.x() <
                                     person->points[Index::right_shoulder].pixel.x() - 20.0) {
         exchanged += " " + std::to_string(frame->index);
@@ -86,6 +88,25 @@ TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
     EXPECT_GE(found, 95) << name;
     EXPECT_EQ(exchanged, "") << name;
   }
+}
+
+TEST(PoorPictures, OverexposureIsNamed) {
+  const auto warns = [](double gain) {
+    ImageConfig config;
+    config.landmarks = false;
+    FeatureExtractor features(config);
+    const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");
+    std::optional<Frame> frame = source->next();
+    features.learn_person(*frame);
+    frame->image.convertTo(frame->image, -1, gain);
+    features.extract(*frame);
+    const auto& warnings = features.status().warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& words) {
+      return words.find("the image is overexposed") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(warns(1.0));
+  EXPECT_TRUE(warns(2.5));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct ImageStatus {
   double camera_motion = 0.0;     ///< pixels per check at 160 columns, averaged
   double light_change = 0.0;      ///< ln of the current luminance over the learned one, mean over the image
   double brightness = 0.0;        ///< mean grey level
-  double white_share = 0.0;       ///< of the head's pixels, those without any colour left, averaged over time
+  double white_share = 0.0;       ///< share of the head's pixels that are white, averaged over time
   double detail = 255.0;          ///< 99th percentile of the gradient at 160 columns, grey levels a pixel
   double coloured_share = 1.0;    ///< pixels with a colour of their own, averaged over time
   int people = 0;                 ///< in the picture, as far as networks see

@@ -73,11 +73,13 @@ PoseLandmarks with_steady_sides(PoseLandmarks landmarks, double time, std::optio
     facing = {.angle = *measured, .time = time, .agreed = 0.0};
     return landmarks;
   }
+  // How far the trunk would have turned with the sides as given, and with them exchanged.
   const double elapsed = time - facing->time;
   const double turn = kFastestTurn * elapsed;
   const double given = std::abs(*measured - facing->angle);
   const double other = std::abs(-*measured - facing->angle);
   const bool contradicts = given > turn && other + turn < given;
+  // A network that does not change its mind is believed in the end.
   const double agreed = std::min(kLongestHold, facing->agreed + (contradicts ? -elapsed : elapsed));
   if (contradicts && agreed <= 0.0) {
     facing = {.angle = *measured, .time = time, .agreed = elapsed};
