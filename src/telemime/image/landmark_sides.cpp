@@ -14,6 +14,7 @@ using Index = PoseLandmarkIndex;
 
 constexpr double kFastestTurn = 10.0;  // rad/s: more than that of a dancer's pirouette
 constexpr double kLongestHold = 0.5;   // s
+constexpr double kSideView = 0.2;      // rad: a trunk nearer than this to a side view may face either way
 
 // Left and right points of the body follow each other, except in the eyes, where three of a side do.
 constexpr std::array<std::pair<int, int>, 16> kPairs{{{1, 4},
@@ -70,8 +71,12 @@ PoseLandmarks with_steady_sides(PoseLandmarks landmarks, double time, std::optio
     return landmarks;
   }
   if (!facing || time <= facing->time) {
-    facing = {.angle = *measured, .time = time, .agreed = 0.0};
-    return landmarks;
+    // Who appears in front of a camera faces it, until the network has said otherwise for a while.
+    const bool turned_away = *measured < -kSideView;
+    facing = {.angle = turned_away ? -*measured : *measured,
+              .time = time,
+              .agreed = std::abs(*measured) > kSideView ? kLongestHold : 0.0};
+    return turned_away ? facing_other_way(std::move(landmarks)) : landmarks;
   }
   // How far the trunk would have turned with the sides as given, and with them exchanged.
   const double elapsed = time - facing->time;
@@ -82,7 +87,7 @@ PoseLandmarks with_steady_sides(PoseLandmarks landmarks, double time, std::optio
   // A network that does not change its mind is believed in the end.
   const double agreed = std::min(kLongestHold, facing->agreed + (contradicts ? -elapsed : elapsed));
   if (contradicts && agreed <= 0.0) {
-    facing = {.angle = *measured, .time = time, .agreed = elapsed};
+    facing = {.angle = *measured, .time = time, .agreed = *measured > 0.0 ? kLongestHold : elapsed};
     return landmarks;
   }
   const double now = contradicts ? -*measured : *measured;

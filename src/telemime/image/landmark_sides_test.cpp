@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -91,14 +92,25 @@ TEST_P(SteadySides, APirouetteIsLeftAlone) {
 
 TEST_P(SteadySides, WhoIsBelievedFollowsFromTimes) {
   const double fps = GetParam();
-  // The first frame was wrong: the second is believed.
-  std::vector<PoseLandmarks> frames(20, person(0.1));
-  frames.front() = facing_other_way(frames.front());
-  EXPECT_EQ(exchanged(frames, fps), 0);
   // A long time in agreement counts half a second.
-  frames.assign(static_cast<std::size_t>(2 * fps), person(0.1));
+  std::vector<PoseLandmarks> frames(static_cast<std::size_t>(2 * fps), person(0.1));
   frames.resize(static_cast<std::size_t>(4 * fps), person(0.1 + std::numbers::pi));
   EXPECT_NEAR(exchanged(frames, fps) / fps, 0.5, 1.5 / fps);
+}
+
+TEST_P(SteadySides, WhoAppearsFacesTheCamera) {
+  const double fps = GetParam();
+  // The first third of a second was wrong.
+  std::vector<PoseLandmarks> frames(static_cast<std::size_t>(2 * fps), person(0.1));
+  const auto wrong = static_cast<std::size_t>(fps / 3);
+  std::fill_n(frames.begin(), wrong, facing_other_way(person(0.1)));
+  EXPECT_EQ(exchanged(frames, fps), static_cast<int>(wrong));
+  // Somebody who turns their back is believed after half a second.
+  frames.assign(static_cast<std::size_t>(2 * fps), person(0.1 + std::numbers::pi));
+  EXPECT_NEAR(exchanged(frames, fps) / fps, 0.5, 1.5 / fps);
+  // A person seen from the side may face either way.
+  frames.assign(static_cast<std::size_t>(fps), person(0.5 * std::numbers::pi + 0.2));
+  EXPECT_EQ(exchanged(frames, fps), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(FrameRates, SteadySides, testing::Values(15.0, 25.0, 60.0));
