@@ -111,6 +111,26 @@ TEST_F(TwoPeople, FarOneIsKeptWhenTheNearOneComes) {
   }
 }
 
+TEST_F(TwoPeople, WhoSitsDownInFrontIsFollowed) {
+  const auto at_work = [&](std::size_t frame, bool near) {
+    cv::Mat out(240, 320, CV_8UC3, cv::Scalar(180, 170, 170));
+    if (near) {
+      frames_[frame](cv::Rect(60, 0, 200, 240)).copyTo(out(cv::Rect(0, 0, 200, 240)));
+    }
+    cv::Mat far;
+    cv::resize(frames_[frame], far, {120, 90}, 0, 0, cv::INTER_AREA);
+    far.copyTo(out(cv::Rect(200, 60, 120, 90)));
+    return out;
+  };
+  // One person at the back of the room; somebody walks past, then somebody stays.
+  for (double time = 0.0; time < 8.0; time += 0.5) {
+    const bool near = (time > 0.6 && time < 2.1) || time > 3.1;
+    const auto person = finder_.find(at_work(static_cast<std::size_t>(time), near), time);
+    ASSERT_TRUE(person) << time;
+    EXPECT_EQ(place_of(*person).shoulders.x() < 200, time > 5.9) << time;
+  }
+}
+
 TEST_F(TwoPeople, AMaskIsKeptForOnePicture) {
   const auto is_same = [](const cv::Mat& a, const cv::Mat& b) {
     return a.size() == b.size() && cv::countNonZero(a != b) == 0;

@@ -120,28 +120,42 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
                  .mask = found->mask,
                  .mask_time = mask_time,
                  .facing = facing};
-    count(picture, followed_->place, time);
+    if (count(picture, followed_->place, time)) {
+      // Somebody sits in front of the person who is followed: from now on, they are the person.
+      reset();
+      return find(picture, time);
+    }
   }
   return found;
 }
 
-void PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, double time) {
+bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, double time) {
   constexpr double kEvery = 1.0;  // s
   if (counted_ && time >= *counted_ && time < *counted_ + kEvery) {
-    return;
+    return false;
   }
   counted_ = time;
   people_ = 1;
-  constexpr double kSmallest = 0.4;  // of the size of the person: whoever is farther away is no matter
-  constexpr double kApart = 0.35;    // m
+  bool much_nearer = false;
+  constexpr double kSmallest = 0.4;    // of the size of the person: whoever is farther away is no matter
+  constexpr double kApart = 0.35;      // m
+  constexpr double kMuchNearer = 2.0;  // times the size: the user of a desk before somebody at the next one
+  constexpr double kStays = 2.0;       // s: longer than somebody walks past
   for (const Detection& other : detect_poses(picture, networks_->detector)) {
     const PersonPlace place = place_of(other);
     const double apart = (place.shoulders - person.shoulders).norm() / person.size * kBodyRadius;
     if (place.size > kSmallest * person.size && apart > kApart &&
         find_landmarks(picture, region_of_person(other), *without_mask_)) {
       ++people_;
+      much_nearer = much_nearer || place.size > kMuchNearer * person.size;
     }
   }
+  if (!much_nearer) {
+    nearer_since_.reset();
+  } else if (!nearer_since_) {
+    nearer_since_ = time;
+  }
+  return nearer_since_ && time - *nearer_since_ >= kStays;
 }
 
 PoseLandmarks scaled_to(PoseLandmarks landmarks, cv::Size from, cv::Size to) {

@@ -34,8 +34,8 @@ std::vector<std::size_t> order_of_search(std::span<const PersonPlace> places,
 
 /// Finds one person with learned networks and follows them from frame to frame. Of several people it takes
 /// the largest and most central, and then stays with that person: somebody who is farther away than a person
-/// can move is not taken for the one who is followed. Copies share the networks: two of them must not be used
-/// at the same time.
+/// can move is not taken for the one who is followed. Only somebody who stays much nearer to the camera for 2
+/// seconds takes their place. Copies share the networks: two of them must not be used at the same time.
 class PersonFinder {
  public:
   /// Without networks: it never finds anybody.
@@ -54,7 +54,10 @@ class PersonFinder {
   int people() const { return people_; }
 
   /// Forgets where the person was.
-  void reset() { followed_.reset(); }
+  void reset() {
+    followed_.reset();
+    nearer_since_.reset();
+  }
 
  private:
   struct Followed {
@@ -67,13 +70,16 @@ class PersonFinder {
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;
   std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);
-  void count(const cv::Mat& picture, const PersonPlace& person, double time);
+  /// Counts the people, once a second. Returns whether somebody much nearer to the camera has been there for
+  /// a while.
+  bool count(const cv::Mat& picture, const PersonPlace& person, double time);
 
   std::shared_ptr<PoseNetworks> networks_;
   std::shared_ptr<Network> without_mask_;  ///< the landmarker, without its mask
   std::optional<Followed> followed_;
   int people_ = 0;
-  std::optional<double> counted_;  ///< when the people were counted
+  std::optional<double> counted_;       ///< when the people were counted
+  std::optional<double> nearer_since_;  ///< since when somebody is much nearer than the person, s
 };
 
 /// The landmarks in the pixels of the same picture at another size; the mask, too.
