@@ -140,7 +140,7 @@ TEST(PoseDetail, EveryOtherSizeIsRejected) {
 TEST(PoseDetail, NoiseIsReadOrRejected) {
   Random random(6);
   int read = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 4'000; ++i) {
     Bytes bytes = encode(any_detail(random));
     for (int flips = 0; flips < 3; ++flips) {
       bytes[random.below(bytes.size())] ^= static_cast<std::uint8_t>(1U << random.below(8));
@@ -153,8 +153,8 @@ TEST(PoseDetail, NoiseIsReadOrRejected) {
       expect_same(*detail, *again);
     }
   }
-  EXPECT_GT(read, 1000);
-  EXPECT_LT(read, 19'000);
+  EXPECT_GT(read, 200);
+  EXPECT_LT(read, 3'800);
 }
 
 TEST(PoseDetail, ClientsOfVersion1DropIt) {
