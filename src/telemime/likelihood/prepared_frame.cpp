@@ -38,6 +38,7 @@ void prepare(const FrameFeatures& features, const Camera& camera, PreparedFrame&
     frame.distance_cap = std::max(frame.distance_cap, static_cast<double>(distance[i]));
   }
   frame.has_colours = features.has_colour_model;
+  frame.label_reliability = 1.0;
   frame.landmarks = features.landmarks ? std::optional(observe(*features.landmarks, camera)) : std::nullopt;
   tile(frame.labels, frame.distance, frame.tiles);
 }

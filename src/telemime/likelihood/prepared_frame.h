@@ -32,6 +32,7 @@ struct PreparedFrame {
   std::array<std::int32_t, kSurfaceClassCount> observed{};  ///< pixels of each class
   double distance_cap = 0.0;                                ///< px, the largest value of the distance map
   bool has_colours = true;                 ///< the colours of the person are known: labels tell classes apart
+  double label_reliability = 1.0;          ///< how far the labels can be trusted (label_reliability())
   std::optional<BodyLandmarks> landmarks;  ///< empty: no network has looked, or it sees nobody
   TiledPlanes tiles;                       ///< labels and distance in tiles, for back ends that read them so
 };

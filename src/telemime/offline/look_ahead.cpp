@@ -244,7 +244,8 @@ LookAhead look_ahead(const LookAheadCalls& calls, TrackingRun& run) {
       result.records.clear();
       before = run.state;
     }
-    // The search side.
+    // The search side. How badly labels fit an unfitted shape says nothing about the labels.
+    run.state.region_residual.reset();
     record.estimate = estimate(record.features, run.tracker, run.state);
     scouting.add(record, run);
     result.records.push_back(std::move(record));

@@ -12,6 +12,7 @@
 #include "telemime/core/in_parallel.h"
 #include "telemime/core/stopwatch.h"
 #include "telemime/core/time_base.h"
+#include "telemime/likelihood/cues/region.h"
 #include "telemime/tracker/lost_and_found.h"
 #include "telemime/tracking/posterior.h"
 
@@ -177,6 +178,17 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
   return found.score;
 }
 
+// F of the poses in about the last half second, as far as colours were known.
+void follow_residual(const PreparedFrame& frame, const Score& score, TrackerState& state) {
+  constexpr double kRemembered = 12.5;  // 1/25 s
+  if (!frame.has_colours) {
+    return;
+  }
+  const double before = state.region_residual.value_or(score.region());
+  const double kept = std::exp(-state.elapsed / kRemembered);
+  state.region_residual = kept * before + (1.0 - kept) * score.region();
+}
+
 // The hands at the wrists of the pose that was found; at rest while nobody is tracked.
 HandMotions hands_of(const FrameFeatures& features, const Tracker& tracker, TrackerState& state) {
   const bool tracking = state.phase == Phase::tracking;
@@ -258,11 +270,15 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   if (features.has_colour_model || features.landmarks) {
     // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
     result.prepared = prepare(features, tracker.working_camera);
+    if (features.landmarks && state.region_residual) {
+      result.prepared->label_reliability = label_reliability(*state.region_residual);
+    }
     if (state.phase == Phase::tracking) {
       // Predict, propose, score, resample and refine the hypotheses; choose a pose (thesis 3.5, 4.4).
       const Score score = tracker.filter ? follow_with_filter(tracker, effort, state, result)
                                          : follow_with_registration(tracker, effort, state, result);
       adopt(state.pose, score, state, result);
+      follow_residual(*result.prepared, score, state);
       // Lost: nobody is in the image, or the body no longer fits.
       check_fit(features, score, tracker, state, result);
     } else if (search_is_due(features.frame, state)) {

@@ -65,6 +65,7 @@ void forget_person(TrackingRun& run) {
   state.known_start.reset();
   state.filter.particles.clear();
   state.heading = 0.0;
+  state.region_residual.reset();
   state.bad_frames = 0;
   state.bad_for = 0.0;
   state.waited = 0.0;

@@ -54,6 +54,7 @@ struct TrackerState {
   Pose pose;                              ///< of the last frame in which the person was tracked
   Pose previous;                          ///< of the one before
   FilterState filter;                     ///< particles; empty while nobody is tracked or the method has none
+  std::optional<double> region_residual;  ///< F of the poses in the last frames, on average
   double heading = 0.0;                   ///< torsion of the root that the filter's last step predicted, rad
   Random random{1};                       ///< for every draw outside the filter
   HandState hands;                        ///< of the person

@@ -38,5 +38,21 @@ TEST(Region, StaysBetweenZeroAndOneAndIsSymmetric) {
   }
 }
 
+TEST(Region, LabelsThatNoPoseExplainsCountLess) {
+  EXPECT_EQ(label_reliability(0.0), 1.0);
+  EXPECT_EQ(label_reliability(0.15), 1.0);
+  EXPECT_DOUBLE_EQ(label_reliability(0.3), 1.0 / 16.0);
+  for (double residual = 0.16; residual < 1.0; residual += 0.01) {
+    EXPECT_LT(label_reliability(residual), label_reliability(residual - 0.01));
+    EXPECT_GT(label_reliability(residual), 0.0);
+  }
+  PreparedFrame frame;
+  EXPECT_EQ(reliability_of(kRegionCue, frame), 1.0);
+  frame.label_reliability = 0.25;
+  EXPECT_EQ(reliability_of(kRegionCue, frame), 0.25);
+  frame.has_colours = false;
+  EXPECT_EQ(reliability_of(kRegionCue, frame), 0.0);
+}
+
 }  // namespace
 }  // namespace telemime
