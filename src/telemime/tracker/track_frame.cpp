@@ -270,6 +270,7 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   if (features.has_colour_model || features.landmarks) {
     // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
     result.prepared = prepare(features, tracker.working_camera);
+    // Without landmarks nothing else could lead, so the labels are trusted then.
     if (features.landmarks && state.region_residual) {
       result.prepared->label_reliability = label_reliability(*state.region_residual);
     }
