@@ -46,6 +46,14 @@ void prepare_file(const std::filesystem::path& file) {
 RunOutputs::RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note)
     : folder_(request.out), formats_(request.formats), options_(request.output_options) {
   prepare_outputs(request);
+  // From here on, what a run before left is no longer whole: without its report it does not pass for it.
+  if (!folder_.empty()) {
+    std::error_code failure;
+    std::filesystem::remove(folder_ / "report.json", failure);
+    if (failure) {
+      throw cannot_write(folder_ / "report.json", failure.value());
+    }
+  }
   if (request.overlay && !folder_.empty()) {
     video_.emplace(folder_, fps, std::move(note));
   }

@@ -97,5 +97,18 @@ TEST(RunOutputs, WithoutAFolderNothingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists("report.json"));
 }
 
+TEST(RunOutputs, BegunAgainHaveNoReport) {
+  const ScratchFolder folder;
+  TrackRequest request;
+  request.out = folder.path();
+  request.overlay = false;
+  RunOutputs first(request, 25.0, nullptr);
+  first.begin(testing_motion::header());
+  first.close({});
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "report.json"));
+  const RunOutputs again(request, 25.0, nullptr);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "report.json")) << "of files that are replaced";
+}
+
 }  // namespace
 }  // namespace telemime
