@@ -2,6 +2,7 @@
 #include "telemime/offline/finished_run.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// What has no time of its own (nothing, a stream, a pattern of images) is taken for unchanged.
+// What has no time of its own (nothing, a stream, a pattern of images, a preset's name) is taken for
+// unchanged.
 bool is_newer(const std::string& file, fs::file_time_type than) {
   std::error_code unknown;
   const auto time = fs::last_write_time(file, unknown);
@@ -61,9 +63,15 @@ bool is_finished(const TrackRequest& request) {
     return name.is_string() && fs::exists(name.get<std::string>(), ignored);
   };
   const auto& files = report.at("files");
-  return std::all_of(files.begin(), files.end(), is_there) && !is_newer(request.input, written) &&
-         !is_newer(request.background, written) && !is_newer(request.camera, written) &&
-         !is_newer(request.calibration, written);
+  const std::array<std::string, 6> read = {without_file_scheme(request.input),
+                                           without_file_scheme(request.background),
+                                           request.camera,
+                                           request.calibration,
+                                           request.config.limits,
+                                           request.config.filter.model};
+  return std::all_of(files.begin(), files.end(), is_there) &&
+         std::none_of(read.begin(), read.end(),
+                      [&](const std::string& name) { return is_newer(name, written); });
 }
 
 }  // namespace telemime

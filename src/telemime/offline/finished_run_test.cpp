@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <utility>
 
 #include "telemime/core/scratch_folder.h"
 
@@ -80,6 +81,32 @@ TEST(FinishedRun, ANewerInputIsTrackedAgain) {
   const FinishedExample run;
   fs::last_write_time(run.request.input,
                       fs::last_write_time(run.request.out / "report.json") + std::chrono::hours(1));
+  EXPECT_FALSE(is_finished(run.request));
+}
+
+TEST(FinishedRun, SoIsWhatHasNewerLimitsOrNumbers) {
+  FinishedExample run;
+  const std::string numbers = run.folder.file("numbers.json");
+  std::ofstream(numbers) << "{}";
+  fs::last_write_time(numbers, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  for (std::string* setting : {&run.request.config.limits, &run.request.config.filter.model}) {
+    const std::string before = std::exchange(*setting, numbers);
+    run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
+    EXPECT_TRUE(is_finished(run.request));
+    fs::last_write_time(numbers, fs::file_time_type::clock::now() + std::chrono::hours(1));
+    EXPECT_FALSE(is_finished(run.request));
+    fs::last_write_time(numbers, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    *setting = before;
+  }
+}
+
+TEST(FinishedRun, AnInputGivenByUrlIsAFileToo) {
+  FinishedExample run;
+  const std::string path = run.request.input;
+  run.request.input = "file://" + path;
+  run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
+  EXPECT_TRUE(is_finished(run.request));
+  fs::last_write_time(path, fs::file_time_type::clock::now() + std::chrono::hours(1));
   EXPECT_FALSE(is_finished(run.request));
 }
 
