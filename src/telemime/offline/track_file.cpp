@@ -129,19 +129,27 @@ TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks) {
   FileRun file(request, hooks, opened.source->info(), run);
   const auto next = frames_of(request, *opened.source);
   ViewerRequest asked = ViewerRequest::none;
+  // A frame that was tracked is written, whatever has been asked for meanwhile.
+  const auto add = [&](FrameRecord record) {
+    const ViewerRequest wish = file.add(std::move(record));
+    asked = wish == ViewerRequest::none || asked == ViewerRequest::stop ? asked : wish;
+  };
 
   // The body, fitted to many frames before the first is written.
   if (looks_ahead(request)) {
-    LookAhead ahead = look_ahead({.next = next,
-                                  .settle = [&](FrameRecord record) { file.add(std::move(record)); },
-                                  .go_on = go_on_of(hooks, frames_to_come(request, opened.source->info())),
-                                  .longest_side = file.picture_side()},
-                                 run);
+    const auto goes_on = go_on_of(hooks, frames_to_come(request, opened.source->info()));
+    const auto go_on = [&](const FrameRecord& record) {
+      const bool on = goes_on(record);
+      asked = on ? asked : ViewerRequest::stop;
+      return on;
+    };
+    LookAhead ahead =
+        look_ahead({.next = next, .settle = add, .go_on = go_on, .longest_side = file.picture_side()}, run);
     if (ahead.person) {
       report_fit(*ahead.person, hooks);
     }
     for (FrameRecord& record : ahead.records) {
-      asked = asked == ViewerRequest::none ? file.add(std::move(record)) : asked;
+      add(std::move(record));
     }
   }
   // Frame by frame, until the input ends or the viewer stops.
@@ -149,12 +157,13 @@ TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks) {
     if (asked == ViewerRequest::recalibrate) {
       file.end_person();
       forget_person(run);
+      asked = ViewerRequest::none;
     }
     const std::optional<Frame> frame = next();
     if (!frame) {
       break;
     }
-    asked = file.add(track_frame(*frame, run));
+    add(track_frame(*frame, run));
   }
   if (file.frames() == 0) {
     throw Error(ErrorKind::input, opened.source->info().name + " holds no frame that can be read",
