@@ -156,6 +156,16 @@ TEST(FillBack, LimitsTheWaitingFrames) {
   EXPECT_EQ(t.take().size(), 1U);
 }
 
+TEST(FillBack, HoldsNoMoreFramesOfAFastInput) {
+  Tracked t(filling(1000));
+  for (std::size_t i = 0; i < kMostWaiting + 10; ++i) {
+    FrameRecord record = t.lost(0);
+    record.estimate.motion.time = 0.001 * static_cast<double>(i);
+    t.push(std::move(record));
+  }
+  EXPECT_EQ(t.take().size(), 10U);
+}
+
 TEST(FillBack, FilledFramesCanBeChosen) {
   Config config = filling(10);
   config.look_back = true;

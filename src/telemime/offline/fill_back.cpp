@@ -109,7 +109,8 @@ std::size_t fill_back(const Tracker& tracker, const TrackerState& state, Random&
   } else {
     const double since = last.estimate.motion.time - kTimeUnit * (longest - 0.01);
     std::size_t late = queue.filled;
-    while (late < count && queue.records[late].estimate.motion.time <= since) {
+    while (late < count &&
+           (queue.records[late].estimate.motion.time <= since || count - late > kMostWaiting)) {
       ++late;
     }
     finish_filling(tracker, late, queue);
