@@ -93,10 +93,24 @@ cv::FileStorage open(const std::filesystem::path& file, int mode) {
   }
 }
 
+/// Whether the file can be read to its end.
+bool is_whole(const std::filesystem::path& file) {
+  try {
+    load_calibration(file);
+    return true;
+  } catch (const Error&) {
+  } catch (const cv::Exception&) {
+  }
+  return false;
+}
+
 }  // namespace
 
 void save_calibration(const ImageCalibration& calibration, const std::filesystem::path& file) {
-  cv::FileStorage storage = open(file, cv::FileStorage::WRITE | cv::FileStorage::BASE64);
+  // Beside it at first, so that a file that was there stays until this one is whole. The end of the name says
+  // how it is written.
+  const std::filesystem::path part = file.parent_path() / (".part." + file.filename().string());
+  cv::FileStorage storage = open(part, cv::FileStorage::WRITE | cv::FileStorage::BASE64);
   if (!storage.isOpened()) {
     throw Error(ErrorKind::output, "the calibration cannot be written to " + file.string(),
                 "choose an existing, writable folder and a file name that ends in .yml.gz");
@@ -111,6 +125,18 @@ void save_calibration(const ImageCalibration& calibration, const std::filesystem
     storage << name << table_of(*mixture);
   }
   storage.release();
+  // OpenCV does not tell of a full disk.
+  std::error_code failure;
+  if (!is_whole(part)) {
+    std::filesystem::remove(part, failure);
+    throw Error(ErrorKind::output, "the calibration could not be written to " + file.string(),
+                "make room on the disk");
+  }
+  std::filesystem::rename(part, file, failure);
+  if (failure) {
+    throw Error(ErrorKind::output,
+                "the calibration cannot be written to " + file.string() + ": " + failure.message());
+  }
 }
 
 ImageCalibration load_calibration(const std::filesystem::path& file) {

@@ -2,8 +2,12 @@
 #include "telemime/image/image_calibration.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -67,6 +71,22 @@ TEST(CalibrationFile, ErrorNamesTheFile) {
     }
   }
   EXPECT_THROW(save_calibration(some_calibration(), folder.path() / "no_such_folder" / "a.yml.gz"), Error);
+}
+
+// A file that may not grow stands for a full disk.
+TEST(CalibrationFile, AFullDiskIsReportedAndTheOldFileStays) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "calibration.yml.gz";
+  save_calibration(some_calibration(), file);
+  rlimit usual{};
+  getrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{500, usual.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(save_calibration(some_calibration(), file), Error);
+  setrlimit(RLIMIT_FSIZE, &usual);
+  EXPECT_EQ(load_calibration(file).colours.skin.size(), 1U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "no part stays";
 }
 
 }  // namespace
