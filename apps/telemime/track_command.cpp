@@ -62,9 +62,11 @@ ViewerRequest show_window(const Progress& progress) {
   }
   int key = cv::waitKey(1);
   if (key == ' ') {
+    // A window that was closed gets no key any more.
+    const auto is_open = [&] { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) >= 1.0; };
     do {
       key = cv::waitKey(50);
-    } while (key != ' ' && key != 'q' && key != 27 && !interrupted());
+    } while (key != ' ' && key != 'q' && key != 27 && is_open() && !interrupted());
   }
   if (key == 'q' || key == 27) {
     return ViewerRequest::stop;

@@ -200,6 +200,10 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
     for (pid_t child = 0; (child = ::waitpid(-1, &status, WNOHANG)) > 0;) {
       const std::size_t i = running.at(child);
       running.erase(child);
+      if (options.quiet && WIFSIGNALED(status)) {
+        // It could not say so itself.
+        std::cerr << shown_url(requests[i].input) << ": " << result_of(status, requests[i]) << std::endl;
+      }
       say(i, result_of(status, requests[i]));
       ++(code_of(status) == 0 ? done : code_of(status) == kExitInterrupted ? stopped : failed);
       code = code == 0 ? code_of(status) : code;

@@ -66,7 +66,8 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
       ->check(CLI::Range(0.001, 1000.0));
   command.add_flag("--mirrored", r.input_options.mirrored, "The input shows a mirror image.");
   add_setting_options(command, o);
-  command.add_option("--frames", r.most_frames, "Stop after this number of frames.");
+  command.add_option("--frames", r.most_frames, "Stop after this number of frames; 0: never.")
+      ->check(CLI::NonNegativeNumber);
   command.add_flag("--quiet", o.quiet, "Print errors only.");
 }
 

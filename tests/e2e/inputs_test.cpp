@@ -79,6 +79,7 @@ TEST(Program, RefusesUnknownWords) {
   expect_refused(folder, {{{"--frobnicate"}, kExitUsage, {"--frobnicate"}},
                           {{"--method", "guess"}, kExitUsage, {"guess", "two-step"}},
                           {{"--seed", "many"}, kExitUsage, {"seed"}},
+                          {{"--frames", "-1"}, kExitUsage, {"--frames", "-1"}},
                           {{"--set", "image.width"}, kExitUsage, {"NAME=VALUE"}},
                           {{"--set", "="}, kExitUsage, {"no setting ''"}},
                           {{"--set", "image.width=wide"}, kExitUsage, {"'image.width' cannot be \"wide\""}},

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <fstream>
 #include <thread>
 
 #include "cli/exit_codes.h"
@@ -99,6 +100,26 @@ TEST(ManyFiles, StoppedKeepWhatTheyHaveAndGoOnLater) {
   for (const char* name : {"out/a", "out/b", "out/c", "out/d"}) {
     EXPECT_EQ(frames_in(folder / name), std::size_t{kPersonFrames}) << name;
   }
+}
+
+// Whoever wants to read of errors only reads of this one.
+TEST(ManyFiles, OneThatIsKilledIsNamed) {
+  const Folder folder;
+  for (const char* name : {"a", "b"}) {
+    fs::create_directory_symlink(person_clip(), folder / name);
+  }
+  Program program(command({folder / "a", folder / "b"}, folder / "out", {"--quiet"}));
+  const std::string main = std::to_string(program.process());
+  pid_t child = 0;
+  while (program.running() && child == 0) {
+    std::ifstream("/proc/" + main + "/task/" + main + "/children") >> child;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_NE(child, 0);
+  ::kill(child, SIGKILL);
+  const Ended ended = program.wait();
+  EXPECT_NE(ended.code, 0);
+  EXPECT_TRUE(says(ended, "/a: ended by signal 9")) << ended.words;
 }
 
 TEST(ManyFiles, OneWithJobsHasItsFolder) {
