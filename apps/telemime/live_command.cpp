@@ -212,7 +212,10 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
       ->excludes(guide);
   command->add_flag("--open", options->open, "Open the page in the default browser.");
   command->add_flag("--loop", options->loop, "Repeat a file from its start when it ends.");
-  command->add_option("--send", live.send, "URLs to send the motion to, for instance vmc://localhost:39539.");
+  command
+      ->add_option("--send", live.send,
+                   "URL to send the motion to, for instance vmc://localhost:39539; may be repeated.")
+      ->allow_extra_args(false);
   command->add_option("--virtual-camera", live.virtual_camera,
                       "Show the image with the tracked body as a camera for other programs: a device of "
                       "v4l2loopback, such as /dev/video9.");
@@ -224,8 +227,10 @@ void add_live_command(CLI::App& app, const LeftBehind& left_behind) {
   command->add_option("--port", live.web.port, "Port of the page [7070].");
   command->add_option("--address", live.web.address,
                       "Address at which the page is served [127.0.0.1: this computer only].");
-  command->add_option("--allow-host", live.web.hosts,
-                      "Another host name under which the page can be opened.");
+  command
+      ->add_option("--allow-host", live.web.hosts,
+                   "Another host name under which the page can be opened; may be repeated.")
+      ->allow_extra_args(false);
   command->add_option("--recordings", live.recordings, "Folder of the recordings [telemime-recordings].");
   command->add_flag("--no-fingers{false}", options->track.request.output_options.fingers,
                     "Recordings without fingers; pose.jsonl and pose.csv keep them.");

@@ -128,6 +128,9 @@ TEST_F(LiveCommand, ClipOnWebServerEndsDespiteErrors) {
 TEST_F(LiveCommand, FailuresHaveExitCodes) {
   EXPECT_EQ(e2e::run({"live", "/nothing/here.mp4"}).code, 4);
   EXPECT_EQ(e2e::run(live({"--send", "vmc://"})).code, 2);
+  EXPECT_EQ(e2e::run({"live", "--send", "vmc://127.0.0.1:39539", "/nothing/here.mp4"}).code, 4)
+      << "one URL for each --send";
+  EXPECT_EQ(e2e::run({"live", "--allow-host", "studio", "/nothing/here.mp4"}).code, 4);
   const WebServer other(any_port(), {});
   const e2e::Ended taken = e2e::run(live({"--quiet"}, other.port()));
   EXPECT_EQ(taken.code, 5);
