@@ -51,6 +51,9 @@ test("a reloaded page keeps its participant", LONG, async () => {
   }
   assert.notEqual(meeting.broker.pid, broker);
   await guest.page.reload(); // without the link
+  await guest.page.locator("#watch").click();
+  await guest.page.waitForFunction(() => document.body.dataset.stage === "meeting");
+  await guest.page.reload();
   await guest.page.locator("#enter").click();
   await isIn(guest.page);
   assert.equal(await guest.page.evaluate(() => window.telemimeMeeting.me), me);

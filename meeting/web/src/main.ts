@@ -88,7 +88,7 @@ const boardView: BoardView = new BoardView({
   picture: scene.slate.canvas,
   draw: (colour, width, way) => client?.draw(colour, width, way) ?? false,
   undo: () => client?.undo() ?? false,
-  wipe: () => client?.wipe(),
+  wipe: async () => (await client?.wipe()) ?? "You have not joined the meeting.",
   announce: (words) => status.announce(words),
   opened: () => scene.touch(),
 });
@@ -152,7 +152,7 @@ async function comeBack(words: string): Promise<void> {
 
 async function ask(watch: boolean): Promise<Entered> {
   brokerDial ??= (await import("./broker")).brokerDial;
-  const entered = await enter({ invite, token: watch ? null : tokenFor(saved, invite), watch });
+  const entered = await enter({ invite, token: tokenFor(saved, invite), watch });
   saved = withSeat(saved, invite, entered);
   entryStore.save(saved);
   return entered;

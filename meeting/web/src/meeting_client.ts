@@ -166,9 +166,9 @@ export class MeetingClient {
     return done;
   }
 
-  /** For chairs: removes the strokes of all participants. */
-  wipe(): void {
-    void this.alter({ epoch: this.roster.meeting.epoch + 1 });
+  /** For chairs: removes the strokes of all participants. Gives what `alter` gives. */
+  wipe(): Promise<string> {
+    return this.alter({ epoch: this.roster.meeting.epoch + 1 });
   }
 
   /** For chairs: changes the meeting. Gives an empty string when it is done, or the reason why not. */

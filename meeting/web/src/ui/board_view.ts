@@ -12,7 +12,8 @@ interface Uses {
   picture: HTMLCanvasElement;
   draw: (colour: string, width: number, way: readonly number[]) => boolean;
   undo: () => boolean;
-  wipe: () => void;
+  /** Gives an empty string when it is done, or the reason why not. */
+  wipe: () => Promise<string>;
   announce: (words: string) => void;
   opened: (open: boolean) => void;
 }
@@ -35,13 +36,12 @@ export class BoardView {
     this.toggleButton = button("board-toggle", () => this.toggle());
     button("board-close", () => this.toggle(false));
     button("board-undo", () => this.undo());
-    const wipe = (): void => {
-      this.uses.wipe();
-      this.uses.announce("The blackboard is wiped.");
-    };
     this.wipeButton = button(
       "board-clear",
-      confirmTwice((asking) => this.showWipe(asking), wipe),
+      confirmTwice(
+        (asking) => this.showWipe(asking),
+        () => void this.wipe(),
+      ),
     );
     this.showWipe(false);
     this.choices("chalks", "chalk", CHALKS);
@@ -84,7 +84,15 @@ export class BoardView {
 
   undo(): void {
     if (!this.mayDraw) return;
-    this.uses.announce(this.uses.undo() ? "Your last line was removed." : "You have no lines to undo.");
+    const undone = this.uses.undo();
+    if (undone) this.words.textContent = "";
+    this.uses.announce(undone ? "Your last line was removed." : "You have no lines to undo.");
+  }
+
+  private async wipe(): Promise<void> {
+    const refused = await this.uses.wipe();
+    this.words.textContent = refused;
+    if (!refused) this.uses.announce("The blackboard is wiped.");
   }
 
   /** The picture has changed. */

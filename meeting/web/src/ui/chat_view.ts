@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The chat, as text.
 
-import { byId, h, setCount } from "#web/shared/dom";
+import { byId, h, setCount, setText } from "#web/shared/dom";
 import { MOST_LINES, type Line } from "../chat";
 
 /** 0 to 5, the same for the same participant. */
@@ -39,7 +39,7 @@ export class ChatView {
   waiting(n: number): void {
     const words =
       n === 0 ? "" : `${n === 1 ? "One message waits" : `${n} messages wait`} for the connection.`;
-    if (n || this.error.textContent?.endsWith("connection.")) this.error.textContent = words;
+    if (n || this.error.textContent?.endsWith("connection.")) setText(this.error, words);
   }
 
   clear(): void {
