@@ -38,7 +38,7 @@ const text = (v: unknown): string => (typeof v === "string" ? v.trim().slice(0, 
 export function checkSize(bytes: number): void {
   if (bytes > MAX_BYTES) {
     const mb = Math.round(bytes / 1024 / 1024);
-    throw new AvatarError(`This file has ${mb} MB. An avatar may have up to 200 MB.`);
+    throw new AvatarError(`This file is ${mb} MB. An avatar may be up to 200 MB.`);
   }
 }
 

@@ -60,12 +60,18 @@ export async function getAvatar(id: string): Promise<StoredAvatar | null> {
   return (await withDatabase((db) => done(request(db)))) ?? null;
 }
 
+/** What a new file of this name replaces or displaces of those that are stored, the oldest first. */
+export function displacedBy(name: string, stored: readonly StoredEntry[]): StoredEntry[] {
+  const others = stored.filter((e) => e.name !== name);
+  const same = stored.filter((e) => e.name === name);
+  return [...same, ...others.slice(0, Math.max(0, others.length - (MAX_FILES - 1)))];
+}
+
 /** Stores the file. It replaces one of the same name; of more than 8 the oldest is removed. Throws without space. */
 export async function putAvatar(name: string, data: ArrayBuffer): Promise<StoredEntry> {
   const id = `${Date.now().toString().padStart(15, "0")}-${Math.random().toString(36).slice(2, 8)}`;
   const entry: StoredEntry = { id, name, bytes: data.byteLength };
-  const before = await listAvatars();
-  const gone = before.filter((e, i) => e.name === name || i < before.length - (MAX_FILES - 1));
+  const gone = displacedBy(name, await listAvatars());
   await change((files, entries) => {
     for (const e of gone) {
       files.delete(e.id);
