@@ -6,6 +6,7 @@
 # %% The bundled clip, tracked.
 import sys
 
+import matplotlib
 import numpy as np
 import telemime
 
@@ -32,8 +33,6 @@ true_depth = (places[WRIST] - (places["l_shoulder"] + places["r_shoulder"]) / 2)
 print(f"{len(frames)} frames, mean error of the depth {np.mean(np.abs(depth - true_depth)):.0f} mm")
 
 # %% The picture.
-import matplotlib
-
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 

@@ -66,7 +66,7 @@ def _request(settings: _Settings, quality: str | None, seed: int | None, **optio
         for name, value in options.items()
         if value is not None
     }
-    return _telemime.Request(settings=_json.dumps(values), **given)
+    return _telemime.Request(settings=_json.dumps(values, default=_os.fspath), **given)
 
 
 def demo_folder() -> _pathlib.Path:
@@ -84,7 +84,7 @@ def track(
     mirrored: bool = False,
     frames: int | None = None,
     out: _Path | None = None,
-    formats: _abc.Sequence[str] = (),
+    formats: str | _abc.Sequence[str] = (),
     settings: _Settings = None,
     quality: str | None = None,
     seed: int | None = None,
@@ -101,7 +101,7 @@ def track(
     rate: images per second of a sequence, or frames per second of a video whose times are wrong.
     mirrored: the input shows a mirror image.
     frames: stop after this number of frames.
-    out: folder for files, too, in all formats or those of `formats`.
+    out: folder for files, too, in all formats or those of `formats` (one name or several).
     settings: any setting of `telemime config --explain` by name, such as {"height": 1.75, "image.width": 240}.
     quality, seed: these two settings.
 
@@ -120,7 +120,7 @@ def track(
             mirrored=mirrored,
             frames=frames,
             out=out,
-            formats=list(formats),
+            formats=[formats] if isinstance(formats, str) else list(formats),
         )
     )
 

@@ -76,7 +76,7 @@ def test_header_and_report_are_those_of_the_command(written, clip, quick):
 
 def test_files_are_written_where_a_folder_is_named(clip, quick, tmp_path):
     out = tmp_path / "out"
-    for _ in telemime.track(str(clip / "video.mp4"), frames=2, out=out, formats=["csv"], settings=quick):
+    for _ in telemime.track(str(clip / "video.mp4"), frames=2, out=out, formats="csv", settings=quick):
         pass
     assert {file.name for file in out.iterdir()} >= {"pose.csv", "report.json"}
     assert not (out / "motion.bvh").exists()
