@@ -241,7 +241,9 @@ def import_recording(file, target=None, convention="VRM", place="FLOOR", set_rat
         raise ValueError("this is not a motion.bvh of Telemime") from e
     scene = bpy.context.scene
     if place == "FLOOR":
-        moved = skeleton.bones["hips"][1] - poses[0].hips
+        # Until somebody is found, all frames are the resting pose at one place.
+        first = next((pose for pose in poses if pose.hips != poses[0].hips), poses[0])
+        moved = skeleton.bones["hips"][1] - first.hips
         poses = [pose._replace(hips=pose.hips + moved) for pose in poses]
     if set_rate:
         scene.render.fps = max(1, round(fps))
@@ -381,13 +383,15 @@ class TelemimeSettings(bpy.types.PropertyGroup):
 
 
 class TELEMIME_OT_connect(bpy.types.Operator):
-    """Receive the motion of: telemime live --send vmc://localhost:39539. Again: stop"""
+    """Receive the motion of: telemime live --send vmc://localhost:39539. Again: stop, and keep what was recorded"""
     bl_idname, bl_label = "telemime.connect", "Connect"
 
     def execute(self, context):
         global receiver
         settings = context.scene.telemime
         if receiver:
+            if receiver.recorded and receiver.retarget:
+                receiver.stop_recording()
             disconnect()
             return {"FINISHED"}
         try:
