@@ -30,11 +30,13 @@ print("| clip | 3-D, mm | plane | depth | each seed | 2-D, px | lost | truth in 
 print("| --- | --- | --- | --- | --- | --- | --- | --- |")
 for name in (clip.split()[0] for clip in clips):
     runs = [json.load(open(file)) for file in sorted(glob.glob(f"{out}/{name}/*/accuracy.json"))]
-    mean = lambda pick: sum(pick(run) for run in runs) / len(runs)
-    error = lambda key: mean(lambda run: run["error"]["tracked"][key])
-    each = ", ".join(f"{run['error']['tracked']['aligned_mm']:.0f}" for run in runs)
-    print(f"| {name} | {error('aligned_mm'):.0f} | {error('aligned_image_plane_mm'):.0f} | "
-          f"{error('aligned_depth_mm'):.0f} | {each} | {error('image_px'):.1f} | "
-          f"{100 * mean(lambda run: run['lost']['scored_frames']):.0f} % | "
-          f"{100 * mean(lambda run: run['spread']['covered']):.0f} % |")
+    def mean(pick, places=0, factor=1):
+        """Over the runs that have this number, in words."""
+        known = [number for number in map(pick, runs) if number is not None]
+        return f"{factor * sum(known) / len(known):.{places}f}" if known else "-"
+    error = lambda key, places=0: mean(lambda run: run["error"]["tracked"][key], places)
+    each = ", ".join("-" if run["error"]["tracked"]["aligned_mm"] is None else f"{run['error']['tracked']['aligned_mm']:.0f}" for run in runs)
+    print(f"| {name} | {error('aligned_mm')} | {error('aligned_image_plane_mm')} | {error('aligned_depth_mm')} | {each} | "
+          f"{error('image_px', 1)} | {mean(lambda run: run['lost']['scored_frames'], factor=100)} % | "
+          f"{mean(lambda run: run['spread']['covered'], factor=100)} % |")
 END

@@ -285,7 +285,7 @@ Evaluation evaluate(const std::vector<MotionFrame>& given, const Camera& input, 
   result.turn = measure_turn(tracks.estimate, tracks.truth);
   result.bones = bone_lengths(tracks.estimate);
   result.truth_bones = bone_lengths(tracks.truth);
-  result.hands = measure_hands(frames, truth);
+  result.hands = measure_hands(frames, truth, result.fitted_scale.value_or(1.0));
   result.head = measure_heads(frames, truth);
   result.times = stage_times(frames);
   return result;

@@ -40,7 +40,8 @@ double palm_aligned_error(const HandPoints& estimate, const HandPoints& truth) {
   return *error.value();
 }
 
-std::optional<HandReport> measure_hands(const std::vector<MotionFrame>& frames, const Truth& truth) {
+std::optional<HandReport> measure_hands(const std::vector<MotionFrame>& frames, const Truth& truth,
+                                        double scale) {
   constexpr double kSeen = 0.5;
   HandReport report;
   std::vector<double> errors;
@@ -59,7 +60,11 @@ std::optional<HandReport> measure_hands(const std::vector<MotionFrame>& frames, 
       ++report.hands;
       const HandMotion& hand = (*frame.hands)[side];
       if (hand.visibility >= kSeen) {
-        errors.push_back(palm_aligned_error(hand.joints, *known));
+        HandPoints scaled = hand.joints;
+        for (Eigen::Vector3d& point : scaled) {
+          point *= scale;
+        }
+        errors.push_back(palm_aligned_error(scaled, *known));
         mean.add(errors.back());
       }
     }

@@ -21,7 +21,9 @@ struct HandReport {
 /// palm together (least squares, without a scale).
 double palm_aligned_error(const HandPoints& estimate, const HandPoints& truth);
 
-/// Over scored, tracked frames. Nothing if the truth knows no hands or no frame has any.
-std::optional<HandReport> measure_hands(const std::vector<MotionFrame>& frames, const Truth& truth);
+/// Over scored, tracked frames, whose hands are first multiplied by `scale`, as the poses are for a truth of
+/// unknown scale. Nothing if the truth knows no hands or no frame has any.
+std::optional<HandReport> measure_hands(const std::vector<MotionFrame>& frames, const Truth& truth,
+                                        double scale = 1.0);
 
 }  // namespace telemime

@@ -58,6 +58,16 @@ TEST(HandErrors, HandsOutsideTheImageAreNotCounted) {
   EXPECT_EQ(report->hands, 1U);
 }
 
+TEST(HandErrors, ATruthOfUnknownScaleScalesThem) {
+  MotionFrame frame = seen_left();
+  for (Eigen::Vector3d& point : (*frame.hands)[0].joints) {
+    point /= 1.25;
+  }
+  const Truth truth = truth_of(flat_hand(0.0), flat_hand(-0.2));
+  EXPECT_NEAR(*measure_hands({frame}, truth, 1.25)->palm_aligned, 0.0, 1e-9);
+  EXPECT_GT(*measure_hands({frame}, truth)->palm_aligned, 0.005);
+}
+
 TEST(HandErrors, NothingWithoutHandsInTruthOrPoses) {
   Truth without = truth_of(flat_hand(0.0), flat_hand(0.0));
   without.hands.clear();
