@@ -12,7 +12,7 @@
 namespace {
 
 // Where the model's arms and the skin of arms and hands in the image do not overlap: 0 when they agree, 1
-// when nothing overlaps. The built-in cue "region" takes the mean over head, arms and clothes instead.
+// when nothing overlaps. The built-in cue "regions" takes the mean over head, arms and clothes instead.
 double arms_mismatch(const telemime::CueInput& input) {
   constexpr auto kArms = static_cast<std::size_t>(telemime::SurfaceClass::arms) - 1;
   const telemime::Reductions& r = input.reductions;
