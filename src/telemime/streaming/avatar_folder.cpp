@@ -69,16 +69,26 @@ std::map<std::string, std::filesystem::path> looks_in(const std::filesystem::pat
   return looks;
 }
 
+// The look of which this is the light variant; any other name unchanged.
+std::string without_light(const std::string& name) {
+  return name.ends_with(kLight) ? name.substr(0, name.size() - kLight.size()) : name;
+}
+
 }  // namespace
 
 AvatarFolder::AvatarFolder(const std::filesystem::path& folder, const std::filesystem::path& more) {
-  for (const auto& place : {more, folder}) {
-    if (!place.empty()) {
-      files_.merge(looks_in(place));
-    }
+  if (!more.empty()) {
+    files_ = looks_in(more);
   }
+  // A look of `more` hides the whole look of that name, its light variant, too.
+  if (!folder.empty()) {
+    std::map<std::string, std::filesystem::path> looks = looks_in(folder);
+    std::erase_if(looks, [&](const auto& look) { return files_.contains(without_light(look.first)); });
+    files_.merge(looks);
+  }
+  // What only sounds like a light variant ("Traffic Light.vrm") is a look.
   for (const auto& [name, file] : files_) {
-    if (!name.ends_with(kLight)) {
+    if (!name.ends_with(kLight) || !files_.contains(without_light(name))) {
       looks_.push_back(name);
     }
   }
@@ -90,8 +100,8 @@ std::optional<WebContent> AvatarFolder::file(const std::string& path) const {
     return std::nullopt;
   }
   std::string name = path.substr(kPath.size(), path.size() - kPath.size() - kType.size());
-  if (!files_.contains(name) && name.ends_with(kLight)) {
-    name.resize(name.size() - kLight.size());
+  if (!files_.contains(name)) {
+    name = without_light(name);
   }
   const auto found = files_.find(name);
   if (found == files_.end()) {

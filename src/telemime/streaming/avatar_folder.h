@@ -17,8 +17,8 @@ namespace telemime {
 /// avatar, and a second one of the same name ends in -2. Files of other types are ignored.
 class AvatarFolder {
  public:
-  /// Lists the folders once; a look of `more` hides one of the same name. An empty path: no avatars. Throws
-  /// Error(usage) when a folder cannot be read.
+  /// Lists the folders once; a look of `more` hides one of the same name and its light variant. An empty
+  /// path: no avatars. Throws Error(usage) when a folder cannot be read.
   explicit AvatarFolder(const std::filesystem::path& folder, const std::filesystem::path& more = {});
 
   /// The looks to choose from, without the light variants: "plain" first, then by name.

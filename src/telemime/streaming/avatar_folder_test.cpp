@@ -81,6 +81,22 @@ TEST_F(Avatars, SecondFolderAddsAndReplaces) {
   EXPECT_THROW(AvatarFolder(folder_.path(), more.path() / "none"), Error);
 }
 
+TEST_F(Avatars, OwnLookIsSentToWeakComputersToo) {
+  put("robot.vrm");
+  put("robot-light.vrm");
+  const ScratchFolder more;
+  std::ofstream(more.file("robot.vrm")) << "glTF";
+  const AvatarFolder both(folder_.path(), more.path());
+  EXPECT_EQ(both.looks(), std::vector<std::string>{"robot"});
+  EXPECT_EQ(both.file("/avatars/robot-light.vrm")->file, more.path() / "robot.vrm");
+}
+
+TEST_F(Avatars, NameThatSoundsLikeALightVariantIsALook) {
+  put("Traffic Light.vrm");
+  EXPECT_EQ(AvatarFolder(folder_.path()).looks(), std::vector<std::string>{"traffic-light"});
+  EXPECT_EQ(at("/avatars/traffic-light.vrm"), "Traffic Light.vrm");
+}
+
 TEST_F(Avatars, LooksBeginWithThePlainOne) {
   for (const char* const name : {"robot", "plain", "plain-light", "casual"}) {
     put(name + std::string(".vrm"));
