@@ -124,7 +124,8 @@ void write_private_file(const fs::path& file, std::string_view content, bool dur
 }
 
 void make_private_folders(const fs::path& folder) {
-  if (folder.empty() || fs::is_directory(folder)) {
+  std::error_code hidden;  // below a folder that this user may not enter: mkdir says so
+  if (folder.empty() || fs::is_directory(folder, hidden)) {
     return;
   }
   make_private_folders(folder.parent_path());

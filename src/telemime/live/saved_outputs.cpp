@@ -108,12 +108,9 @@ void SavedOutputs::save() {
         }
       }
     });
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     restore(std::move(changes));
     report_(MessageLevel::warning, e.what());
-  } catch (...) {
-    restore(std::move(changes));
-    throw;
   }
 }
 

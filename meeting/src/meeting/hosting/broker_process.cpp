@@ -235,7 +235,8 @@ std::string BrokerProcess::ending() const {
 
 std::filesystem::path find_mosquitto(const std::string& given, const char* path) {
   const auto runs = [](const std::filesystem::path& file) {
-    return std::filesystem::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
+    std::error_code hidden;  // in a folder that this user may not enter
+    return std::filesystem::is_regular_file(file, hidden) && ::access(file.c_str(), X_OK) == 0;
   };
   if (!given.empty()) {
     if (!runs(given)) {

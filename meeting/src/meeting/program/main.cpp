@@ -63,6 +63,9 @@ int run(int argc, char** argv) {
   } catch (const Error& e) {
     std::cerr << "telemime-meeting: " << e.what() << '\n';
     return exit_code(e.kind());
+  } catch (const std::exception& e) {
+    std::cerr << "telemime-meeting: unexpected failure: " << e.what() << '\n';
+    return kExitInternal;
   }
   return 0;
 }
