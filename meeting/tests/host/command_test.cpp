@@ -133,6 +133,13 @@ TEST_F(MeetingCommand, FailuresHaveTheirExitCode) {
   EXPECT_EQ(e2e::run(meeting({"--certificate", "/nothing/here", "--key", "/nothing/here"})).code, 2);
   EXPECT_EQ(e2e::run(meeting({"--avatars", "/nothing/here"})).code, 2);
   EXPECT_EQ(e2e::run({"meeting", "--mosquitto", "/nothing/here"}).code, 2);
+  const e2e::Ended twice = e2e::run({"meeting", "--port", "0", "--mqtt-port", "29001", "--ws-port", "29001",
+                                     "--mosquitto", TELEMIME_MOSQUITTO});
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_TRUE(contains(twice.words, "port 29001 is requested twice")) << twice.words;
+  const e2e::Ended page = e2e::run({"meeting", "--port", "29002", "--mqtt-port", "0", "--ws-port", "29002",
+                                    "--mosquitto", TELEMIME_MOSQUITTO});
+  EXPECT_EQ(page.code, 2) << "the page's port: " << page.words;
   const WebServer other(any_port(), {});
   const e2e::Ended taken = e2e::run(
       {"meeting", "--port", std::to_string(other.port()), "--mqtt-port", "0", "--ws-port", "0", "--quiet"});

@@ -7,8 +7,10 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/interrupt.h"
@@ -57,24 +59,28 @@ void run_record(const RecordArguments& arguments) {
   if (!broker.warning.empty()) {
     report(broker.warning);
   }
-  RecordingWriter writer(new_recording_file(arguments.out), {broker.meeting, utc_now()});
-  std::cout << "Recording " << login.shown() << " to " << arguments.out << "   (Ctrl-C ends)" << std::endl;
+  WriteBytes file = new_recording_file(arguments.out);
+  std::optional<RecordingWriter> writing;
   std::uint64_t end = 0;
   try {
-    end = recorder.record(writer);
+    writing.emplace(std::move(file), RecordingStart{broker.meeting, utc_now()});
+    std::cout << "Recording " << login.shown() << " to " << arguments.out << "   (Ctrl-C ends)" << std::endl;
+    end = recorder.record(*writing);
   } catch (...) {
-    if (writer.messages() == 0) {
+    if (!writing || writing->messages() == 0) {
       std::error_code ignored;
       std::filesystem::remove(arguments.out, ignored);  // so that the next attempt can create it
     }
     throw;
   }
+  RecordingWriter& writer = *writing;
   writer.end(end);
   constexpr double kMega = 1e6;
   std::cout << std::fixed << std::setprecision(1) << static_cast<double>(end) / kMega << " s, "
             << writer.messages() << " messages, " << static_cast<double>(writer.bytes()) / kMega << " MB";
   if (writer.dropped() > 0) {
-    std::cout << "; " << writer.dropped() << " messages are missing: the disk was too slow";
+    std::cout << "; " << writer.dropped()
+              << " messages are missing: the disk was too slow, or there were too many participants";
   }
   std::cout << std::endl;
 }

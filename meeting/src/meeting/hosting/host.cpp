@@ -70,6 +70,7 @@ HostOptions checked(HostOptions options) {
   options.broker.key = options.key;
   // A participant has a page, a tracker, and sometimes an old connection besides a new one.
   options.broker.most_connections = static_cast<int>(4 * options.most) + 200;
+  options.broker.page_port = options.port;
   return options;
 }
 

@@ -6,6 +6,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -40,12 +42,19 @@ std::string user_when_root() {
   return entry == nullptr ? "" : entry->pw_name;
 }
 
-/// The requested port, or the usual one, or a free one.
+/// The requested port, or the usual one, or a free one; none of those that this meeting uses for something
+/// else (`own`; 0 is none).
 std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_t> requested,
-                          std::uint16_t usual, const std::string& what, const std::string& option,
+                          std::uint16_t usual, const std::array<std::uint16_t, 2>& own,
+                          const std::string& what, const std::string& option,
                           const HostedBroker::Report& report) {
   const std::uint16_t wanted = requested.value_or(usual);
-  if (const auto port = free_port(address, wanted)) {
+  const bool is_own = wanted != 0 && std::find(own.begin(), own.end(), wanted) != own.end();
+  if (is_own && requested) {
+    throw Error(ErrorKind::usage, "port " + std::to_string(wanted) + " is requested twice",
+                "Choose another port for " + what + ": " + option + ".");
+  }
+  if (const auto port = is_own ? std::nullopt : free_port(address, wanted)) {
     return *port;
   }
   if (requested) {
@@ -57,7 +66,8 @@ std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_
     throw Error(ErrorKind::output, "nothing can be served at " + address,
                 "127.0.0.1 is this computer only, 0.0.0.0 all networks.");
   }
-  report("port " + std::to_string(wanted) + " is taken by another program: " + what + " uses " +
+  report("port " + std::to_string(wanted) +
+         (is_own ? " is in use by this meeting: " : " is taken by another program: ") + what + " uses " +
          std::to_string(*other));
   return *other;
 }
@@ -122,10 +132,12 @@ HostedBroker::HostedBroker(BrokerOptions options, const MeetingAddress& meeting,
   write_accounts();
   // Between the check and the start, another program may take a port: then choose again.
   for (int left = kMostStarts; left > 0; --left) {
-    settings_.port = choose_port(options.address, options.port, options.certificate.empty() ? kMqtt : kMqtts,
-                                 "MQTT", "--mqtt-port", report_);
+    settings_.port =
+        choose_port(options.address, options.port, options.certificate.empty() ? kMqtt : kMqtts,
+                    {options.page_port, options.web_port.value_or(0)}, "MQTT", "--mqtt-port", report_);
     settings_.web_port =
-        choose_port(options.address, options.web_port, kWeb, "MQTT over WebSocket", "--ws-port", report_);
+        choose_port(options.address, options.web_port, kWeb, {options.page_port, settings_.port},
+                    "MQTT over WebSocket", "--ws-port", report_);
     if (start(program)) {
       process_->keep_running();
       return;

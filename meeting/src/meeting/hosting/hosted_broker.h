@@ -23,6 +23,7 @@ struct BrokerOptions {
   std::string address = "127.0.0.1";      ///< numeric IPv4
   std::optional<std::uint16_t> port;      ///< of MQTT; nothing: the usual one, or a free one
   std::optional<std::uint16_t> web_port;  ///< of MQTT over WebSocket, likewise
+  std::uint16_t page_port = 0;            ///< of the meeting's page, which the broker must leave free; 0: any
   std::filesystem::path certificate;      ///< empty: no TLS
   std::filesystem::path key;
   int most_connections = 200;

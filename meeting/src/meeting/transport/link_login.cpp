@@ -57,6 +57,19 @@ CURL* new_easy() {
   return initialised == CURLE_OK ? curl_easy_init() : nullptr;
 }
 
+/// What libcurl is told of the host's addresses; nothing where the host is an IPv6 address itself. Addresses
+/// of one network interface only (fe80::1%eth0) would make libcurl refuse all.
+std::string resolved(const SendUrl& url, const std::vector<std::string>& addresses) {
+  std::string list;
+  for (const std::string& address : addresses) {
+    if (address.find('%') == std::string::npos) {
+      list += (list.empty() ? "" : ",") + address;
+    }
+  }
+  const bool is_address = url.host.find(':') != std::string::npos;
+  return is_address || list.empty() ? "" : url.host + ":" + std::to_string(*url.port) + ":" + list;
+}
+
 /// One POST request with a JSON body, by libcurl.
 class Request {
  public:
@@ -74,11 +87,7 @@ class Request {
     set(CURLOPT_NOSIGNAL, 1L);
     set(CURLOPT_WRITEFUNCTION, on_data);
     set(CURLOPT_WRITEDATA, this);
-    if (!login.addresses.empty()) {
-      std::string entry = url.host + ":" + std::to_string(*url.port) + ":";
-      for (const std::string& address : login.addresses) {
-        entry += (entry.back() == ':' ? "" : ",") + address;
-      }
+    if (const std::string entry = resolved(url, login.addresses); !entry.empty()) {
       addresses_.reset(curl_slist_append(nullptr, entry.c_str()));
       set(CURLOPT_RESOLVE, addresses_.get());
     }
