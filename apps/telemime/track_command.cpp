@@ -62,7 +62,7 @@ ViewerRequest show_window(const Progress& progress) {
   }
   int key = cv::waitKey(1);
   if (key == ' ') {
-    // A window that was closed gets no key any more.
+    // A closed window receives no keys.
     const auto is_open = [&] { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) >= 1.0; };
     do {
       key = cv::waitKey(50);

@@ -201,7 +201,7 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
       const std::size_t i = running.at(child);
       running.erase(child);
       if (options.quiet && WIFSIGNALED(status)) {
-        // It could not say so itself.
+        // A killed process has printed no error itself.
         std::cerr << shown_url(requests[i].input) << ": " << result_of(status, requests[i]) << std::endl;
       }
       say(i, result_of(status, requests[i]));

@@ -46,7 +46,8 @@ void prepare_file(const std::filesystem::path& file) {
 RunOutputs::RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note)
     : folder_(request.out), formats_(request.formats), options_(request.output_options) {
   prepare_outputs(request);
-  // From here on, what a run before left is no longer whole: without its report it does not pass for it.
+  // The files of an earlier run are about to be replaced; its report would make a run that is cut off pass
+  // for finished (finished_run.h).
   if (!folder_.empty()) {
     std::error_code failure;
     std::filesystem::remove(folder_ / "report.json", failure);

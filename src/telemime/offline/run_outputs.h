@@ -24,7 +24,7 @@ void prepare_file(const std::filesystem::path& file);
 /// The files of one run: the encoders' and the overlay video. None where the request names no folder.
 class RunOutputs {
  public:
-  /// Removes the report of a run before, whose files this one replaces. Throws as prepare_outputs does.
+  /// Removes the report of an earlier run, whose files this one replaces. Throws as prepare_outputs does.
   /// `fps`: of the input; `note` gets what is wrong with the overlay.
   RunOutputs(const TrackRequest& request, double fps, OverlayVideo::Note note);
 

@@ -129,7 +129,7 @@ TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks) {
   FileRun file(request, hooks, opened.source->info(), run);
   const auto next = frames_of(request, *opened.source);
   ViewerRequest asked = ViewerRequest::none;
-  // A frame that was tracked is written, whatever has been asked for meanwhile.
+  // Every tracked frame is written, whatever the viewer has asked for in the meantime.
   const auto add = [&](FrameRecord record) {
     const ViewerRequest wish = file.add(std::move(record));
     asked = wish == ViewerRequest::none || asked == ViewerRequest::stop ? asked : wish;

@@ -57,8 +57,8 @@ CURL* new_easy() {
   return initialised == CURLE_OK ? curl_easy_init() : nullptr;
 }
 
-/// What libcurl is told of the host's addresses; nothing where the host is an IPv6 address itself. Addresses
-/// of one network interface only (fe80::1%eth0) would make libcurl refuse all.
+/// The host's addresses as CURLOPT_RESOLVE takes them; empty where the host is an IPv6 address itself.
+/// Addresses of one network interface only (fe80::1%eth0) are left out: libcurl would refuse the whole list.
 std::string resolved(const SendUrl& url, const std::vector<std::string>& addresses) {
   std::string list;
   for (const std::string& address : addresses) {

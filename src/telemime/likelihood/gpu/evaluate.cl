@@ -256,7 +256,7 @@ KERNEL evaluate_poses(GLOBAL const float* poses, GLOBAL const float* vertices, G
   const int first_row = max(box[1], 0);
   const int right = min(box[2], frame.width - 1);
   const int last_row = min(box[3], frame.height - 1);
-  SYNCHRONISE;  // compilers read the box together with words of `depth` beside it
+  SYNCHRONISE;  // compilers load the box in one access with neighbouring words of `depth`, which the bands clear
 
   // Facing of the triangles, and a list of those to draw, so that all threads have something to draw.
   for (int i = THREAD; i < frame.vertices; i += GROUP_SIZE) {
