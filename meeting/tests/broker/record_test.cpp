@@ -76,7 +76,7 @@ TEST(RecordedMeeting, MeetingThatCannotBeReadIsReported) {
   const std::string account = "studio.watch:secretword@";
   const Broker broker({{"studio.watch", "secretword", kWatches}});
   const auto refusal = [&](const std::string& where) {
-    MeetingLogin login(where, true, "");
+    MeetingLogin login(where, true, "", {});
     MeetingRecorder recorder(
         login, [] { return false; }, [](const std::string&) {});
     RecordingWriter writer([](std::string_view) {}, {recorder.log_in().meeting, ""});

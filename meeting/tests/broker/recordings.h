@@ -25,7 +25,7 @@ inline constexpr std::uint64_t kFrameTime = 33'333;  // us
 class Recording {
  public:
   Recording(const std::string& where, const std::string& file)
-      : login_(where, /*watch=*/true, ""),
+      : login_(where, /*watch=*/true, "", {}),
         recorder_(
             login_, [this] { return stop_.load(); }, [this](const std::string& text) { report(text); }),
         writer_(new_recording_file(file), {recorder_.log_in().meeting, "today"}),

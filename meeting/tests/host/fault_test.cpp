@@ -121,6 +121,26 @@ TEST(MeetingFaults, LinksAndSeatsOutliveTheProgram) {
   EXPECT_EQ(meeting.post(Json{{"v", 1}, {"return", ana.at("return")}}.dump()).status, 403);
 }
 
+TEST(MeetingFaults, MembersStayWhereNewcomersCannotBeStored) {
+  OpenMeeting meeting;
+  const Json ana = meeting.join();
+  const std::filesystem::path folder = std::filesystem::path(meeting.secrets()).parent_path();
+  const std::filesystem::path elsewhere = folder.string() + ".away";
+  std::filesystem::rename(folder, elsewhere);  // like a full disk: no file can be written there
+  const auto newcomer = [&] {
+    return meeting.post(Json{{"v", 1}, {"invite", meeting.speak()}}.dump()).status;
+  };
+  EXPECT_EQ(newcomer(), 503);
+  EXPECT_EQ(meeting.log_in({{"return", ana.at("return")}}).at("participant"), "p01") << "reloads the page";
+  EXPECT_TRUE(publish(meeting.host().mqtt_port(), ana, kChat, "still here"));
+  EXPECT_EQ(
+      meeting.post(Json{{"v", 1}, {"invite", meeting.chair()}, {"return", ana.at("return")}}.dump()).status,
+      503)
+      << "a chair's rights are new to the broker";
+  std::filesystem::rename(elsewhere, folder);
+  EXPECT_EQ(newcomer(), 200);
+}
+
 TEST(MeetingFaults, InvalidOptionsAreReported) {
   EXPECT_TRUE(contains(refusal([](HostOptions& options) { options.broker.program = "/nothing/here"; }),
                        "--mosquitto"));

@@ -115,6 +115,13 @@ TEST(Login, ProgramLogsInByALink) {
   }
 }
 
+TEST(Login, ProgramsCanCancelIt) {
+  OpenMeeting meeting;
+  MeetingLogin login(meeting.host().speak_link(), /*watch=*/true, "", [] { return true; });
+  const std::string error = error_of([&] { login.log_in(); });
+  EXPECT_NE(error.find("it was cancelled"), std::string::npos) << error;
+}
+
 TEST(Login, TrackerTakesPartByALink) {
   OpenMeeting meeting;
   const Json watcher = meeting.log_in({{"invite", meeting.watch()}});

@@ -53,7 +53,7 @@ void run_record(const RecordArguments& arguments) {
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     return interrupted() || (arguments.seconds > 0.0 && elapsed >= arguments.seconds);
   };
-  MeetingLogin login(arguments.where, /*watch=*/true, arguments.ca);
+  MeetingLogin login(arguments.where, /*watch=*/true, arguments.ca, stop);
   MeetingRecorder recorder(login, stop, report);
   const BrokerLogin& broker = recorder.log_in();
   if (!broker.warning.empty()) {

@@ -46,6 +46,7 @@ void Provisioning::close() {
 
 void Provisioning::open(HostedBroker& broker) {
   broker_ = &broker;
+  known_ = members_now();
   thread_ = std::thread([this] { work(); });
 }
 
@@ -61,6 +62,14 @@ std::vector<BrokerAccount> Provisioning::accounts_now() const {
     accounts.push_back(participant_account(meeting_, key, id, member.chair));
   }
   return accounts;
+}
+
+std::map<std::string, bool> Provisioning::members_now() const {
+  std::map<std::string, bool> members;
+  for (const auto& [id, member] : policy_.members()) {
+    members.emplace(id, member.chair);
+  }
+  return members;
 }
 
 Provisioning::Grant Provisioning::grant_of(const LoginDecision& decision) const {
@@ -87,9 +96,10 @@ void Provisioning::request(const std::string& body, const std::string& address, 
       const LoginDecision decision = policy_.log_in(login, address, seconds_now());
       grant = grant_of(decision);
       freed_.insert(freed_.end(), decision.freed.begin(), decision.freed.end());
-      stale_ = stale_ || decision.changed;
-      // During an update, the broker may not know a participant who rejoins either.
-      if (!decision.participant.empty() && (stale_ || busy_)) {
+      // Who is known need not wait for an update, nor share its failure.
+      const auto known = known_.find(decision.participant);
+      const bool has_account = known != known_.end() && known->second == decision.chair;
+      if (!decision.participant.empty() && !has_account) {
         waiting_.push_back({std::move(*grant), std::move(answer)});
         changed_.notify_all();
         return;
@@ -133,14 +143,14 @@ void Provisioning::work() {
                   [this](const std::string& id) { return policy_.members().contains(id); });  // rejoined
     const std::vector<BrokerAccount> accounts = accounts_now();
     const MeetingSecrets secrets = policy_.secrets();
+    std::map<std::string, bool> members = members_now();
     std::vector<std::string> chairs;
-    for (const auto& [id, member] : policy_.members()) {
-      if (member.chair) {
+    for (const auto& [id, chair] : members) {
+      if (chair) {
         chairs.push_back(id);
       }
     }
-    busy_ = true;
-    stale_ = false;
+    std::erase_if(known_, [&members](const auto& one) { return !members.contains(one.first); });
     lock.unlock();
 
     // Update the broker and answer them.
@@ -153,9 +163,9 @@ void Provisioning::work() {
     }
 
     lock.lock();
-    busy_ = false;
-    stale_ = stale_ || !updated;
-    if (!updated) {
+    if (updated) {
+      known_ = std::move(members);
+    } else {
       freed_.insert(freed_.end(), freed.begin(), freed.end());
     }
   }

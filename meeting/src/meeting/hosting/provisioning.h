@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -63,6 +64,7 @@ class Provisioning {
   bool update_broker(const std::vector<BrokerAccount>& accounts, const MeetingSecrets& secrets);
   std::vector<BrokerAccount> accounts_now() const;
   Grant grant_of(const LoginDecision& decision) const;
+  std::map<std::string, bool> members_now() const;
 
   const MeetingAddress meeting_;
   const BrokerAccount service_;
@@ -74,8 +76,8 @@ class Provisioning {
   std::condition_variable changed_;
   std::vector<Waiting> waiting_;
   std::vector<std::string> freed_;
-  bool busy_ = false;   ///< the broker is being updated
-  bool stale_ = false;  ///< the broker does not know all accounts
+  /// Participants whose accounts the broker has, whatever becomes of an update; true: with a chair's rights.
+  std::map<std::string, bool> known_;
   bool closed_ = false;
   std::thread thread_;
 };

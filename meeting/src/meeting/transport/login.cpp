@@ -49,12 +49,14 @@ BrokerLogin login_of(const Credentials& credentials, const std::filesystem::path
   return login;
 }
 
-MeetingLogin::MeetingLogin(const std::string& where, bool watch, std::filesystem::path ca, LogIn log_in)
+MeetingLogin::MeetingLogin(const std::string& where, bool watch, std::filesystem::path ca,
+                           std::function<bool()> stopped, LogIn log_in)
     : log_in_by_link_(std::move(log_in)) {
   if (is_meeting_link(where)) {
     link_.link = where;
     link_.watch = watch;
     link_.ca = std::move(ca);
+    link_.stopped = std::move(stopped);
     shown_ = without_secret(where);
     return;
   }

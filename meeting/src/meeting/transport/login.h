@@ -60,8 +60,10 @@ class MeetingLogin {
  public:
   using LogIn = std::function<Credentials(const LinkLogin&)>;
 
-  /// `watch`: an account that can only read is enough. Throws Error(usage) for an invalid URL.
-  MeetingLogin(const std::string& where, bool watch, std::filesystem::path ca, LogIn log_in = log_in_by_link);
+  /// `watch`: an account that can only read is enough. `stopped`: as in LinkLogin. Throws Error(usage) for an
+  /// invalid URL.
+  MeetingLogin(const std::string& where, bool watch, std::filesystem::path ca, std::function<bool()> stopped,
+               LogIn log_in = log_in_by_link);
   /// Logs in, or logs in again to the same seat if possible. Throws like log_in_by_link().
   BrokerLogin log_in();
   bool is_link() const { return !link_.link.empty(); }

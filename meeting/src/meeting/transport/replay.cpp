@@ -91,8 +91,8 @@ std::vector<Part> parts_of(const RecordingSummary& summary, const ReplayOptions&
 
 // By a link everyone gets a seat of their own; the account of a broker publishes for all, under their old
 // ids.
-BrokerLogin login_of(Part& part, const ReplayOptions& options) {
-  part.login = std::make_unique<MeetingLogin>(options.to, /*watch=*/false, options.ca, options.log_in);
+BrokerLogin login_of(Part& part, const ReplayOptions& options, const Stop& stop) {
+  part.login = std::make_unique<MeetingLogin>(options.to, /*watch=*/false, options.ca, stop, options.log_in);
   BrokerLogin login = part.login->log_in();
   if (!part.login->is_link()) {
     login.participant = part.recorded;
@@ -202,7 +202,7 @@ std::vector<ReplayedParticipant> replay_recording(
   }
   std::vector<Part> parts = parts_of(recording.summary, options);
   for (Part& part : parts) {
-    part.replayer = std::make_unique<ReplayParticipant>(login_of(part, options), part.session);
+    part.replayer = std::make_unique<ReplayParticipant>(login_of(part, options, stop), part.session);
   }
   bool ready = false;
   const bool go_on =
