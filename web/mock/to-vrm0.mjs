@@ -54,7 +54,7 @@ function likeUniVrm(json, humanBones) {
   };
 }
 
-// VRM 1.0's names to those of 0.x, which has no "surprised".
+// VRM 1.0's names to those of 0.x.
 const PRESETS = {
   happy: "joy",
   angry: "angry",
@@ -70,12 +70,12 @@ const PRESETS = {
   blinkRight: "blink_r",
 };
 
-/** The expressions that VRM 0.x knows. */
+/** The expressions that VRM 0.x knows, and "Surprised", which is no preset there, by the name that VRoid gives it. */
 const expressionGroups = (json, preset) =>
-  Object.entries(PRESETS)
+  [...Object.entries(PRESETS), ["surprised", "unknown", "Surprised"]]
     .filter(([name]) => preset[name])
-    .map(([name, presetName]) => ({
-      name: presetName,
+    .map(([name, presetName, own = presetName]) => ({
+      name: own,
       presetName,
       binds: preset[name].morphTargetBinds.map(({ node, index, weight }) => ({
         mesh: json.nodes[node].mesh,

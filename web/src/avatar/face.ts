@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The face of an avatar: its expressions and where it looks.
 
-import type { VRM } from "@pixiv/three-vrm";
+import type { VRM, VRMLookAtBoneApplier, VRMLookAtExpressionApplier } from "@pixiv/three-vrm";
 import type { FaceMessage } from "../live/protocol";
 
 /** The 52 coefficients of ARKit in the order of a pose message. */
@@ -118,20 +118,31 @@ export function weightsFor(has: (name: string) => boolean, face: Face, looks = f
 
 const DEGREES = 180 / Math.PI;
 
+/** Whether looking at something turns the avatar's eyes, by bones or by the expressions of VRM. */
+function turnsEyes({ lookAt, humanoid, expressionManager }: VRM): boolean {
+  if (!lookAt) return false;
+  const { type } = lookAt.applier.constructor as
+    typeof VRMLookAtBoneApplier | typeof VRMLookAtExpressionApplier;
+  if (type === "bone") return !!humanoid.getRawBoneNode("leftEye");
+  return LOOKS.some((name) => expressionManager?.getExpression(name)?.binds.length);
+}
+
 /** Shows faces on one avatar. */
 export class AvatarFace {
-  /** The names in the file: those of ARKit are written with a capital letter in many files of VRM 0. */
+  /**
+   * The names in the file. Many files of VRM 0 write those of ARKit, and "surprised", with a capital letter; where one has
+   * both, the usual name counts.
+   */
   private readonly own = new Map<string, string>();
-
-  /** By bones, or by the expressions of VRM. */
   private readonly turnsEyes: boolean;
 
   constructor(private readonly vrm: VRM) {
-    const known = new Map(ARKIT.map((name) => [name.toLowerCase(), name]));
-    for (const { expressionName: name } of vrm.expressionManager?.expressions ?? [])
-      this.own.set(known.get(name.toLowerCase()) ?? name, name);
-    this.turnsEyes =
-      !!vrm.lookAt && (!!vrm.humanoid.getRawBoneNode("leftEye") || LOOKS.some((name) => this.own.has(name)));
+    const known = new Map([...ARKIT, ...VRM_EXPRESSIONS].map((name) => [name.toLowerCase(), name]));
+    for (const { expressionName: name } of vrm.expressionManager?.expressions ?? []) {
+      const usual = known.get(name.toLowerCase()) ?? name;
+      if (name === usual || !this.own.has(usual)) this.own.set(usual, name);
+    }
+    this.turnsEyes = turnsEyes(vrm);
     if (vrm.lookAt) vrm.lookAt.autoUpdate = false;
   }
 
