@@ -11,7 +11,7 @@ import { setTimeout as pause } from "node:timers/promises";
 import { boxes, ownAvatar } from "./avatars.mjs";
 import { LIGHT, LONG, follows, hasAvatar, openPage, setUp, startProgram } from "./program.mjs";
 
-const t = setUp(() => undefined, { page: true });
+const t = setUp(() => undefined, { flat: true, page: true });
 const SIZE = { viewport: { width: 640, height: 480 }, deviceScaleFactor: 1 };
 
 const open = async (query = "", program = t.program) =>
@@ -109,6 +109,15 @@ test("mistakes in the address have words", LONG, async () => {
     assert.equal(await page.evaluate(() => window.telemime.avatar), null);
     await close();
   }
+});
+
+test("a browser that cannot draw in 3-D has words", LONG, async () => {
+  const { page, close } = await openPage(t.flat, { url: `${t.program.url}avatar` }, SIZE);
+  await follows(page);
+  await page.waitForLoadState("networkidle"); // the avatar has been loaded
+  await words(page).filter({ hasText: "WebGL is off" }).waitFor();
+  assert.equal(await page.evaluate(() => window.telemime.avatar), null);
+  await close();
 });
 
 test("avatars of another server and of a folder of the user", LONG, async () => {

@@ -53,7 +53,7 @@ async function showAvatar(looks: readonly string[]): Promise<void> {
     const { name, data } = await (typeof wanted === "string" ? fromProgram(wanted) : fromAddress(wanted));
     const { loadAvatar } = await import("../avatar/load");
     const loaded = await loadAvatar(data);
-    loop.setAvatar(loaded);
+    if (!(await loop.setAvatar(loaded))) return;
     const { version, author } = loaded.facts;
     avatar = { id: String(wanted), name, version, author };
     say("");

@@ -69,8 +69,11 @@ export class Loop {
     };
   }
 
-  setAvatar(a: Avatar): void {
-    void this.openStage().then((s) => s?.setAvatar(a));
+  /** False, with a complaint, when there is nothing to show the avatar on. */
+  async setAvatar(a: Avatar): Promise<boolean> {
+    const stage = await this.openStage();
+    stage?.setAvatar(a);
+    return stage !== null;
   }
 
   resetView(): void {

@@ -45,7 +45,7 @@ const avatars = new Avatars(
   {
     // The 3-D library is the largest part of the page. It is loaded separately.
     load: async (data) => (await import("../avatar/load")).loadAvatar(data),
-    show: (a) => loop.setAvatar(a),
+    show: (a) => void loop.setAvatar(a),
     notify: (level, words) => toasts.show(level, words),
     remember: (id) => {
       settings.avatar = id;

@@ -36,7 +36,7 @@ function panel(): HTMLElement {
   return h(
     "aside",
     { id: "panel", class: "panel", "aria-label": "Side panel" },
-    h("div", { class: "tabs", role: "tablist", "aria-label": "Side panel" }, ...tabs, close),
+    h("div", { class: "tabs" }, h("div", { role: "tablist", "aria-label": "Side panel" }, ...tabs), close),
     ...pages,
   );
 }

@@ -32,6 +32,9 @@ export class FakeElement {
   set textContent(words: string) {
     this.nodes = words ? [words] : [];
   }
+  prepend(...nodes: Child[]): void {
+    this.nodes.unshift(...nodes);
+  }
   append(...nodes: Child[]): void {
     this.nodes.push(...nodes);
   }
@@ -102,6 +105,9 @@ function fakeDocument(): (id: string) => FakeElement {
     vi.stubGlobal(`HTML${kind}Element`, FakeElement);
   vi.stubGlobal("document", {
     activeElement: null,
+    body: new FakeElement(),
+    documentElement: new FakeElement(),
+    addEventListener: () => {},
     getElementById: element,
     createElement: () => new FakeElement(),
     createElementNS: () => new FakeElement(),
