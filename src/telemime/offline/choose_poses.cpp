@@ -21,18 +21,15 @@ void look_back(const Tracker& tracker, const Model& model, WindowState& window, 
   FilterState filter(window.seeds.bits());
   const auto record = [&](std::size_t t) -> FrameRecord& { return queue.records[queue.chosen + t]; };
   start_filter(record(frames.size() - 1).estimate.motion.pose, tracker.limits, filter);
-  double steps = 1.0;
   for (std::size_t t = frames.size(); t-- > 0;) {
     MotionFrame& motion = record(t).estimate.motion;
-    if (t + 1 < frames.size()) {
-      steps = steps_between(motion.time, record(t + 1).estimate.motion.time);
-    }
-    const FilterResult found = tracker.filter->step({.frame = frames[t].frame,
-                                                     .model = model,
-                                                     .velocity = tracker.config.tracking.velocity,
-                                                     .heading = record(t).estimate.heading,
-                                                     .time_step = steps},
-                                                    filter);
+    const FilterResult found =
+        tracker.filter->step({.frame = frames[t].frame,
+                              .model = model,
+                              .velocity = tracker.config.tracking.velocity,
+                              .heading = record(t).estimate.heading,
+                              .time_step = t + 1 < frames.size() ? frames[t + 1].time_step : 1.0},
+                             filter);
     motion.evaluations += found.evaluations;
     const std::vector<Pose> poses =
         mode_poses(tracker.config.filter, filter.particles, model.body, found.pose);
@@ -46,12 +43,16 @@ void choose_window(const Tracker& tracker, const Model& model, std::size_t count
   // The candidates of both directions of time.
   std::vector<TrajectoryFrame> frames;
   frames.reserve(count);
+  double before = window.before_time;
   for (std::size_t t = 0; t < count; ++t) {
     FrameEstimate& estimate = queue.records[queue.chosen + t].estimate;
+    const double time = estimate.motion.time;
     frames.push_back({.frame = std::move(*estimate.prepared),
                       .heading = estimate.heading,
                       .candidates = estimate.modes,
-                      .forward = estimate.modes.size()});
+                      .forward = estimate.modes.size(),
+                      .time_step = window.before || t > 0 ? steps_between(before, time) : 1.0});
+    before = time;
   }
   look_back(tracker, model, window, queue, frames);
   // The cheapest way through them.

@@ -169,13 +169,13 @@ Prior prior_at(const Body& body, const Pose& pose, double heading) {
   return {Prior::Prediction{pose, forward_kinematics(body, pose).joints}, heading};
 }
 
-Prior prior_between(const Body& body, const Pose& before, const Pose& after, double heading) {
+Prior prior_between(const Body& body, const Pose& before, const Pose& after, double share, double heading) {
   const JointPositions a = forward_kinematics(body, before).joints;
   const JointPositions b = forward_kinematics(body, after).joints;
   // The objective uses only the trunk of this pose; its angles are small enough to be averaged one by one.
-  Prior::Prediction between{Pose::from_vector(0.5 * (before.vector() + after.vector())), a};
+  Prior::Prediction between{Pose::from_vector((1.0 - share) * before.vector() + share * after.vector()), a};
   for (std::size_t j = 0; j < kJointCount; ++j) {
-    between.joints.at[j] = 0.5 * (a.at[j] + b.at[j]);
+    between.joints.at[j] = (1.0 - share) * a.at[j] + share * b.at[j];
   }
   return {between, heading};
 }

@@ -83,9 +83,9 @@ struct Prior {
 /// Prior that predicts this pose. `heading` in rad.
 Prior prior_at(const Body& body, const Pose& pose, double heading = 0.0);
 
-/// Prior that predicts each joint midway between its positions in the frames before and after. `heading` in
-/// rad.
-Prior prior_between(const Body& body, const Pose& before, const Pose& after, double heading);
+/// Prior that predicts each joint between its positions in the frames before and after. `share`: of the time
+/// between these that has passed, 0 to 1. `heading` in rad.
+Prior prior_between(const Body& body, const Pose& before, const Pose& after, double share, double heading);
 
 /// Cost of one pose against one frame. Counts its evaluations. Keeps references to all arguments but the
 /// prior: use it within one frame.

@@ -35,6 +35,18 @@ TEST(RegistrationConfig, DefaultsAndReferenceAreValid) {
   }
 }
 
+TEST(Prior, BetweenTwoFramesIsNearerToTheNearerOne) {
+  const Body body = make_body(Shape{});
+  Pose a, b;
+  b.root.x() = 0.4;
+  const auto share = [&](double of) {
+    return prior_between(body, a, b, of, 0.0).predicted->joints[Joint::l_wrist].x() -
+           forward_kinematics(body, a).joints[Joint::l_wrist].x();
+  };
+  EXPECT_NEAR(share(0.5), 0.2, 1e-12);
+  EXPECT_NEAR(share(0.1), 0.04, 1e-12);
+}
+
 TEST(RegistrationConfig, RefusesValuesByName) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   testing_errors::expect_refused<RegistrationConfig>({

@@ -60,6 +60,7 @@ struct FilterContext {
   double heading = 0.0;  ///< rad, predicted torsion of the root: people who walk look where they go
   Evaluators& evaluators;
   std::uint64_t seed = 0;  ///< seed of this frame
+  double time_step = 1.0;  ///< 1/25 s since the frame before
   Pose predicted = {};     ///< where the motion of the heaviest parent leads
   /// Joints where the motion of each parent leads, m, camera frame: every hypothesis has its own past, by
   /// which its children are judged. Empty where FilterConfig::temporal is 0.

@@ -156,7 +156,8 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
       .estimate = state.estimate,
       .heading = input.heading.value_or(heading_of(state.backward ? -state.velocity : state.velocity)),
       .evaluators = evaluators_,
-      .seed = state.seeds.bits()};
+      .seed = state.seeds.bits(),
+      .time_step = frames};
   Generation generation;
   generation.parents = std::move(state.particles);
 

@@ -56,13 +56,13 @@ SettingTable settings_of(TrajectoryConfig& c) {
        number("trajectory.kept", &c.kept, {1, 1000}, "",
               "Poses of a frame among which the trajectory chooses."),
        number("trajectory.motion", &c.motion, {0, 1e6}, "",
-              "Cost of the squared motion (over 0.15 m) of elbows and wrists between two frames."),
+              "Cost of the squared motion (over 0.15 m) of elbows and wrists in 1/25 s."),
        number("trajectory.sweeps", &c.sweeps, {0, 100}, "", "Searches of each pose between its neighbours."),
        number("trajectory.evaluations", &c.evaluations, {1, 1000000}, "evaluations",
               "Effort of each of these searches."),
        number("trajectory.between", &c.between, {0, 1e6}, "",
-              "Weight of the squared distance (over 0.15 m) of elbows and wrists from the middle of their "
-              "neighbours in that search.")},
+              "Weight of the squared distance (over 0.15 m) of elbows and wrists from the line between their "
+              "neighbours, 1/25 s away, in that search.")},
       {}};
 }
 
@@ -99,7 +99,7 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const Trajecto
 }
 
 std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::vector<ScoredPose>> frames,
-                                       double motion, const Pose* before) {
+                                       std::span<const double> motion, const Pose* before) {
   // Forward pass: the least cost of reaching each pose, and from where.
   std::vector<std::vector<std::size_t>> from(frames.size());
   std::vector<double> costs_before;
@@ -116,7 +116,7 @@ std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::ve
       double least = costs_before.empty() ? 0.0 : std::numeric_limits<double>::infinity();
       std::size_t best = 0;
       for (std::size_t i = 0; i < costs_before.size(); ++i) {
-        const double cost = costs_before[i] + motion * distance_from_predicted(k, joints_before[i]);
+        const double cost = costs_before[i] + motion[t] * distance_from_predicted(k, joints_before[i]);
         if (cost < least) {
           least = cost;
           best = i;
@@ -154,7 +154,12 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<co
   if (frames.empty()) {
     return poses;
   }
-  const std::vector<std::size_t> path = cheapest_path(body, choices, config.motion, before);
+  std::vector<double> motion;
+  motion.reserve(frames.size());
+  for (const TrajectoryFrame& frame : frames) {
+    motion.push_back(config.motion / frame.time_step);
+  }
+  const std::vector<std::size_t> path = cheapest_path(body, choices, motion, before);
   for (std::size_t t = 0; t < frames.size(); ++t) {
     poses.push_back(choices[t][path[t]].pose);
   }
@@ -163,7 +168,6 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<co
   RegistrationConfig search = context.search;
   search.iterations = config.evaluations;
   search.proposals = no_proposals();
-  search.region.temporal = search.edge.temporal = config.between;
   const std::uint64_t seed = random.bits();
   for (int half = 0; half < 2 * config.sweeps; ++half) {
     const auto first = static_cast<std::size_t>(half % 2);
@@ -172,10 +176,14 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<co
       const std::size_t t = first + 2 * i;
       const Pose& earlier = t > 0 ? poses[t - 1] : before != nullptr ? *before : poses[t];
       const Pose& later = poses[t + 1 < poses.size() ? t + 1 : t];
+      const double since = frames[t].time_step;
+      const double until = t + 1 < frames.size() ? frames[t + 1].time_step : since;
       Objective objective(backend, frames[t].frame, context.model, context.limits,
-                          prior_between(body, earlier, later, frames[t].heading));
+                          prior_between(body, earlier, later, since / (since + until), frames[t].heading));
+      RegistrationConfig between = search;
+      between.region.temporal = between.edge.temporal = config.between / (0.5 * (since + until));
       Random own(seed, static_cast<std::size_t>(half) * frames.size() + t);
-      poses[t] = register_pose(objective, poses[t], search, own).pose;
+      poses[t] = register_pose(objective, poses[t], between, own).pose;
     });
   }
   return poses;

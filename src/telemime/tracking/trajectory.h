@@ -31,6 +31,7 @@ struct TrajectoryFrame {
   std::vector<Pose>
       candidates;           ///< those of the forward search, its estimate first; then of the backward one
   std::size_t forward = 1;  ///< number of candidates of the forward search
+  double time_step = 1.0;   ///< 1/25 s since the frame before, within the bounds of steps_between()
 };
 
 /// Inputs that are the same for all frames of a stretch.
@@ -54,13 +55,15 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const Trajecto
                                 Backend& backend);
 
 /// Indices of the cheapest sequence of poses, one per frame (Viterbi): the costs of the poses and of the
-/// steps between them, from `before` (may be null) on. No frame may be empty.
+/// steps between them, from `before` (may be null) on. `motion`: the cost of the step to each frame, one per
+/// frame. No frame may be empty.
 std::vector<std::size_t> cheapest_path(const Body& body, std::span<const std::vector<ScoredPose>> frames,
-                                       double motion, const Pose* before);
+                                       std::span<const double> motion, const Pose* before);
 
 /// One pose for each frame: the cheapest path, whose poses are then searched again with their neighbours as
-/// the prior. `before` is the pose in the frame before the first; null: there is none. The result does not
-/// depend on the number of threads.
+/// the prior. `before` is the pose in the frame before the first; null: there is none. What a step costs
+/// falls with its time, as the variance of a random walk grows. The result does not depend on the number of
+/// threads.
 std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<const TrajectoryFrame> frames,
                                   const Pose* before, Random& random);
 

@@ -35,15 +35,15 @@ TrajectoryFrame frame_with(const Scene& scene, const Pose& truth, std::vector<Po
 }
 
 double cost_of(const Body& body, const std::vector<std::vector<ScoredPose>>& frames,
-               const std::vector<std::size_t>& way, double motion) {
+               const std::vector<std::size_t>& way, std::span<const double> motion) {
   double sum = 0.0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
     const ScoredPose& here = frames[t][way[t]];
     sum += here.cost;
     if (t > 0) {
-      sum +=
-          motion * distance_from_predicted(forward_kinematics(body, here.pose),
-                                           forward_kinematics(body, frames[t - 1][way[t - 1]].pose).joints);
+      sum += motion[t] *
+             distance_from_predicted(forward_kinematics(body, here.pose),
+                                     forward_kinematics(body, frames[t - 1][way[t - 1]].pose).joints);
     }
   }
   return sum;
@@ -59,7 +59,10 @@ TEST(CheapestWay, IsTheBestOfAllWays) {
         frame.push_back({raised(random.uniform(-40.0, 40.0)), random.uniform()});
       }
     }
-    const double motion = random.uniform(0.1, 3.0);
+    std::vector<double> motion;
+    for (std::size_t t = 0; t < frames.size(); ++t) {
+      motion.push_back(random.uniform(0.1, 3.0));
+    }
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> way(frames.size());
     const std::function<void(std::size_t)> each = [&](std::size_t t) {
@@ -80,19 +83,37 @@ TEST(CheapestWay, WithoutACostOfMotionEachFrameIsOnItsOwn) {
   const Body body = make_body(Shape{});
   const std::vector<std::vector<ScoredPose>> frames = {{{raised(0), 0.3}, {raised(30), 0.2}},
                                                        {{raised(0), 0.1}, {raised(30), 0.2}}};
-  EXPECT_EQ(cheapest_path(body, frames, 0.0, nullptr), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(cheapest_path(body, frames, std::array{0.0, 0.0}, nullptr), (std::vector<std::size_t>{1, 0}));
 }
 
 TEST(CheapestWay, GoesOnFromThePoseBefore) {
   const Body body = make_body(Shape{});
   const std::vector<std::vector<ScoredPose>> frames = {{{raised(0), 0.1}, {raised(60), 0.11}}};
   const Pose before = raised(60);
-  EXPECT_EQ(cheapest_path(body, frames, 0.1, nullptr).front(), 0U);
-  EXPECT_EQ(cheapest_path(body, frames, 0.1, &before).front(), 1U);
+  EXPECT_EQ(cheapest_path(body, frames, std::array{0.1}, nullptr).front(), 0U);
+  EXPECT_EQ(cheapest_path(body, frames, std::array{0.1}, &before).front(), 1U);
+}
+
+TEST(BestTrajectory, FramesFarApartMayDifferMore) {
+  // The image shows the raised arm; staying where it was costs less, unless there was time to move.
+  Scene scene;
+  std::vector<TrajectoryFrame> frames = {frame_with(scene, raised(0), {raised(0)}),
+                                         frame_with(scene, raised(60), {raised(0), raised(60)})};
+  TrajectoryConfig config;
+  config.sweeps = 0;
+  const auto distance_at_end = [&](double step) {
+    frames[1].time_step = step;
+    Random random(1);
+    const Pose end = best_trajectory(context_of(scene, config), frames, nullptr, random)[1];
+    return farthest_joint(scene.joints(end), scene.joints(raised(60)));
+  };
+  config.motion = 1.0;
+  EXPECT_GT(distance_at_end(1.0), 0.2);
+  EXPECT_LT(distance_at_end(8.0), 0.1);
 }
 
 TEST(CheapestWay, OfNoFramesIsEmpty) {
-  EXPECT_TRUE(cheapest_path(make_body(Shape{}), {}, 1.0, nullptr).empty());
+  EXPECT_TRUE(cheapest_path(make_body(Shape{}), {}, {}, nullptr).empty());
 }
 
 TEST(Combine, OrdersByCostAndKeepsNoMoreThanAsked) {

@@ -2,6 +2,7 @@
 #include "telemime/tracking/heuristics/landmark_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "telemime/search/landmark_fit.h"
@@ -9,7 +10,7 @@
 namespace telemime {
 namespace {
 
-constexpr double kFollowing = 0.12;       // m, of elbows and wrists from one frame to the next
+constexpr double kFollowing = 0.12;       // m, of elbows and wrists in 1/25 s; it grows as a random walk
 constexpr std::size_t kMostFollowed = 4;  // proposals about the prediction
 constexpr std::size_t kMostNew = 4;       // proposals from the landmarks alone
 
@@ -24,7 +25,8 @@ void search_landmarks(const FilterContext& context, Generation& generation) {
   // Poses that continue the motion, and poses that the landmarks alone suggest.
   std::vector<LandmarkFit> fits =
       landmark_proposals(body, context.frame.camera, *landmarks,
-                         {.pose = context.predicted, .following = kFollowing}, context.limits, kMostFollowed);
+                         {.pose = context.predicted, .following = kFollowing * std::sqrt(context.time_step)},
+                         context.limits, kMostFollowed);
   if (const auto alone = pose_from_landmarks(body, context.frame.camera, *landmarks, context.limits)) {
     const auto others = landmark_proposals(body, context.frame.camera, *landmarks, {.pose = *alone},
                                            context.limits, kMostNew);
