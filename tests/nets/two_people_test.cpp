@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "telemime/capture/source.h"
+#include "telemime/image/face_finder.h"
 #include "telemime/image/features.h"
 #include "telemime/image/person_finder.h"
 #include "telemime/nets/models/table.h"
@@ -213,6 +214,27 @@ TEST_F(TwoPeople, GreyPictureHasTheOutlineOfTheMask) {
   EXPECT_GT(cv::countNonZero(next.landmarks->mask != seen.landmarks->mask), 0);
   EXPECT_FALSE(has_colour(features.status()));
   EXPECT_EQ(cv::countNonZero(seen.labels == static_cast<unsigned char>(Label::arms)), 0);
+}
+
+TEST_F(TwoPeople, AFaceBesideACoveredOneIsNotTaken) {
+  const std::vector<std::string> names = {"face_detection_short_range", "face_landmark_with_attention"};
+  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+    GTEST_SKIP() << missing;
+  }
+  cv::Mat image = frames_[0].clone();
+  const auto person = finder_.find(image, 0.0);
+  ASSERT_TRUE(person);
+  ASSERT_TRUE(FaceFinder(kModels).find(image, *person, image.size()));
+  // Somebody who leans in: the same face, a face's width beside the covered one.
+  const PictureRegion head = head_region(*person);
+  const auto face_at = [&](double aside) {
+    const Eigen::Vector2d corner = head.centre + head.width * Eigen::Vector2d(aside - 0.2, -0.2);
+    const int side = static_cast<int>(0.4 * head.width);
+    return cv::Rect(static_cast<int>(corner.x()), static_cast<int>(corner.y()), side, side);
+  };
+  image(face_at(0.0)).copyTo(image(face_at(0.42)));
+  image(face_at(0.0)).setTo(cv::Scalar(180, 170, 170));
+  EXPECT_FALSE(FaceFinder(kModels).find(image, *person, image.size()));
 }
 
 }  // namespace

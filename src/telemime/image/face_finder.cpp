@@ -15,7 +15,7 @@ std::optional<FaceLandmarks> FaceFinder::find(const cv::Mat& picture, const Pose
   }
   const PictureRegion head = head_region(scaled_to(person, working, picture.size()));
   // Another person's face, or what was taken for one, is not followed away from the head.
-  constexpr double kAside = 0.6;  // of the head's region
+  constexpr double kAside = 0.3;  // of the head's region, which is some 0.6 m wide
   const auto is_near = [&](const PictureRegion& face) {
     return (face.centre - head.centre).norm() < kAside * head.width;
   };

@@ -115,7 +115,13 @@ std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegi
   }
   // Keypoints of a face: its right eye, left eye, nose, mouth, right ear, left ear.
   const SingleShotFormat format{.input = 128, .grids = {{16, 2}, {8, 6}}, .keypoints = 6};
-  for (const Detection& face : detect(picture, search, networks.detector, format)) {
+  std::vector<Detection> faces = detect(picture, search, networks.detector, format);
+  const auto away = [&search](const Detection& face) {
+    return (0.5 * (face.box.head<2>() + face.box.tail<2>()) - search.centre).norm();
+  };
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&](const Detection& a, const Detection& b) { return away(a) < away(b); });
+  for (const Detection& face : faces) {
     const Eigen::Vector2d eyes = face.keypoints[1] - face.keypoints[0];
     const double side = kMargin * (face.box.tail<2>() - face.box.head<2>()).cwiseAbs().maxCoeff();
     const PictureRegion region{.centre = 0.5 * (face.box.head<2>() + face.box.tail<2>()),

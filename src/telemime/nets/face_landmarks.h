@@ -57,9 +57,9 @@ FaceNetworks load_face_networks(const std::filesystem::path& models);
 /// The square around the head of a person, in which the face is to be searched.
 PictureRegion head_region(const PoseLandmarks& pose);
 
-/// The points of the best visible face in this square region of a BGR picture (CV_8UC3). `previous` is
-/// next_region of the frame before; the detector runs only without it or if there is no face any more. Empty
-/// if no face is found.
+/// The points of the visible face nearest to the centre of this square region of a BGR picture (CV_8UC3).
+/// `previous` is next_region of the frame before; the detector runs only without it or if there is no face
+/// any more. Empty if no face is found.
 std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegion& search,
                                        FaceNetworks& networks,
                                        const std::optional<PictureRegion>& previous = std::nullopt);

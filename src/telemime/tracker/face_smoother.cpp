@@ -91,6 +91,7 @@ void FaceSmoother::learn_noise(const FaceMotion& measured, double step) {
 std::optional<FaceMotion> FaceSmoother::likely() const {
   std::optional<FaceMotion> face = smooth_;
   if (face) {
+    face->noise = {};  // it has been taken into account
     const double scale = face->detail * face->detail;
     const auto share = [scale](double prior, double noise) {
       return noise > 0.0 ? scale * prior / (scale * prior + noise) : 1.0;

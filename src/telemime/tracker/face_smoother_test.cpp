@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "telemime/core/random.h"
 
@@ -110,6 +111,30 @@ TEST(FaceSmoother, ClearBlinksAndLipsKeepTheirMotion) {
       }
     }
   }
+}
+
+TEST(FaceSmoother, FirstFrameThatIsBadlySeenDoesNotStiffenAFile) {
+  // The jaw of somebody who talks, smoothed forward and then backward, as files are.
+  constexpr int kFrames = 100;
+  const auto range_of = [](double noise_at_first) {
+    FaceSmoother forward, backward;
+    std::vector<FaceMotion> face;
+    for (int t = 0; t < kFrames; ++t) {
+      FaceMotion seen = seen_face();
+      seen[jaw_open] = 0.25 - 0.25 * std::cos(4.0 * std::numbers::pi * kStep * t);
+      seen.noise.expressions[static_cast<std::size_t>(jaw_open)] = t == 0 ? noise_at_first : kClear;
+      face.push_back(*forward(seen, kStep * t));
+    }
+    double least = 1.0, most = 0.0;
+    for (int t = kFrames; t-- > 0;) {
+      const double jaw = (*backward(face[static_cast<std::size_t>(t)], -kStep * t))[jaw_open];
+      least = t < kFrames / 2 ? std::min(least, jaw) : least;
+      most = t < kFrames / 2 ? std::max(most, jaw) : most;
+    }
+    return most - least;
+  };
+  EXPECT_GT(range_of(0.0), 0.4);
+  EXPECT_GT(range_of(0.1), 0.9 * range_of(0.0));
 }
 
 TEST(FaceSmoother, UncoveredMouthMovesSoon) {
