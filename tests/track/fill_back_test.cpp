@@ -86,6 +86,39 @@ TEST(FillBack, FollowsTheFoundPersonBack) {
   }
 }
 
+// A hand as a network sees it: open, at the wrist.
+HandLandmarks open_hand(const JointPositions& joints, const Camera& camera) {
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation() = joints[Joint::l_wrist];
+  const HandPoints points = hand_points(average_hand(1.7), resting_hand(), Side::left, place);
+  HandLandmarks hand;
+  hand.presence = 0.95;
+  hand.is_right = 0.05;
+  hand.region = {.centre = camera.project(points[9]), .width = 60.0, .height = 60.0};
+  for (std::size_t i = 0; i < kHandJointCount; ++i) {
+    hand.points[i] = {.pixel = camera.project(points[i]), .world = points[i] - points[9]};
+  }
+  return hand;
+}
+
+TEST(FillBack, TheirHandsAreThoseThatWereSeen) {
+  Tracked t(filling(10));
+  for (std::size_t i = 0; i + 1 < kPersonFrames; ++i) {
+    FrameRecord lost = t.lost(i);
+    lost.features.hands.emplace();
+    (*lost.features.hands)[0] = {.looked = true, .found = open_hand(clip().truth[i], t.run.tracker.working_camera)};
+    lost.estimate.motion.hands.emplace();
+    t.push(lost);
+  }
+  t.push(t.tracked(kPersonFrames - 1));
+  auto records = t.take();
+  records.pop_back();
+  for (const FrameRecord& record : records) {
+    EXPECT_GT((*record.estimate.motion.hands)[0].visibility, 0.5) << record.estimate.motion.frame;
+    EXPECT_EQ((*record.estimate.motion.hands)[1].visibility, 0.0);
+  }
+}
+
 TEST(FillBack, StopsWhereNoPersonIsVisible) {
   Tracked t(filling(10));
   t.push(t.lost(0));

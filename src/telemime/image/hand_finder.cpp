@@ -59,13 +59,13 @@ HandFinder::HandFinder(const std::filesystem::path& models)
 
 std::optional<HandLandmarks> HandFinder::look(const cv::Mat& picture, const PoseLandmarks& pose,
                                               HandSide side, double time) {
-  constexpr double kRemembered = 0.25;  // s
-  constexpr double kAway = 0.6;         // of the region's width, between the wrist and that of the pose
+  constexpr double kRemembered = 0.25, kTurn = 0.6;  // s, where hands take turns
+  constexpr double kAway = 0.6;  // of the region's width, between the wrist and that of the pose
   const PoseLandmark& wrist = wrist_of(pose, side);
   // Where it was, as long as the body has it there, too.
   const auto i = static_cast<std::size_t>(side);
   const auto& followed = followed_[i];
-  if (followed && time > followed->time && time - followed->time < kRemembered) {
+  if (followed && time > followed->time && time - followed->time < (followed->missed ? kRemembered : kTurn)) {
     auto hand = hand_in(picture, next_region(followed->hand), *networks_[i]);
     if (hand && (hand->points[0].pixel - wrist.pixel).norm() < kAway * hand->region.width) {
       return hand;
@@ -100,6 +100,9 @@ std::array<SeenHand, 2> HandFinder::find(const cv::Mat& picture, const PoseLandm
     followed_[left ? 1 : 0].reset();
   }
   for (std::size_t i = 0; i < 2; ++i) {
+    if (hands[i].looked && followed_[i]) {
+      followed_[i]->missed = true;
+    }
     if (hands[i].found) {
       followed_[i] = {.hand = *hands[i].found, .time = time};
       hands[i].found = scaled_to(std::move(*hands[i].found), picture.size(), working);

@@ -43,6 +43,7 @@ class HandFinder {
   struct Followed {
     HandLandmarks hand;  ///< in pixels of the picture
     double time = 0.0;
+    bool missed = false;  ///< it was looked for since, but not found
   };
   std::array<std::shared_ptr<HandNetworks>, 2> networks_;  ///< of each hand
   std::array<std::optional<Followed>, 2> followed_;

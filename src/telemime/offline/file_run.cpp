@@ -68,6 +68,7 @@ ViewerRequest FileRun::add(FrameRecord record) {
   FrameFeatures kept;
   kept.person_present = record.features.person_present;
   kept.face = std::move(record.features.face);
+  kept.hands = std::move(record.features.hands);
   record.features = std::move(kept);
   queue_.records.push_back(std::move(record));
   const std::size_t filled = fill_back(run_.tracker, run_.state, fill_seeds_, queue_);

@@ -32,6 +32,15 @@ FrameEstimate follow_back(const Tracker& tracker, const TrackerState& state, con
   motion.contour_score = found.score.contour();
   motion.evaluations += found.evaluations;
   motion.spread = spread_of_filter(tracker, state, *record.estimate.prepared, filter, found);
+  if (record.features.hands) {
+    HandState hands{.sizes = state.hands.sizes, .frames = state.hands.frames, .last = {}};
+    motion.hands = observe_hands(*record.features.hands,
+                                 {.body = state.model.body,
+                                  .kinematics = forward_kinematics(state.model.body, found.pose),
+                                  .camera = tracker.working_camera,
+                                  .time = motion.time},
+                                 hands);
+  }
   place_joints(state.model.body, tracker.camera, motion);
   if (tracker.config.look_back) {
     result.heading = found.heading;

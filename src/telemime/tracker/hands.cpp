@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "telemime/body/hand_fit.h"
+#include "telemime/core/time_base.h"
 
 namespace telemime {
 namespace {
@@ -13,6 +14,7 @@ constexpr std::array<Joint, 2> kWrists = {Joint::l_wrist, Joint::r_wrist};
 constexpr double kFarthest = 0.2;  // m, of a hand's wrist from that of its arm
 constexpr double kNearest = 0.05;  // m, of a wrist from the camera
 constexpr double kHeld = 0.1;      // s, that a hand keeps its form when it is not seen
+constexpr double kTurn = 0.6;      // s, that it keeps it while the other hand has its turn
 constexpr double kWorst = 0.03;    // m, of the points from the model: what fits worse is not a hand
 
 // m between a finding and an arm's wrist, across the line of sight; more if it looks like the other hand.
@@ -49,7 +51,7 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
   constexpr double kSide = 4.0;  // weight of the network's opinion
   constexpr double kLeastChance = 0.02;
   constexpr double kCertain = 0.9;
-  constexpr double kTurn = 1.0;        // rad, that a palm turns between two frames
+  constexpr double kUsualTurn = 1.0;   // rad, of a palm in a frame, or in 1/25 s where frames are rarer
   constexpr double kMostOfTurn = 6.0;  // of the cost
   const double own =
       std::clamp(side == Side::right ? hand.is_right : 1.0 - hand.is_right, kLeastChance, 1.0 - kLeastChance);
@@ -64,7 +66,8 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
       result->cost -= kSide * std::log(chance);
       if (last && last->motion.seen) {
         const double turn = last->motion.seen->angularDistance(Eigen::Quaterniond(result->frame_from_hand));
-        result->cost += std::min(kMostOfTurn, (turn / kTurn) * (turn / kTurn));
+        const double usual = kUsualTurn * std::max(1.0, units_between(last->time, scene.time));
+        result->cost += std::min(kMostOfTurn, (turn / usual) * (turn / usual));
       }
     }
     return result;
@@ -178,8 +181,8 @@ HandMotions observe_hands(const std::array<SeenHand, 2>& seen, const HandScene& 
     if (const auto found = mine[s] != nullptr ? fitted(*mine[s], side, scene, state) : std::nullopt) {
       last = HandState::Last{.motion = *found, .time = scene.time};
     }
-    // Each hand at least every other frame, where they take turns.
-    if (last && (scene.time < last->time || scene.time - last->time > kHeld)) {
+    const double held = seen[s].looked ? kHeld : kTurn;
+    if (last && (scene.time < last->time || scene.time - last->time > held)) {
       last.reset();
     }
     hands[s] = last ? last->motion : HandMotion{};

@@ -158,9 +158,13 @@ TEST_F(Hands, HandThatIsNotSeenIsHeldAndThenRests) {
   const HandAngles angles = some_angles(0.8);
   observe_hands({seen(Side::left, angles), SeenHand{.looked = true, .found = {}}}, scene(0.0), state);
   EXPECT_GT(observe_hands({}, scene(0.04), state)[0].visibility, 0.8) << "the other hand's turn";
-  const HandMotions hands = observe_hands({}, scene(0.2), state);
+  EXPECT_GT(observe_hands({}, scene(0.3), state)[0].visibility, 0.8) << "the same, at few frames a second";
+  const SeenHand missed{.looked = true, .found = {}};
+  const HandMotions hands = observe_hands({missed, {}}, scene(0.3), state);
   EXPECT_EQ(hands[0].visibility, 0.0);
   EXPECT_EQ(hands[0].angles, resting_hand());
+  observe_hands({seen(Side::left, angles), missed}, scene(0.4), state);
+  EXPECT_EQ(observe_hands({}, scene(1.1), state)[0].visibility, 0.0) << "never looked for again";
 }
 
 TEST_F(Hands, PalmThatTurnsTooFastIsDoubted) {
@@ -245,7 +249,8 @@ TEST_F(Hands, SmoothedHandGoesToRestInHalfASecond) {
   EXPECT_GT(away, 0.5);
   double before = away;
   for (int i = 0; i < 15; ++i, ++t) {
-    hands = smoother(observe_hands({}, scene(kStep * t), state), kinematics_, kStep);
+    const SeenHand missed{.looked = true, .found = {}};
+    hands = smoother(observe_hands({missed, missed}, scene(kStep * t), state), kinematics_, kStep);
     const double now = largest_difference(hands[0].angles, resting_hand());
     EXPECT_LE(now, before + (i < 3 ? 0.01 : 1e-9)) << "held for a tenth of a second";
     EXPECT_LT(before - now, 0.3 * away) << "gently";
