@@ -22,14 +22,11 @@ constexpr std::array<double, kPoseSize> kTypicalChange = {
     5 * kDegree, 6 * kDegree, 5 * kDegree, 6 * kDegree,   6 * kDegree,   4 * kDegree,
     6 * kDegree, 4 * kDegree, 4 * kDegree, 6 * kDegree,   4 * kDegree};
 
-constexpr double kNearest = 0.2;  // m, of the root and the wrists
-constexpr double kFarthest = 8.0;
-
 double low_of(const JointLimits& limits, std::size_t i) {
-  return i < 2 ? -4.0 : i == 2 ? kNearest : limits.min[i - 3];
+  return i < 2 ? -kMostAsideSearched : i == 2 ? kNearestSearched : limits.min[i - 3];
 }
 double high_of(const JointLimits& limits, std::size_t i) {
-  return i < 2 ? 4.0 : i == 2 ? kFarthest : limits.max[i - 3];
+  return i < 2 ? kMostAsideSearched : i == 2 ? kFarthestSearched : limits.max[i - 3];
 }
 
 SearchBlock numbers_block(std::string_view name, const Pose& pose, const JointLimits& limits, double factor,
@@ -202,15 +199,15 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
                       double factor) {
   const ArmTarget target = arm_target(body, pose, side);
   SearchBlock block = with_hand(side == Side::left ? "left arm" : "right arm", pose, side, limits, factor);
-  const double z = std::max(kNearest, target.wrist.z());
+  const double z = std::max(kNearestSearched, target.wrist.z());
   constexpr double kAcross = 0.025;  // m, typical change of a wrist from frame to frame
   constexpr double kAlong = 0.030;
   constexpr double kSwivel = 8.0;  // degrees
   block.start.head<4>() << target.wrist.x() / z, target.wrist.y() / z, z, target.swivel;
   block.steps.head<4>() << factor * kAcross / z, factor * kAcross / z, factor * kAlong,
       factor * kSwivel * kDegree;
-  block.bounds.low.head<4>() << -4.0, -4.0, kNearest, target.swivel - std::numbers::pi;
-  block.bounds.high.head<4>() << 4.0, 4.0, kFarthest, target.swivel + std::numbers::pi;
+  block.bounds.low.head<4>() << -4.0, -4.0, kNearestSearched, target.swivel - std::numbers::pi;
+  block.bounds.high.head<4>() << 4.0, 4.0, kFarthestSearched, target.swivel + std::numbers::pi;
   block.decode = [&body, pose, side, &limits](const Eigen::VectorXd& x) {
     return with_arm(body, pose, side, x, limits);
   };

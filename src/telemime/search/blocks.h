@@ -21,6 +21,10 @@ struct SearchBlock {
   std::function<Pose(const Eigen::VectorXd&)> decode;
 };
 
+/// Bounds (m) of the root and the wrists in a search: along the camera's axis, and beside it. No person whom
+/// a calibration may place (calibration.farthest) lies beyond.
+inline constexpr double kNearestSearched = 0.2, kFarthestSearched = 50.0, kMostAsideSearched = 50.0;
+
 /// All 23 pose numbers (m and rad): the search space of the thesis.
 SearchBlock whole_block(const Pose& pose, const JointLimits& limits, double factor);
 

@@ -8,9 +8,6 @@
 namespace telemime {
 namespace {
 
-constexpr double kNearest = 0.2;  // m, of the root and the wrists
-constexpr double kFarthest = 8.0;
-
 // Layout of a space: plain pose numbers, then seven numbers for each arm in end-effector space.
 struct Layout {
   std::vector<std::size_t> numbers;
@@ -57,8 +54,8 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
     const bool angle = k >= 3;
     space.start[i] = all[static_cast<Eigen::Index>(k)];
     space.steps[i] = context.numbers.change[static_cast<Eigen::Index>(k)];
-    space.bounds.low[i] = angle ? limits.min[k - 3] : k == 2 ? kNearest : -4.0;
-    space.bounds.high[i] = angle ? limits.max[k - 3] : k == 2 ? kFarthest : 4.0;
+    space.bounds.low[i] = angle ? limits.min[k - 3] : k == 2 ? kNearestSearched : -kMostAsideSearched;
+    space.bounds.high[i] = angle ? limits.max[k - 3] : k == 2 ? kFarthestSearched : kMostAsideSearched;
   }
   // Arms in end-effector space: steps in pixels across the viewing ray, in metres along it.
   for (std::size_t a = 0; a < layout.arms.size(); ++a) {
