@@ -62,24 +62,37 @@ cv::Mat around_person(const SceneSample& sample) {
   return scene;
 }
 
-/// Whether the camera moves: motion that the background has in common between frames 8 apart, in at least a
-/// quarter of the places of the clip that can tell.
+/// The nearest frame of the clip at least `apart` frames of the input after this one, or else before it.
+std::optional<std::size_t> frame_apart(std::span<const Frame> clip, std::size_t from, std::int64_t apart) {
+  const std::int64_t index = clip[from].index;
+  const auto later = std::find_if(clip.begin() + static_cast<std::ptrdiff_t>(from), clip.end(),
+                                  [&](const Frame& frame) { return frame.index >= index + apart; });
+  if (later != clip.end()) {
+    return static_cast<std::size_t>(later - clip.begin());
+  }
+  for (std::size_t i = from; i-- > 0;) {
+    if (clip[i].index <= index - apart) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether the camera moves: motion that the background has in common between frames 8 apart, or 10 where the
+/// clip is a sample of a longer one, in at least a quarter of the places of the clip that can tell.
 bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samples,
                   const ImageConfig& config) {
   std::vector<double> motions;
-  constexpr std::size_t kApart = 8;
+  constexpr std::int64_t kApart = 8;
   constexpr std::size_t kFewest = 3;
-  if (clip.size() <= kApart) {
-    return false;
-  }
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t at = frame_of_sample(i, samples.size(), clip.size());
-    if (at < kApart && at + kApart >= clip.size()) {
+    const auto other = frame_apart(clip, at, kApart);
+    if (!other) {
       continue;  // a short clip has no frame that far from its middle
     }
-    const std::size_t other = at + kApart < clip.size() ? at + kApart : at - kApart;
     const auto shared = shared_motion(grey_at_most(samples[i].bgr, config.width),
-                                      grey_at_most(working_image(clip[other], config), config.width),
+                                      grey_at_most(working_image(clip[*other], config), config.width),
                                       around_person(samples[i]));
     if (shared) {
       motions.push_back(shared->pixels * kMotionWidth / config.width);
@@ -210,9 +223,10 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
         !has_face(still.front()) && !has_face(still[count / 2]);
     if (empty) {
       const std::size_t offset = whole || first < half ? 0 : clip.size() - 2 * half;
-      report = {SceneSource::empty_stretch, first + offset, count, 1.0,
+      const auto from = static_cast<std::size_t>(clip[first + offset].index);
+      report = {SceneSource::empty_stretch, from, count, 1.0,
                 "the background was learned from " + std::to_string(count) +
-                    " frames without a person, starting at frame " + std::to_string(first + offset)};
+                    " frames without a person, starting at frame " + std::to_string(from)};
       return report;
     }
   }
