@@ -89,6 +89,23 @@ TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
   }
 }
 
+TEST(PoorPictures, GreyPicturesTeachNoColours) {
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
+  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+    GTEST_SKIP() << missing;
+  }
+  Frame frame = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4")->next().value();
+  Frame colourless = frame;
+  colourless.image = grey(frame.image);
+  ImageConfig config;
+  config.models = kModels;
+  FeatureExtractor features(config);
+  const PersonReport refused = features.learn_person(colourless);
+  EXPECT_FALSE(refused.accepted);
+  EXPECT_NE(refused.reason.find("no colour"), std::string::npos) << refused.reason;
+  EXPECT_TRUE(features.learn_person(frame).accepted);
+}
+
 TEST(PoorPictures, OverexposureIsNamed) {
   const auto warns = [](double gain) {
     ImageConfig config;

@@ -83,5 +83,18 @@ TEST(Recalibration, LearnsColoursOfTheNewPerson) {
   EXPECT_LT((clothes(run) - clothes(expected)).norm(), 0.1F);
 }
 
+TEST(Recalibration, ColoursOfTheLastPersonAreNotUsedOnceThePersonIsCalibrated) {
+  // A network may calibrate the next person before their colours are learned.
+  TrackingRun run = learned_run();
+  track_frame(clip().person[0], run);
+  ASSERT_TRUE(run.scene.features.calibration().colours.known());
+  forget_person(run);
+  Frame frame = clip().person[1];
+  frame.index = 1;  // colours are learned in every fifth
+  EXPECT_FALSE(extract(frame, ColourRequest::keep, run.scene).has_colour_model);
+  frame.index = 5;
+  EXPECT_TRUE(extract(frame, ColourRequest::keep, run.scene).has_colour_model);
+}
+
 }  // namespace
 }  // namespace telemime

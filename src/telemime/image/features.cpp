@@ -208,6 +208,10 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   if (!face) {
     return {false, "no face was found: look at the camera, and make sure that there is enough light"};
   }
+  // Skin and clothes have no colours of their own in a grey picture, nor later, when it has colours again.
+  if (!is_coloured(coloured_share_of(p.bgr))) {
+    return {false, "the image has no colour: colours are learned when it has"};
+  }
   // Reject faces that are part of the background.
   std::optional<HeadRegion> head = head_region_of(face, p);
   const BackgroundEnergy background = background_energy_of(p, head, mask);

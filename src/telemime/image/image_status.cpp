@@ -36,8 +36,12 @@ bool shows_something(const ImageStatus& status) {
 }
 
 bool has_colour(const ImageStatus& status) {
+  return is_coloured(status.coloured_share);
+}
+
+bool is_coloured(double share) {
   constexpr double kLeast = 0.002;
-  return status.coloured_share >= kLeast;
+  return share >= kLeast;
 }
 
 double detail_of(const cv::Mat& grey) {

@@ -32,6 +32,9 @@ struct ImageStatus {
 bool shows_something(const ImageStatus& status);
 /// Whether the picture has colours. Without them, skin and clothes cannot be told apart.
 bool has_colour(const ImageStatus& status);
+
+/// Whether this share of coloured pixels is that of a picture with colours.
+bool is_coloured(double share);
 /// 99th percentile of the gradient of an image (CV_8UC1) resized to 160 columns, grey levels a pixel.
 double detail_of(const cv::Mat& grey);
 /// Share of the pixels of an image (CV_8UC3), in a grid, whose chroma differs from that of the whole image: 0

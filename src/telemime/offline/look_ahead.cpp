@@ -175,7 +175,7 @@ struct Scouting {
                      .pose = motion.pose,
                      .visible_since = run.scene.head_since};
     }
-    if (!is_tracked(record)) {
+    if (!is_tracked(record) || !record.estimate.prepared) {
       return;
     }
     const bool due = tracked_for > next_candidate - kExactly;

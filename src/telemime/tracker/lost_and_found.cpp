@@ -2,6 +2,7 @@
 #include "telemime/tracker/lost_and_found.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "telemime/search/calibration.h"
 
@@ -9,10 +10,26 @@ namespace telemime {
 namespace {
 
 // Whether a network sees the person where the body is: then the pose is accepted although regions disagree.
-constexpr double kAgrees = 1.5;  // standard deviations
-bool landmarks_agree(const Score& score, const FrameFeatures& features, const Tracker& tracker) {
-  return features.landmarks && tracker.config.cues[cue::kLandmarks].enabled &&
-         score.costs[cue::kLandmarks] < kAgrees;
+// A head alone says nothing of the body.
+constexpr double kAgrees = 1.5;  // standard deviations, root mean square of the landmarks that are seen
+constexpr std::ptrdiff_t kOfHead = 5;
+bool landmarks_agree(const Score& score, const PreparedFrame& frame, const Tracker& tracker) {
+  if (!frame.landmarks || !tracker.config.cues[cue::kLandmarks].enabled) {
+    return false;
+  }
+  const auto& points = frame.landmarks->points;
+  const auto seen = std::count_if(points.begin(), points.end(), [](const auto& p) { return p.seen; });
+  // The cue's cost is a mean over all landmarks, in which one that is not seen counts as 0.
+  const double share = static_cast<double>(seen) / static_cast<double>(points.size());
+  return seen > kOfHead && score.costs[cue::kLandmarks] < kAgrees * std::sqrt(share);
+}
+
+// Counts the bad frames; true when they have lasted for TrackingConfig::patience. At a few frames per second
+// one bad frame lasts as long as the patience.
+bool is_out_of_patience(bool bad, const TrackingConfig& config, TrackerState& state) {
+  state.bad_frames = bad ? state.bad_frames + 1 : 0;
+  state.bad_for = bad ? state.bad_for + state.elapsed : 0.0;
+  return state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience);
 }
 
 std::string scale_source(const CalibrationConfig& config) {
@@ -25,6 +42,13 @@ void set_person(const CalibratedPerson& person, TrackerState& state) {
 }
 
 void start_tracking(const Pose& pose, const Score& score, TrackerState& state, FrameEstimate& result) {
+  // Whoever comes back later may be somebody else; a face and hands are learned again in seconds.
+  constexpr double kSurelyTheSame = 75.0;  // 1/25 s
+  if (state.lost_for > kSurelyTheSame) {
+    state.neutral_face = {};
+    state.hands = {};
+  }
+  state.lost_for = 0.0;
   state.phase = Phase::tracking;
   state.previous = pose;
   adopt(pose, score, state, result);
@@ -44,7 +68,7 @@ void calibrate_person(const FrameFeatures& features, const Tracker& tracker, Tra
                                     config.calibration, config.registration, state.random);
   result.motion.evaluations += fit.evaluations;
   const bool patient = state.waited < config.tracking.calibration_patience;
-  const bool agrees = landmarks_agree(fit.score, features, tracker);
+  const bool agrees = landmarks_agree(fit.score, *result.prepared, tracker);
   if (!agrees && (fit.score.region() > config.tracking.found_region || (!fit.refusal.empty() && patient))) {
     mark_lost("waiting for a better first frame: " + fit.refusal, tracker, state, result);
     return;
@@ -93,7 +117,8 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
                                      tracker.config.registration, state.random);
   const Score score = objective.score(found, objective.cues().needs());
   result.motion.evaluations += objective.evaluations();
-  if (score.region() > tracker.config.tracking.found_region && !landmarks_agree(score, features, tracker)) {
+  if (score.region() > tracker.config.tracking.found_region &&
+      !landmarks_agree(score, *result.prepared, tracker)) {
     mark_lost("a person is visible, but the body does not fit", tracker, state, result);
     return;
   }
@@ -108,12 +133,20 @@ void check_fit(const FrameFeatures& features, const Score& score, const Tracker&
   }
   const TrackingConfig& config = tracker.config.tracking;
   const bool bad = (result.motion.region_score > config.lost_region || !features.head) &&
-                   !landmarks_agree(score, features, tracker);
-  state.bad_frames = bad ? state.bad_frames + 1 : 0;
-  state.bad_for = bad ? state.bad_for + state.elapsed : 0.0;
-  // At a few frames per second one bad frame lasts as long as the patience.
-  if (state.bad_for >= config.patience && state.bad_frames >= std::min(2, config.patience)) {
+                   !landmarks_agree(score, *result.prepared, tracker);
+  if (is_out_of_patience(bad, config, state)) {
     mark_lost("the body no longer fits the image", tracker, state, result);
+  }
+}
+
+void check_unseen(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
+                  FrameEstimate& result) {
+  if (!features.person_present) {
+    mark_lost("nobody is in the image", tracker, state, result);
+  } else if (is_out_of_patience(true, tracker.config.tracking, state)) {
+    mark_lost("neither colours nor a network show the body", tracker, state, result);
+  } else {
+    result.note.clear();
   }
 }
 

@@ -19,7 +19,8 @@
 namespace telemime {
 namespace {
 
-constexpr double kFaceless = 31.25;  // 1/25 s with a head but no face, until the outline of the head is used
+// 1/25 s with a head but no face (a mask), after each of which the person's colours are learned again.
+constexpr double kFaceless = 31.25;
 constexpr double kLeastSteps = 0.2;  // between two frames
 constexpr double kMostSteps = 8.0;   // after a longer gap the motion model says nothing
 constexpr double kNearest = 0.01;    // m, of a joint that is projected
@@ -28,14 +29,15 @@ constexpr double kNearest = 0.01;    // m, of a joint that is projected
 bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene, FrameFeatures& features) {
   // A person whom landmarks found may be tracked before their colours are known: they are learned meanwhile.
   constexpr std::int64_t kEvery = 5;
-  const bool known = scene.features.calibration().colours.known();
-  if (request == ColourRequest::keep && (known || frame.index % kEvery != 0)) {
-    return known;
+  const auto known = [&scene] {
+    return scene.features.calibration().colours.known() && !scene.relearn_colours;
+  };
+  if (request == ColourRequest::keep && (known() || frame.index % kEvery != 0)) {
+    return known();
   }
-  // A masked face is never found: after a while the outline of the head is used, and colours that were
-  // learned while the person was still walking are learned again.
+  // Colours that were learned while a person without a face was still walking are learned again.
   const bool faceless = request == ColourRequest::learn_faceless;
-  if (scene.features.calibration().colours.known() && !faceless && !scene.relearn_colours) {
+  if (known() && !faceless) {
     return true;
   }
   const PersonReport report = scene.features.learn_person(frame);
@@ -45,7 +47,10 @@ bool learn_colours(const Frame& frame, ColourRequest request, SceneState& scene,
     scene.head_since = frame.index;
     scene.relearn_colours = false;
   }
-  return report.accepted || faceless;
+  if (faceless) {
+    scene.relearn_colours = false;  // where nothing else is learned, what is known must do
+  }
+  return known();
 }
 
 template <typename T>
@@ -104,12 +109,18 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
     return std::nullopt;
   }
   static_assert(kFacePoints == FaceLandmarks::kCount);
+  // While the person is lost, the face may be somebody else's, from whom nothing is learned.
+  std::optional<NeutralFace> kept;
+  if (state.phase == Phase::lost) {
+    kept = state.neutral_face;
+  }
+  NeutralFace& neutral = kept ? *kept : state.neutral_face;
   const auto motion_of = [&](const std::array<FaceLandmark, FaceLandmarks::kCount>& seen) {
     FacePoints points;
     for (std::size_t i = 0; i < kFacePoints; ++i) {
       points[i] = {seen[i].pixel.x(), seen[i].pixel.y(), seen[i].depth};
     }
-    return face_motion(points, features.face->presence, camera, features.time, state.neutral_face);
+    return face_motion(points, features.face->presence, camera, features.time, neutral);
   };
   FaceMotion face = motion_of(features.face->points);
   if (features.face->again) {
@@ -121,6 +132,7 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
 // After a pause the last pose says nothing: the person is searched for as after a loss, in this frame.
 void advance_time(double time, const Tracker& tracker, TrackerState& state, FrameEstimate& result) {
   state.elapsed = std::min(units_between(state.time, time), kMostSteps);
+  state.lost_for += state.phase == Phase::lost ? state.elapsed : 0.0;
   state.steps_before = state.steps;
   state.steps = steps_between(state.time, time);
   if (time - state.time > kLongestGap) {
@@ -191,8 +203,8 @@ void follow_residual(const PreparedFrame& frame, const Score& score, TrackerStat
 
 // The hands at the wrists of the pose that was found; at rest while nobody is tracked.
 HandMotions hands_of(const FrameFeatures& features, const Tracker& tracker, TrackerState& state) {
-  const bool tracking = state.phase == Phase::tracking;
-  return observe_hands(tracking ? *features.hands : std::array<SeenHand, 2>{},
+  const SeenHand nobody{.looked = true, .found = {}};
+  return observe_hands(state.phase == Phase::tracking ? *features.hands : std::array{nobody, nobody},
                        {.body = state.model.body,
                         .kinematics = forward_kinematics(state.model.body, state.pose),
                         .camera = tracker.working_camera,
@@ -286,6 +298,9 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
       // Found: the first frame to which the body can be fitted (thesis 3.3), or the known person again.
       find_person(features, tracker, state, result);
     }
+  } else if (state.phase == Phase::tracking) {
+    // Nothing shows the body: the last pose stays for a moment.
+    check_unseen(features, tracker, state, result);
   }
   // Poses for the passes over a whole file.
   const bool tracking = state.phase == Phase::tracking;

@@ -36,7 +36,7 @@ struct FrameRecord {
 enum class ColourRequest {
   keep,           ///< a person is calibrated: their colours stay
   learn,          ///< learn them from a face, if they are not known
-  learn_faceless  ///< a face has not been found for a second: the outline of the head must do
+  learn_faceless  ///< a face has not been found for a while: colours that are known must do
 };
 
 /// What the search side asks of the next frame's `extract`.

@@ -68,6 +68,7 @@ void forget_person(TrackingRun& run) {
   state.region_residual.reset();
   state.bad_frames = 0;
   state.bad_for = 0.0;
+  state.lost_for = 0.0;
   state.waited = 0.0;
   state.steps_until_search = 0.0;
 }
