@@ -79,8 +79,9 @@ LiveAnswers::Answer LiveAnswers::carry_out(std::uint64_t client, const Command& 
 }
 
 LiveAnswers::Answer LiveAnswers::add_output(std::uint64_t client, const std::string& url) {
+  bool is_new = false;
   try {
-    senders_.add(url);
+    is_new = senders_.add(url);
   } catch (const Error& e) {
     const std::string shown = without_password(url);
     const std::string words = e.what();
@@ -89,7 +90,8 @@ LiveAnswers::Answer LiveAnswers::add_output(std::uint64_t client, const std::str
                                                   ? "the output \"" + shown + "\": " + words
                                                   : words);
   }
-  if (hooks_.from_here(client)) {
+  // One that was paused is saved already, or is an output of the command line.
+  if (is_new && hooks_.from_here(client)) {
     hooks_.keep(url);
   }
   return changed(true, url);

@@ -51,7 +51,7 @@ std::string SenderList::url_of_new(const std::string& given, const std::string& 
   return given == known ? entry->url : given;
 }
 
-void SenderList::add(const std::string& given) {
+bool SenderList::add(const std::string& given) {
   const std::string meaning = meaning_of(given, kinds_);
   std::string url;
   {
@@ -67,6 +67,7 @@ void SenderList::add(const std::string& given) {
   }
   Entry* const entry = find(meaning);
   (entry == nullptr ? entries_.emplace_back() : *entry) = {url, meaning, sender};
+  return entry == nullptr;
 }
 
 void SenderList::offer(const std::string& url) {

@@ -18,9 +18,10 @@ class SenderList {
   explicit SenderList(SenderKinds kinds = sender_kinds()) : kinds_(kinds) {}
   SenderKinds kinds() const { return kinds_; }
 
-  /// Adds an output, or switches one on; a URL without its password then uses the known password. Throws
-  /// Error(usage) if the URL is invalid, if the output is on already, or if the list is full.
-  void add(const std::string& given);
+  /// Adds an output, or switches one on; a URL without its password then uses the known password. Returns
+  /// whether it was not in the list. Throws Error(usage) if the URL is invalid, if the output is on already,
+  /// or if the list is full.
+  bool add(const std::string& given);
   /// Adds an output of an earlier run, off. One that is already listed is not changed. Throws as add() does.
   void offer(const std::string& url);
   /// Stops sending; the output stays in the list. False if it is not listed.

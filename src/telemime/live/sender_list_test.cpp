@@ -33,6 +33,15 @@ TEST(SenderList, EquivalentUrlsAreOneOutput) {
   EXPECT_TRUE(list.status().empty());
 }
 
+TEST(SenderList, SaysWhetherAnOutputIsNew) {
+  SenderList list;
+  EXPECT_TRUE(list.add("vmc://localhost"));
+  EXPECT_TRUE(list.switch_off("vmc://localhost"));
+  EXPECT_FALSE(list.add("vmc://localhost")) << "switched on again";
+  EXPECT_TRUE(list.remove("vmc://localhost"));
+  EXPECT_TRUE(list.add("vmc://localhost"));
+}
+
 TEST(SenderList, NothingIsSentToAnOutputThatIsOff) {
   UdpReceiver receiver;
   const StreamHeader header = testing_motion::header();

@@ -73,6 +73,7 @@ class WebSocketLink final : public Link {
 
   void close() noexcept override {
     if (stream_) {
+      say_goodbye();
       boost::system::error_code ignored;
       stream_->next_layer().close(ignored);
     }
@@ -80,6 +81,23 @@ class WebSocketLink final : public Link {
 
  private:
   using Stream = beast::websocket::stream<asio::ip::tcp::socket>;
+
+  /// The closing handshake (RFC 6455, section 7), without the loop, which is ending.
+  void say_goodbye() noexcept {
+    constexpr std::chrono::milliseconds kLongestGoodbye(200);
+    if (!stream_->is_open()) {
+      return;
+    }
+    try {
+      const auto closed = std::make_shared<Completion>();
+      stream_->async_close(beast::websocket::close_code::normal, note<>(closed));
+      const auto end = std::chrono::steady_clock::now() + kLongestGoodbye;
+      while (!closed->done && loop_.io().run_one_until(end) > 0) {
+      }
+    } catch (const std::exception&) {  // the connection is broken: nobody waits for a goodbye
+      return;
+    }
+  }
 
   void write(std::string message) {
     const auto text = std::make_shared<const std::string>(std::move(message));

@@ -10,6 +10,7 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <future>
 #include <nlohmann/json.hpp>
 
 #include "telemime/outputs/testing_motion.h"
@@ -52,6 +53,15 @@ class Server {
     stream_->write(asio::buffer(text), hung_up);
   }
   void close() { stream_->close(beast::websocket::close_code::going_away); }
+  /// Reads until the client has closed; the code that it gave.
+  std::optional<std::uint16_t> code_at_end() {
+    boost::system::error_code error;
+    while (!error) {
+      beast::flat_buffer buffer;
+      stream_->read(buffer, error);
+    }
+    return error == beast::websocket::error::closed ? std::optional(stream_->reason().code) : std::nullopt;
+  }
 
  private:
   asio::io_context io_;
@@ -105,6 +115,16 @@ TEST_F(WebSocketSender, ThePersonComesFirstAlsoAfterABreakAndAnew) {
   const json person = server_.read();
   EXPECT_EQ(person["type"], "body");
   EXPECT_EQ(person["stature"], 1.5);
+}
+
+TEST_F(WebSocketSender, EndsWithTheClosingHandshake) {
+  auto sender = this->sender();
+  server_.accept();
+  sender->begin(header_);
+  EXPECT_EQ(server_.read()["type"], "body");
+  auto code = std::async(std::launch::async, [this] { return server_.code_at_end(); });
+  sender.reset();
+  EXPECT_EQ(code.get(), static_cast<std::uint16_t>(beast::websocket::close_code::normal));
 }
 
 TEST_F(WebSocketSender, WhatTheReceiverSaysIsReadAndForgotten) {

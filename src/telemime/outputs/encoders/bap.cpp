@@ -28,6 +28,7 @@ class BapEncoder final : public Encoder {
 
   std::string begin(const StreamHeader& header) override {
     fingers_ = header.fingers;
+    mask_.clear();
     const auto ids = bap_ids(profile_);
     const auto& finger_ids = finger_bap_ids();
     for (int id = 1; id <= profile_.mask_length; ++id) {
