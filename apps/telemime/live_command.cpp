@@ -145,7 +145,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
     command.loop = true;
   }
   command.live.request = make_request(command.track);
-  command.live.request.keep_pace = keeps_pace(given_settings(command.track));
+  command.live.request.keep_pace = keeps_pace(all_settings(command.track));
   command.live.version = TELEMIME_VERSION;
   command.live.avatars = avatar_folder();
   command.live.settings = command.no_settings ? std::filesystem::path() : settings_file();

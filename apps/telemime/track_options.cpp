@@ -71,6 +71,9 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command.add_flag("--quiet", o.quiet, "Print errors only.");
 }
 
+namespace {
+
+// The values of the public options and of --set.
 SettingValues given_settings(const TrackOptions& o) {
   SettingValues values = o.settings;
   for (const std::string& assignment : o.assignments) {
@@ -84,15 +87,23 @@ SettingValues given_settings(const TrackOptions& o) {
   return values;
 }
 
-TrackRequest make_request(const TrackOptions& o) {
-  TrackRequest request = o.request;
-  request.version = TELEMIME_VERSION;
+}  // namespace
+
+SettingValues all_settings(const TrackOptions& o) {
   SettingValues values = o.config_file.empty() ? SettingValues() : read_settings(o.config_file);
-  update(request.config, values);
+  Config checked;
+  update(checked, values);
   for (const auto& [name, value] : given_settings(o)) {
     values[name] = value;
   }
-  // Again from the defaults, so that a quality given here does not replace what the file sets.
+  return values;
+}
+
+TrackRequest make_request(const TrackOptions& o) {
+  TrackRequest request = o.request;
+  request.version = TELEMIME_VERSION;
+  // From the defaults, so that a quality given here does not replace what the file sets.
+  const SettingValues values = all_settings(o);
   request.config = Config();
   try {
     update(request.config, values);

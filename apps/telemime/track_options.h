@@ -26,8 +26,9 @@ void add_setting_options(CLI::App& command, TrackOptions& options);
 /// Adds INPUT and all options of tracking to a subcommand; `options` must outlive the parsing.
 void add_track_options(CLI::App& command, TrackOptions& options);
 
-/// The values of the public options and of --set. Throws Error(usage).
-SettingValues given_settings(const TrackOptions& options);
+/// All settings that are given: the configuration file first, then the command line. Throws Error(config) for
+/// the file and Error(usage) for the command line.
+SettingValues all_settings(const TrackOptions& options);
 
 /// The request that results from the options: configuration file first, then the command line. Throws
 /// Error(config) for the file and Error(usage) for the command line.

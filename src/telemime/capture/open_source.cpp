@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <system_error>
 #include <utility>
@@ -38,10 +39,19 @@ LiveDevice camera_device(const std::string& device) {
     video.set(cv::CAP_PROP_FRAME_HEIGHT, mode->height);
     video.set(cv::CAP_PROP_FPS, std::min(mode->fps > 0.0 ? mode->fps : kMostRate, kMostRate));
   }
-  video.set(cv::CAP_PROP_BUFFERSIZE, 1);  // old frames in the driver's queue are only delay
+  // OpenCV before 4.11 exchanges red and blue of NV12 (https://github.com/opencv/opencv/pull/26081).
+  constexpr bool kExchanges = CV_VERSION_MAJOR * 100 + CV_VERSION_MINOR < 411;
+  const bool exchanged = kExchanges && static_cast<int>(video.get(cv::CAP_PROP_FOURCC)) ==
+                                           cv::VideoWriter::fourcc('N', 'V', '1', '2');
   return {
       [video]() mutable { return video.grab(); },
-      [video](cv::Mat& picture) mutable { return video.retrieve(picture); },
+      [video, exchanged](cv::Mat& picture) mutable {
+        const bool taken = video.retrieve(picture);
+        if (taken && exchanged) {
+          cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);
+        }
+        return taken;
+      },
       // The driver's own stamp; of the monotonic clock with nearly all drivers (uvcvideo: its first bytes).
       [video] { return video.get(cv::CAP_PROP_POS_MSEC) / 1000.0; }, video.get(cv::CAP_PROP_FPS)};
 }
@@ -71,8 +81,16 @@ std::unique_ptr<Source> open_camera(const std::string& input, InputKind kind, co
   if (const std::string why = why_no_images(cameras, device); !why.empty()) {
     throw cannot_read(input, kind, why, cameras_found(cameras));
   }
+  // A camera that was away may come back under another number; its link by id then leads there.
+  const auto own = std::find_if(cameras.begin(), cameras.end(),
+                                [&](const CameraInfo& camera) { return camera.device == device; });
+  const auto now_at = [device, by_id = own == cameras.end() ? "" : own->by_id] {
+    std::error_code missing;
+    const std::filesystem::path found = std::filesystem::canonical(by_id, missing);
+    return missing ? device : found.string();
+  };
   std::unique_ptr<Source> source = live_source(
-      input, [device] { return camera_device(device); }, options);
+      input, [now_at] { return camera_device(now_at()); }, options);
   if (!source) {
     throw cannot_read(input, kind, device + " delivers no images",
                       "Close other programs that use the camera. " + cameras_found(cameras));
