@@ -27,6 +27,12 @@ PoseFile poses_of(const std::vector<FramePointer>& frames) {
   PoseFile file;
   file.camera = (*known)->header->camera;
   for (const FramePointer& frame : frames) {
+    // A live run ends with its last frame once more, as lost.
+    const bool repeated = !file.frames.empty() && frame->motion.frame == file.frames.back().frame &&
+                          frame->motion.state == TrackState::lost;
+    if (repeated) {
+      continue;
+    }
     if (!file.frames.empty() && frame->motion.frame <= file.frames.back().frame) {
       throw py::value_error("the frames must come in the order of their numbers");
     }

@@ -11,6 +11,7 @@ def test_a_file_plays_in_real_time_and_ends(clip, quick):
     began = time.monotonic()
     with telemime.live(clip / "video.mp4", background=clip / "background.mp4", settings=quick) as run:
         frames = list(run)
+    assert telemime.evaluate(frames, clip / "truth.json", by_time=True)["frames"]["scored"] > 0
     last = frames.pop()
     assert last.lost, "the last one again: nobody is followed any more"
     assert time.monotonic() - began > 6.0, "165 frames of 1/25 s"
