@@ -106,7 +106,8 @@ TEST(FillBack, TheirHandsAreThoseThatWereSeen) {
   for (std::size_t i = 0; i + 1 < kPersonFrames; ++i) {
     FrameRecord lost = t.lost(i);
     lost.features.hands.emplace();
-    (*lost.features.hands)[0] = {.looked = true, .found = open_hand(clip().truth[i], t.run.tracker.working_camera)};
+    (*lost.features.hands)[0] = {.looked = true,
+                                 .found = open_hand(clip().truth[i], t.run.tracker.working_camera)};
     lost.estimate.motion.hands.emplace();
     t.push(lost);
   }
