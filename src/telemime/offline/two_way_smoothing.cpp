@@ -127,7 +127,7 @@ std::optional<MotionFrame> smoothed_front(TwoWaySmoothing& smoothing, const Reco
   const auto at_end = std::find_if(queue.records.begin(), smoothed_end, [until](const FrameRecord& record) {
     return record.estimate.motion.time >= until;
   });
-  if (at_end == smoothed_end && !last) {
+  if (at_end == smoothed_end && !last && queue.smoothed < kMostWaiting) {
     return std::nullopt;
   }
   if (smoothing.options.look_ahead == 0) {

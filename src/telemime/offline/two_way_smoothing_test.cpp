@@ -82,6 +82,27 @@ TEST_F(TwoWaySmoothingTest, EveryFrameComesOutOnceInOrder) {
   }
 }
 
+TEST_F(TwoWaySmoothingTest, FastInputWaitsForNoMoreThanItMay) {
+  SmoothingOptions options;
+  TwoWaySmoothing smoothing = make_two_way_smoothing(options, body, camera);
+  RecordQueue queue;
+  std::size_t written = 0;
+  for (MotionFrame& frame : frames(static_cast<int>(kMostWaiting) + 10, swinging)) {
+    frame.time *= 0.01;  // 2500 a second
+    queue.records.emplace_back().estimate.motion = frame;
+    ++queue.chosen;
+    smooth_forward(smoothing, queue);
+    if (const auto next = smoothed_front(smoothing, queue, false)) {
+      EXPECT_EQ(next->frame, static_cast<std::int64_t>(written++));
+      queue.records.pop_front();
+      --queue.smoothed;
+      --queue.chosen;
+    }
+    ASSERT_LT(queue.records.size(), kMostWaiting);
+  }
+  EXPECT_EQ(written, 11U);
+}
+
 TEST_F(TwoWaySmoothingTest, APoseThatRestsStays) {
   const auto result = smoothed(frames(20, [](int) { return swinging(7); }), 12);
   for (const MotionFrame& f : result) {
