@@ -30,7 +30,7 @@ struct EvaluateArguments {
 void write_json(const std::string& file, const Evaluation& evaluation) {
   errno = 0;
   std::ofstream stream(file);
-  stream << evaluation_json(evaluation).dump(2) << '\n';
+  stream << evaluation_json(evaluation).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   stream.close();
   if (!stream) {
     throw Error(ErrorKind::output, "cannot write " + file + ": " + std::generic_category().message(errno),

@@ -188,9 +188,14 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
     while (next < requests.size() && running.size() < static_cast<std::size_t>(options.jobs) &&
            !interrupted()) {
       const std::size_t i = next++;
-      if (!options.again && is_finished(requests[i])) {
+      const FinishedRun before = options.again ? FinishedRun::none : finished_run(requests[i]);
+      if (before == FinishedRun::complete) {
         ++found;
         say(i, "done before; results in " + requests[i].out.string());
+      } else if (before == FinishedRun::nobody_tracked) {
+        ++failed;
+        code = code == 0 ? kExitTracking : code;
+        say(i, "done before: nobody was tracked; results in " + requests[i].out.string());
       } else {
         running[start(requests[i], options, told[i])] = i;
       }

@@ -25,7 +25,7 @@ struct ManyOptions {
 };
 
 /// Tracks several files, each in a process of its own, so that none can take the others with it. Files whose
-/// results are there (is_finished) are left out. Prints one line for each file. Returns the exit code of the
+/// results are there (finished_run) are left out. Prints one line for each file. Returns the exit code of the
 /// first that failed, or 0. Ctrl-C stops those that run, which keep what they have, and starts no more; then
 /// throws Interrupted.
 int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& options);

@@ -2,7 +2,7 @@
 #include "telemime/offline/finished_run.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,12 +16,22 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// What has no time of its own (nothing, a stream, a pattern of images, a preset's name) is taken for
-// unchanged.
-bool is_newer(const std::string& file, fs::file_time_type than) {
+// Size and time of a file, by which it is told from another of the same name; null for what has none
+// (nothing, a stream, a pattern of images, a preset's name).
+Json identity_of(const std::string& name) {
+  const std::string file = without_file_scheme(name);
   std::error_code unknown;
   const auto time = fs::last_write_time(file, unknown);
-  return !unknown && time > than;
+  if (unknown) {
+    return nullptr;
+  }
+  const std::uintmax_t size = fs::is_regular_file(file, unknown) ? fs::file_size(file, unknown) : 0;
+  return {{"size", size}, {"time", time.time_since_epoch().count()}};
+}
+
+// As it is after it was written and read: names that are not UTF-8 change.
+Json as_read(const Json& json) {
+  return Json::parse(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -42,36 +52,33 @@ Json request_json(const TrackRequest& r) {
           {"overlay", r.overlay},
           {"frames", r.most_frames},
           {"networks", uses_networks(r.config)},
+          {"read",
+           {identity_of(r.input), identity_of(r.background), identity_of(r.camera),
+            identity_of(r.calibration), identity_of(r.config.limits), identity_of(r.config.filter.model)}},
           {"settings", settings}};
 }
 
-bool is_finished(const TrackRequest& request) {
-  const fs::path file = request.out / "report.json";
-  std::error_code missing;
-  const auto written = fs::last_write_time(file, missing);
-  if (missing) {
-    return false;
+FinishedRun finished_run(const TrackRequest& request) {
+  // Nothing tells whether a stream, or a clip on a server, is still the same.
+  if (input_kind(request.input) == InputKind::stream) {
+    return FinishedRun::none;
   }
-  std::ifstream stream(file);
+  std::ifstream stream(request.out / "report.json");
   const Json report = Json::parse(stream, nullptr, false);
   if (!report.is_object() || report.value("interrupted", Json(true)) != Json(false) ||
-      report.value("request", Json()) != request_json(request) || !report.value("files", Json()).is_array()) {
-    return false;
+      report.value("request", Json()) != as_read(request_json(request)) ||
+      !report.value("files", Json()).is_array()) {
+    return FinishedRun::none;
   }
   const auto is_there = [](const Json& name) {
     std::error_code ignored;
     return name.is_string() && fs::exists(name.get<std::string>(), ignored);
   };
   const auto& files = report.at("files");
-  const std::array<std::string, 6> read = {without_file_scheme(request.input),
-                                           without_file_scheme(request.background),
-                                           request.camera,
-                                           request.calibration,
-                                           request.config.limits,
-                                           request.config.filter.model};
-  return std::all_of(files.begin(), files.end(), is_there) &&
-         std::none_of(read.begin(), read.end(),
-                      [&](const std::string& name) { return is_newer(name, written); });
+  if (!std::all_of(files.begin(), files.end(), is_there)) {
+    return FinishedRun::none;
+  }
+  return report.value("tracked", Json()) == Json(0) ? FinishedRun::nobody_tracked : FinishedRun::complete;
 }
 
 }  // namespace telemime

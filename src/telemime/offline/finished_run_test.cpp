@@ -33,9 +33,9 @@ struct FinishedExample {
 
 TEST(FinishedRun, IsOneWithAReportOfTheSameRequest) {
   FinishedExample run;
-  EXPECT_TRUE(is_finished(run.request));
+  EXPECT_EQ(finished_run(run.request), FinishedRun::complete);
   run.request.config.threads = 3;
-  EXPECT_TRUE(is_finished(run.request)) << "threads change no result";
+  EXPECT_EQ(finished_run(run.request), FinishedRun::complete) << "threads change no result";
 }
 
 TEST(FinishedRun, AnyOtherRequestIsNot) {
@@ -58,30 +58,64 @@ TEST(FinishedRun, AnyOtherRequestIsNot) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
     FinishedExample run;
     changes[i](run.request);
-    EXPECT_FALSE(is_finished(run.request)) << "change " << i;
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << "change " << i;
   }
 }
 
 TEST(FinishedRun, OneThatWasStoppedOrIsIncompleteIsNot) {
   FinishedExample run;
   run.write({{"request", request_json(run.request)}, {"interrupted", true}, {"files", {run.pose()}}});
-  EXPECT_FALSE(is_finished(run.request));
+  EXPECT_EQ(finished_run(run.request), FinishedRun::none);
   run.write({{"request", request_json(run.request)}, {"interrupted", false}});
-  EXPECT_FALSE(is_finished(run.request)) << "no files";
+  EXPECT_EQ(finished_run(run.request), FinishedRun::none) << "no files";
   for (const char* text : {"", "{", "[]", "null", "{\"files\": 3}", "{\"request\": {}}"}) {
     std::ofstream(run.request.out / "report.json") << text;
-    EXPECT_FALSE(is_finished(run.request)) << text;
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << text;
   }
   FinishedExample without;
   fs::remove(without.pose());
-  EXPECT_FALSE(is_finished(without.request));
+  EXPECT_EQ(finished_run(without.request), FinishedRun::none);
 }
 
-TEST(FinishedRun, ANewerInputIsTrackedAgain) {
+TEST(FinishedRun, AnotherInputOfTheSameNameIsTrackedAgain) {
+  for (const int hours : {1, -1}) {
+    const FinishedExample run;
+    const auto time = fs::last_write_time(run.request.input);
+    fs::last_write_time(run.request.input, time + std::chrono::hours(hours));
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << hours;
+    fs::last_write_time(run.request.input, time);
+    EXPECT_EQ(finished_run(run.request), FinishedRun::complete);
+    std::ofstream(run.request.input) << "another clip";
+    fs::last_write_time(run.request.input, time);
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << "another size";
+  }
+}
+
+TEST(FinishedRun, AStreamIsTrackedAgain) {
+  FinishedExample run;
+  run.request.input = "http://nas/clip?id=6";
+  run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
+  EXPECT_EQ(finished_run(run.request), FinishedRun::none);
+}
+
+TEST(FinishedRun, NobodyTrackedIsNoSuccess) {
   const FinishedExample run;
-  fs::last_write_time(run.request.input,
-                      fs::last_write_time(run.request.out / "report.json") + std::chrono::hours(1));
-  EXPECT_FALSE(is_finished(run.request));
+  run.write({{"request", request_json(run.request)},
+             {"interrupted", false},
+             {"files", {run.pose()}},
+             {"tracked", 0}});
+  EXPECT_EQ(finished_run(run.request), FinishedRun::nobody_tracked);
+}
+
+TEST(FinishedRun, NamesNeedNotBeUtf8) {
+  FinishedExample run;
+  run.request.input = run.folder.file("caf\xe9.mp4");
+  std::ofstream(run.request.input) << "a clip";
+  std::ofstream(run.request.out / "report.json") << nlohmann::json{
+      {"request", request_json(run.request)},
+      {"interrupted", false},
+      {"files", {run.pose()}}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  EXPECT_EQ(finished_run(run.request), FinishedRun::complete);
 }
 
 TEST(FinishedRun, SoIsWhatHasNewerLimitsOrNumbers) {
@@ -92,9 +126,9 @@ TEST(FinishedRun, SoIsWhatHasNewerLimitsOrNumbers) {
   for (std::string* setting : {&run.request.config.limits, &run.request.config.filter.model}) {
     const std::string before = std::exchange(*setting, numbers);
     run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
-    EXPECT_TRUE(is_finished(run.request));
+    EXPECT_EQ(finished_run(run.request), FinishedRun::complete);
     fs::last_write_time(numbers, fs::file_time_type::clock::now() + std::chrono::hours(1));
-    EXPECT_FALSE(is_finished(run.request));
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none);
     fs::last_write_time(numbers, fs::file_time_type::clock::now() - std::chrono::hours(1));
     *setting = before;
   }
@@ -105,9 +139,9 @@ TEST(FinishedRun, AnInputGivenByUrlIsAFileToo) {
   const std::string path = run.request.input;
   run.request.input = "file://" + path;
   run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
-  EXPECT_TRUE(is_finished(run.request));
+  EXPECT_EQ(finished_run(run.request), FinishedRun::complete);
   fs::last_write_time(path, fs::file_time_type::clock::now() + std::chrono::hours(1));
-  EXPECT_FALSE(is_finished(run.request));
+  EXPECT_EQ(finished_run(run.request), FinishedRun::none);
 }
 
 TEST(FinishedRun, AReportHoldsNoPasswords) {

@@ -110,7 +110,8 @@ void RunOutputs::close(const nlohmann::json& report) {
   if (folder_.empty()) {
     return;
   }
-  write_whole_file(folder_ / "report.json", report.dump(2) + "\n");
+  write_whole_file(folder_ / "report.json",
+                   report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 std::vector<std::string> RunOutputs::files() const {

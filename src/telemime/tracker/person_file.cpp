@@ -63,7 +63,7 @@ void save_person(const PersonFile& p, const std::filesystem::path& file) {
                      {"lens", {{"fisheye", p.lens.fisheye}, {"coefficients", p.lens.coefficients}}}};
   // The scene first: a calibration is only there when all of it is.
   save_calibration(p.image, scene_of(file));
-  write_whole_file(file, json.dump(2) + "\n");
+  write_whole_file(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 PersonFile parse_person(std::string_view text, const std::filesystem::path& name) {
