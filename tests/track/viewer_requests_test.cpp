@@ -55,6 +55,24 @@ TEST(ViewerRequests, CalibratingAgainLosesNoFrame) {
   EXPECT_EQ(frames_in(folder), first(30));
 }
 
+TEST(ViewerRequests, CalibratingAgainTakesTheNewBones) {
+  const ScratchFolder folder;
+  int written = 0;
+  RunHooks hooks;
+  hooks.progress = [&](const Progress& progress) {
+    written += progress.motion != nullptr ? 1 : 0;
+    return progress.motion != nullptr && written == 10 ? ViewerRequest::recalibrate : ViewerRequest::none;
+  };
+  std::vector<double> forearms;
+  hooks.motion = [&](const MotionFrame& motion) {
+    forearms.push_back((motion.joints[Joint::l_wrist] - motion.joints[Joint::l_elbow]).norm());
+  };
+  track_file(short_run(folder), hooks);
+  ASSERT_EQ(forearms.size(), 30U);
+  EXPECT_NEAR(forearms[5], forearms[0], 1e-9);
+  EXPECT_GT(std::abs(forearms[29] - forearms[0]), 1e-6) << "fitted to other frames";
+}
+
 TEST(ViewerRequests, StoppedWhileTheBodyIsFittedItKeepsWhatItHas) {
   const ScratchFolder folder;
   int fitted = 0;

@@ -42,6 +42,7 @@ nlohmann::json RunStatistics::json() const {
 FileRun::FileRun(const TrackRequest& request, const RunHooks& hooks, const SourceInfo& info,
                  const TrackingRun& run)
     : request_(request),
+      asked_(request_json(request)),
       hooks_(hooks),
       info_(info),
       run_(run),
@@ -60,7 +61,7 @@ ViewerRequest FileRun::add(FrameRecord record) {
   for (const std::string& warning : record.features.warnings) {
     note(warning);
   }
-  if (run_.state.person && !smoothing_) {
+  if (run_.state.person && (!smoothing_ || person_ended_)) {
     begin();
   }
   keep_picture(picture_side(), record.frame);
@@ -90,6 +91,7 @@ ViewerRequest FileRun::add(FrameRecord record) {
 void FileRun::end_person() {
   end_fill_back(run_.tracker, queue_);
   advance(true);
+  person_ended_ = true;
 }
 
 TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
@@ -116,7 +118,7 @@ TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
   summary.interrupted = interrupted;
   summary.report = statistics_.json();
   summary.report["input"] = info_.name;
-  summary.report["request"] = request_json(request_);
+  summary.report["request"] = asked_;
   summary.report["fps"] = info_.fps;
   summary.report["seconds"] = summary.seconds;
   summary.report["interrupted"] = interrupted;
@@ -134,13 +136,18 @@ TrackSummary FileRun::finish(bool interrupted, const std::string& complaint,
   return summary;
 }
 
-// Every output file begins with the person's shape.
+// Every output file begins with the first person's shape.
 void FileRun::begin() {
   const StreamHeader header = header_of(info_, run_);
-  outputs_.begin(header);
-  if (hooks_.person) {
-    hooks_.person(header);
+  if (smoothing_) {
+    write_ready(true);
+  } else {
+    outputs_.begin(header);
+    if (hooks_.person) {
+      hooks_.person(header);
+    }
   }
+  person_ended_ = false;
   smoothing_ = make_two_way_smoothing(request_.config.smoothing, header.body, header.camera);
 }
 

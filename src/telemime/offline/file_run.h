@@ -51,6 +51,7 @@ class FileRun {
   int picture_side() const;
 
  private:
+  /// The person whose bones the joints have from now on; the outputs begin with the first.
   void begin();
   void advance(bool last);
   void write_ready(bool last);
@@ -58,6 +59,7 @@ class FileRun {
   void note(const std::string& message);
 
   const TrackRequest& request_;
+  const nlohmann::json asked_;  ///< request_json() before anything is read
   const RunHooks& hooks_;
   const SourceInfo& info_;
   const TrackingRun& run_;
@@ -71,6 +73,7 @@ class FileRun {
   Random fill_seeds_;
   WindowState window_;
   std::optional<TwoWaySmoothing> smoothing_;  ///< since a person was calibrated
+  bool person_ended_ = false;                 ///< another one is to be calibrated
   RunStatistics statistics_;
   cv::Mat overlay_;  ///< the last one drawn
 };
