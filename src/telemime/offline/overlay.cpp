@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/offline/overlay.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "telemime/render/renderer.h"
@@ -121,6 +124,25 @@ void text(cv::Mat& canvas, const std::string& words, cv::Point at, double unit, 
   cv::putText(canvas, words, at, cv::FONT_HERSHEY_SIMPLEX, 0.42 * unit, colour, 1, cv::LINE_AA);
 }
 
+// The 95 % region of a joint in the plane x-z.
+void draw_spread(cv::Mat& panel, const Eigen::Matrix3d& covariance, cv::Point at, double pixels_a_metre,
+                 const cv::Scalar& colour) {
+  constexpr double kRadius =
+      2.4477;  // standard deviations: the 95 % region of a normal distribution in a plane
+  Eigen::Matrix2d plane;
+  plane << covariance(0, 0), -covariance(0, 2), -covariance(2, 0),
+      covariance(2, 2);  // z is up in the picture
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(plane);
+  const auto half = [&](int i) {
+    const double length = kRadius * std::sqrt(std::max(0.0, axes.eigenvalues()[i])) * pixels_a_metre;
+    return std::max(1, static_cast<int>(length * (1 << kFractionBits)));
+  };
+  const Eigen::Vector2d major = axes.eigenvectors().col(1);
+  const double degrees = std::atan2(major.y(), major.x()) * 180.0 / std::numbers::pi;
+  cv::ellipse(panel, at, {half(1), half(0)}, degrees, 0.0, 360.0, 0.5 * colour, 1, cv::LINE_AA,
+              kFractionBits);
+}
+
 // The scene from above: the camera at the lower edge, one ring each half metre.
 void draw_top_view(cv::Mat& panel, const MotionFrame& motion, double unit) {
   const double range = 2.0 * std::max(0.5, std::ceil(motion.joints[Joint::neck].z() + 0.3)) / 2.0;
@@ -143,6 +165,14 @@ void draw_top_view(cv::Mat& panel, const MotionFrame& motion, double unit) {
   }
   cv::drawMarker(panel, {static_cast<int>(middle), static_cast<int>(panel.rows * 0.95)}, kInk,
                  cv::MARKER_TRIANGLE_UP, static_cast<int>(8 * unit), 1, cv::LINE_AA);
+  if (motion.spread) {
+    for (const auto& [joint, colour] :
+         {std::pair{Joint::l_elbow, kLeft}, std::pair{Joint::l_wrist, kLeft},
+          std::pair{Joint::r_elbow, kRight}, std::pair{Joint::r_wrist, kRight}}) {
+      draw_spread(panel, motion.spread->covariance[static_cast<std::size_t>(joint)], at(motion.joints[joint]),
+                  pixels_a_metre, colour);
+    }
+  }
   const int thick = std::max(1, static_cast<int>(std::lround(2.0 * unit)));
   for (const Bone& bone : kBones) {
     cv::line(panel, at(motion.joints[bone.from]), at(motion.joints[bone.to]), *bone.colour, thick,
