@@ -35,7 +35,9 @@ Matched match(const std::vector<MotionFrame>& frames, std::size_t count) {
   }
   const MotionFrame* last = nullptr;
   for (std::size_t t = 0; t < count; ++t) {
-    last = matched.exact[t] != nullptr ? matched.exact[t] : last;
+    // The pose of a frame in which nobody was tracked yet is not one.
+    const MotionFrame* const here = matched.exact[t];
+    last = here != nullptr && (last != nullptr || here->state == TrackState::tracking) ? here : last;
     matched.last[t] = last;
   }
   return matched;

@@ -226,7 +226,10 @@ TEST(Evaluate, CountsLostFramesBothWays) {
 TEST(Evaluate, FramesMissingFromTheFileAreLost) {
   Scene scene;
   scene.frames.erase(scene.frames.begin() + 20, scene.frames.begin() + 30);
-  scene.frames.erase(scene.frames.begin(), scene.frames.begin() + 5);
+  scene.frames.erase(scene.frames.begin(), scene.frames.begin() + 2);
+  for (std::size_t t = 0; t < 3; ++t) {
+    scene.frames[t].state = TrackState::lost;  // before the first pose
+  }
   scene.frames.push_back(scene.frames.back());
   scene.frames.back().frame = 100;  // the truth ends with 99
   const Evaluation result = scene.run();
@@ -385,7 +388,8 @@ TEST(Evaluate, ReportIsWholeForATrackThatWasAlwaysLost) {
   const Evaluation result = scene.run();
   EXPECT_EQ(result.tracked.frames, 0U);
   EXPECT_FALSE(result.tracked.scored.aligned);
-  EXPECT_TRUE(result.all.scored.aligned);
+  EXPECT_FALSE(result.all.scored.aligned);
+  EXPECT_EQ(result.unmeasured_frames, 100U);
   EXPECT_NE(evaluation_table(result).find("100.0 %"), std::string::npos);
   EXPECT_EQ(evaluation_json(result).at("lost").at("all_frames"), 1.0);
   EXPECT_TRUE(evaluation_json(result).at("turn").is_null());
