@@ -18,6 +18,15 @@ TrackRequest make_request(const std::string& settings, const std::string& input,
                           const std::string& background, const std::string& camera,
                           const std::string& calibration, double rate, bool mirrored, const std::string& out,
                           std::vector<std::string> formats, std::int64_t frames) {
+  if (frames < 0) {
+    throw Error(ErrorKind::usage, "frames is " + std::to_string(frames) + ", but no number is negative",
+                "0 is all of them.");
+  }
+  constexpr double kLowestRate = 0.001, kHighestRate = 1000.0;
+  if (rate != 0.0 && !(rate >= kLowestRate && rate <= kHighestRate)) {
+    throw Error(ErrorKind::usage,
+                "rate must be between 0.001 and 1000 frames a second, or 0: as the file says");
+  }
   TrackRequest request;
   request.version = TELEMIME_VERSION;
   request.input = input;

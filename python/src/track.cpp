@@ -25,8 +25,12 @@ class FileTrack {
   ~FileTrack() { close(); }
 
   FramePointer next() {
-    if (!run_.joinable() && !frames_.closed()) {
-      run_ = std::thread([this] { work(); });
+    {
+      const py::gil_scoped_release others;
+      const std::lock_guard lock(run_mutex_);
+      if (!run_.joinable() && !frames_.closed()) {
+        run_ = std::thread([this] { work(); });
+      }
     }
     FramePointer frame = wait_for_frame(frames_, [this] { return frames_.closed(); });
     if (!frame) {
@@ -43,6 +47,7 @@ class FileTrack {
   void close() {
     const py::gil_scoped_release others;
     frames_.close();
+    const std::lock_guard lock(run_mutex_);  // another thread may wait for the end, too
     if (run_.joinable()) {
       run_.join();
     }
@@ -90,6 +95,7 @@ class FileTrack {
 
   const TrackRequest request_;
   FrameQueue frames_{false};
+  std::mutex run_mutex_;  ///< of the thread's start and end
   std::thread run_;
   std::exception_ptr failure_;  ///< of the run, once it has ended
   mutable std::mutex mutex_;    ///< of what follows

@@ -146,3 +146,28 @@ def test_other_threads_run_meanwhile(clip, quick):
         turns += 1
     worker.join()
     assert turns > 10
+
+
+def test_closing_ends_a_loop_in_another_thread(clip, quick):
+    for _ in range(3):
+        run = telemime.track(clip / "video.mp4", settings=quick)
+        next(run)
+        ended = []
+
+        def read(run=run, ended=ended):
+            try:
+                ended.append(sum(1 for _ in run) >= 0)
+            except Exception as error:
+                ended.append(error)
+
+        worker = threading.Thread(target=read)
+        worker.start()
+        run.close()
+        worker.join()
+        assert ended == [True]
+
+
+@pytest.mark.parametrize("wrong", [{"frames": -1}, {"rate": -25.0}, {"rate": 1e6}])
+def test_numbers_that_cannot_be_are_refused(clip, wrong):
+    with pytest.raises(ValueError):
+        telemime.track(clip / "video.mp4", **wrong)
