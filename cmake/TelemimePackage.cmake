@@ -45,7 +45,7 @@ endforeach()
 
 # A static library needs what it is linked with where programs are linked with it.
 file(STRINGS "${PROJECT_SOURCE_DIR}/scripts/packages.txt" needs REGEX "^build (lib|nlohmann|ocl|opencl|pkg-config)")
-list(FILTER needs EXCLUDE REGEX "libcli11-dev|libmosquitto-dev")
+list(FILTER needs EXCLUDE REGEX "libcli11-dev|libmeshoptimizer-dev|libmosquitto-dev")
 list(TRANSFORM needs REPLACE "^build ([^ ]+).*" "\\1")
 list(JOIN needs ", " needs)
 

@@ -181,7 +181,7 @@ TEST_F(SmallProject, FindsALeftoverInAnyTextFile) {
 TEST_F(SmallProject, FindsAnExactVersion) {
   for (const char* const line :
        {"find_package(Eigen3 3.4 EXACT)", "find_package(meshoptimizer 0.18 REQUIRED)",
-        "if(OpenCV_VERSION VERSION_EQUAL 4.6)"}) {
+        "find_dependency(meshoptimizer 0.18)", "if(OpenCV_VERSION VERSION_EQUAL 4.6)"}) {
     write("cmake/Extra.cmake", licence("#") + "find_package(hwy 1.0 REQUIRED)\n" + line + "\n");
     expect_violation("cmake/Extra.cmake:3: newer versions must do");
   }

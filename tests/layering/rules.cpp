@@ -285,10 +285,11 @@ Violations check_names(const fs::path& root) {
 
 Violations check_versions(const fs::path& root) {
   static const std::regex exact(
-      "find_package *\\(.*\\bEXACT\\b|\\bVERSION_EQUAL\\b|find_package *\\((meshoptimizer|utf8cpp) +[0-9]");
+      "find_package *\\(.*\\bEXACT\\b|\\bVERSION_EQUAL\\b|find_(package|dependency) "
+      "*\\((meshoptimizer|utf8cpp) +[0-9]");
   Violations violations;
   for (const fs::path& file : project_files(root)) {
-    if (file.filename() != "CMakeLists.txt" && file.extension() != ".cmake") {
+    if (file.filename() != "CMakeLists.txt" && file.extension() != ".cmake" && file.extension() != ".in") {
       continue;
     }
     const std::vector<std::string> lines = lines_of(content_of(file));
