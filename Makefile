@@ -11,6 +11,8 @@ ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transp
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
 TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test reference count clean
+# Targets that install packages come before those that need them; JOBS and TEST_JOBS are what runs in parallel.
+.NOTPARALLEL:
 .PHONY: $(TARGETS) deps-page deps-python deps-test program configure
 
 help: ## this list

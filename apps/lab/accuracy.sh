@@ -23,13 +23,13 @@ for line in "${clips[@]}"; do
   done
 done
 
-python3 - "$out" "${clips[@]}" << 'END'
-import glob, json, sys
-out, clips = sys.argv[1], sys.argv[2:]
+python3 - "$out" "${seeds[*]}" "${clips[@]}" << 'END'
+import json, sys
+out, seeds, clips = sys.argv[1], sys.argv[2].split(), sys.argv[3:]
 print("| clip | 3-D, mm | plane | depth | each seed | 2-D, px | lost | truth in the stated 95 % region |")
 print("| --- | --- | --- | --- | --- | --- | --- | --- |")
 for name in (clip.split()[0] for clip in clips):
-    runs = [json.load(open(file)) for file in sorted(glob.glob(f"{out}/{name}/*/accuracy.json"))]
+    runs = [json.load(open(f"{out}/{name}/{seed}/accuracy.json")) for seed in seeds]
     def mean(pick, places=0, factor=1):
         """Over the runs that have this number, in words."""
         known = [number for number in map(pick, runs) if number is not None]
