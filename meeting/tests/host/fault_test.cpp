@@ -137,6 +137,7 @@ TEST(MeetingFaults, MembersStayWhereNewcomersCannotBeStored) {
       meeting.post(Json{{"v", 1}, {"invite", meeting.chair()}, {"return", ana.at("return")}}.dump()).status,
       503)
       << "a chair's rights are new to the broker";
+  EXPECT_EQ(meeting.log_in({{"return", ana.at("return")}}).at("participant"), "p01") << "as before";
   std::filesystem::rename(elsewhere, folder);
   EXPECT_EQ(newcomer(), 200);
 }

@@ -142,6 +142,15 @@ LoginDecision LoginPolicy::admit(unsigned number, bool chair, double now) {
   return decision;
 }
 
+void LoginPolicy::take_back(const std::string& participant, std::optional<bool> chair) {
+  const auto found = members_.find(participant);
+  if (found != members_.end() && chair) {
+    found->second.chair = *chair;
+  } else if (found != members_.end()) {
+    members_.erase(found);
+  }
+}
+
 bool LoginPolicy::free_account(double now, std::vector<std::string>& freed) {
   if (members_.size() < rules_.most) {
     return true;

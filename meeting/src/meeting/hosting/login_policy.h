@@ -103,6 +103,10 @@ class LoginPolicy {
   void set_presence(const std::string& participant, bool here, double now);
   void lock(bool locked) { locked_ = locked; }
 
+  /// Takes back what a login gave: the broker does not have the account. `chair`: its rights before; nothing:
+  /// there was no account.
+  void take_back(const std::string& participant, std::optional<bool> chair);
+
   /// By id.
   const std::map<std::string, Member>& members() const { return members_; }
   const MeetingSecrets& secrets() const { return secrets_; }

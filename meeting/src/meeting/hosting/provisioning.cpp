@@ -167,6 +167,11 @@ void Provisioning::work() {
       known_ = std::move(members);
     } else {
       freed_.insert(freed_.end(), freed.begin(), freed.end());
+      for (const Waiting& one : waiting) {
+        const auto known = known_.find(one.grant.participant);
+        policy_.take_back(one.grant.participant,
+                          known == known_.end() ? std::nullopt : std::optional(known->second));
+      }
     }
   }
 }

@@ -55,20 +55,28 @@ std::optional<ReplayStep> ParticipantReplay::step(const RecordedMessage& message
   return std::nullopt;
 }
 
-// Whether messages of this session are replayed. A new session replaces the previous one, and an earlier one
-// does not return, as for readers.
-bool ParticipantReplay::follow(std::uint16_t recorded) {
+// Whether messages of this session are replayed. A new session replaces the previous one, as for readers:
+// what an earlier one says while the new one begins is left over. Later it has returned: the page of somebody
+// whose tracker has ended.
+bool ParticipantReplay::follow(std::uint16_t recorded, std::uint64_t at) {
+  constexpr std::uint64_t kLeftovers = 1'000'000;  // us
   if (recorded_ == recorded) {
+    left_ = false;
     return true;
   }
-  if (past_.contains(recorded)) {
+  const auto earlier = replaced_.find(recorded);
+  if (earlier != replaced_.end() && !left_ && at < earlier->second + kLeftovers) {
     return false;
   }
   if (recorded_) {
-    past_.insert(*recorded_);
+    replaced_[*recorded_] = at;
     session_ = after(session_);
+    if (sequence_) {
+      ended_.insert(*recorded_);
+    }
   }
   recorded_ = recorded;
+  left_ = false;
   sequence_.reset();
   next_sequence_ = 0;
   return true;
@@ -101,7 +109,7 @@ std::optional<ReplayStep> ParticipantReplay::pose(const RecordedMessage& message
     return step;
   }
   const auto frame = decode_pose_frame({bytes, message.payload.size()});
-  if (!frame || !follow(frame->session)) {
+  if (!frame || ended_.contains(frame->session) || !follow(frame->session, message.at)) {
     return std::nullopt;
   }
   const bool newer = !sequence_ || (frame->sequence > *sequence_ && frame->captured > captured_);
@@ -128,7 +136,7 @@ std::optional<ReplayStep> ParticipantReplay::state(const RecordedMessage& messag
     return ReplayStep{TopicKind::state, 0, session_, false, ""};
   }
   const auto state = read_state(message.payload);
-  if (!state || !follow(state->session)) {
+  if (!state || !follow(state->session, message.at)) {
     return std::nullopt;
   }
   nlohmann::json json = parse_json(message.payload, kMessageSource);
@@ -150,9 +158,10 @@ std::optional<ReplayStep> ParticipantReplay::presence(const RecordedMessage& mes
     return std::nullopt;
   }
   if (!presence->here) {
+    left_ = left_ || recorded_ == presence->session;
     return recorded_ == presence->session ? std::optional(gone) : std::nullopt;
   }
-  if (!follow(presence->session)) {
+  if (!follow(presence->session, message.at)) {
     return std::nullopt;
   }
   return ReplayStep{TopicKind::presence, 0, session_, true, ""};

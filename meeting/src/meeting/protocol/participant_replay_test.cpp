@@ -110,6 +110,24 @@ TEST(ParticipantReplay, OldAndInvalidMessagesAreDropped) {
   EXPECT_TRUE(part.step(pose(5, 5, 11, 1001)));
 }
 
+// The page of somebody whose tracker has ended, or has been away for a while.
+TEST(ParticipantReplay, PageReturnsAfterItsTracker) {
+  constexpr std::uint64_t kSecond = 1'000'000;
+  for (const bool says_goodbye : {true, false}) {
+    ParticipantReplay part(1.0, 500, kClock);
+    ASSERT_TRUE(part.step(here(0, 5)));             // the page
+    ASSERT_TRUE(part.step(pose(10, 6, 40, 1000)));  // the tracker
+    EXPECT_FALSE(part.step(here(20, 5))) << "left over";
+    if (says_goodbye) {
+      ASSERT_TRUE(part.step(here(2 * kSecond, 6, false)));
+    }
+    const auto back = part.step(here(3 * kSecond, 5));
+    ASSERT_TRUE(back && back->here) << says_goodbye;
+    EXPECT_FALSE(part.step(pose(4 * kSecond, 6, 41, 2000))) << "of a session that has ended";
+    EXPECT_TRUE(part.step(here(7 * kSecond, 5))) << "and stays";
+  }
+}
+
 TEST(ParticipantReplay, NewSessionGetsANewNumber) {
   ParticipantReplay part(1.0, UINT16_MAX, kClock);
   EXPECT_EQ(part.step(here(0, 5))->session, UINT16_MAX);

@@ -39,6 +39,27 @@ class LoginLink final : public Link {
       : loop_(loop), url_(std::move(url)), login_(std::move(login)) {}
 
   void open() override {
+    // Where the broker cannot be reached, the account is kept for a while: logins are limited for all who
+    // share an address.
+    constexpr std::chrono::seconds kAccountIsKept(60);
+    const auto now = std::chrono::steady_clock::now();
+    if (!logged_in_ || now - *logged_in_ > kAccountIsKept) {
+      enter();
+      logged_in_ = now;
+    }
+    link_->open();
+    logged_in_.reset();
+  }
+  void person(const std::shared_ptr<const StreamHeader>& person) override { link_->person(person); }
+  bool frame(const MotionFrame& frame, double taken) override { return link_->frame(frame, taken); }
+  void close() noexcept override {
+    if (link_) {
+      link_->close();
+    }
+  }
+
+ private:
+  void enter() {
     try {
       const Credentials credentials = log_in();
       if (credentials.participant.empty()) {
@@ -56,17 +77,8 @@ class LoginLink final : public Link {
       std::replace(text.begin(), text.end(), '\n', ' ');
       throw LinkBroken(text);
     }
-    link_->open();
-  }
-  void person(const std::shared_ptr<const StreamHeader>& person) override { link_->person(person); }
-  bool frame(const MotionFrame& frame, double taken) override { return link_->frame(frame, taken); }
-  void close() noexcept override {
-    if (link_) {
-      link_->close();
-    }
   }
 
- private:
   // In a thread that is joined before this returns: OpenSSL, which it uses, is cleaned up at the program's
   // end.
   Credentials log_in() {
@@ -90,6 +102,7 @@ class LoginLink final : public Link {
   const SendUrl url_;
   LinkLogin login_;
   Credentials credentials_;
+  std::optional<std::chrono::steady_clock::time_point> logged_in_;  ///< since then the broker was not reached
   std::unique_ptr<MeetingLink> link_;
 };
 
