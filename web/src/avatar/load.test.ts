@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { describe, expect, it, vi } from "vitest";
-import { Quaternion } from "three";
+import { Light, Quaternion } from "three";
 import type { Quat } from "../shared/quaternion";
 import { isObject, readJson, type Json } from "./inspect";
 import { loadAvatar, type Avatar } from "./load";
@@ -33,15 +33,17 @@ interface Odd {
   aside?: number;
   mesh?: boolean;
   springs?: unknown;
+  lights?: boolean;
 }
 
-function avatar({ scale = 1, up = 0, aside = 0, mesh = true, springs }: Odd): ArrayBuffer {
+function avatar({ scale = 1, up = 0, aside = 0, mesh = true, springs, lights = false }: Odd): ArrayBuffer {
   const at = new Map(BONES.map(([name, , x, y]) => [name, [x, y] as const]));
   const nodes: Json[] = BONES.map(([name, parent, x, y]) => {
     const [px, py] = parent ? at.get(parent)! : [-aside, -up];
     const children = BONES.flatMap(([, p], i) => (p === name ? [i] : []));
     const node: Json = { name, translation: [scale * (x - px), scale * (y - py), 0] };
-    return children.length > 0 ? { ...node, children } : node;
+    const extensions = { KHR_lights_punctual: { light: 0 } };
+    return { ...node, ...(children.length > 0 && { children }), ...(lights && { extensions }) };
   });
   const corners = new Float32Array(
     [-0.3, 0, 0, 0.3, 0, 0, 0, 1.7, 0].map((v, i) => scale * (v + (i % 3 === 1 ? up : 0))),
@@ -66,6 +68,7 @@ function avatar({ scale = 1, up = 0, aside = 0, mesh = true, springs }: Odd): Ar
           meta: { name: "A", authors: ["B"], licenseUrl: "https://vrm.dev/licenses/1.0/" },
           humanoid: { humanBones: Object.fromEntries(BONES.map(([bone], node) => [bone, { node }])) },
         },
+        ...(lights && { KHR_lights_punctual: { lights: [{ type: "point" }] } }),
         ...(springs !== undefined && { VRMC_springBone: { specVersion: "1.0", springs } }),
       },
     },
@@ -122,6 +125,11 @@ describe("avatars of strangers", () => {
       expectHuman(a);
       expect(a.notes.join()).toContain("springs");
     }
+  });
+  it("lose their lights, which would light others", async () => {
+    const a = await loadAvatar(avatar({ lights: true }));
+    expectHuman(a);
+    a.scene.traverse((o) => expect(o).not.toBeInstanceOf(Light));
   });
   it("are refused with the reason when they cannot be seen or moved", async () => {
     await expect(loadAvatar(avatar({ mesh: false }))).rejects.toThrow("no mesh");

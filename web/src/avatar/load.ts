@@ -18,7 +18,7 @@ import type { Quat, Vec3 } from "../shared/quaternion";
 import { AvatarFace, FACE_AT_REST, type Face } from "./face";
 import { foldMissing } from "./fold";
 import { dropOddSprings, fitToHuman, scaleSprings } from "./fit";
-import { AvatarError, inspect, type Facts, type Json } from "./inspect";
+import { AvatarError, inspect, isObject, type Facts, type Json } from "./inspect";
 
 const ASIDE = 0.3; // m from the middle: an avatar that stands farther away is moved
 
@@ -172,12 +172,20 @@ function cheap(material: Material | Material[]): Material | Material[] {
   return new MeshLambertMaterial({ ...colours, alphaTest, transparent, opacity, side, name });
 }
 
+/** Lights of an avatar would light all else in the scene. */
+function dropLights(json: Json): void {
+  for (const node of Array.isArray(json.nodes) ? (json.nodes as unknown[]) : []) {
+    if (isObject(node) && isObject(node.extensions)) delete node.extensions.KHR_lights_punctual;
+  }
+}
+
 /** Throws AvatarError when the file cannot be used. */
 export async function loadAvatar(data: ArrayBuffer): Promise<Avatar> {
   const facts = inspect(data);
   const loader = new GLTFLoader();
   const notes: string[] = [];
   loader.register((parser) => {
+    dropLights(parser.json as Json);
     if (dropOddSprings(parser.json as Json) > 0) {
       notes.push("broken springs of hair or clothes, or what they bounce off, were left out");
     }

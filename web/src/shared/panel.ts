@@ -18,6 +18,7 @@ export class Panel<T extends PanelSettings> {
 
   constructor(
     private readonly settings: T,
+    /** Called after each change of the settings or of what is visible. */
     private readonly save: () => void,
   ) {
     this.tabs = [...this.panel.querySelectorAll<HTMLElement>('[role="tab"]')];
@@ -31,6 +32,7 @@ export class Panel<T extends PanelSettings> {
     this.wide.addEventListener("change", () => {
       this.over = false;
       this.refresh();
+      this.save();
     });
     document.addEventListener("keydown", (e) => {
       if (e.key === "Escape" && this.over && !document.querySelector("dialog[open]")) this.toggle();
@@ -47,14 +49,11 @@ export class Panel<T extends PanelSettings> {
   }
 
   toggle(): void {
-    if (this.wide.matches) {
-      this.settings.panelClosed = !this.settings.panelClosed;
-      this.save();
-    } else {
-      this.over = !this.over;
-    }
+    if (this.wide.matches) this.settings.panelClosed = !this.settings.panelClosed;
+    else this.over = !this.over;
     const hadFocus = this.panel.contains(document.activeElement);
     this.refresh();
+    this.save();
     if (this.over) this.focusTab();
     else if (hadFocus && !this.open) this.toggleButton.focus();
   }

@@ -53,13 +53,15 @@ export class FakeElement {
   removeAttribute(name: string): void {
     this.attributes.delete(name);
   }
-  /** Knows "[name]" alone. */
+  /** Knows `[name]` and `[name="value"]` alone. */
   querySelectorAll(selector: string): FakeElement[] {
-    const name = selector.slice(1, -1);
-    return this.children.flatMap((c) => [
-      ...(c.attributes.has(name) ? [c] : []),
-      ...c.querySelectorAll(selector),
-    ]);
+    const [name, value] = selector.slice(1, -1).replaceAll('"', "").split("=") as [string, string?];
+    const fits = ({ attributes }: FakeElement): boolean =>
+      value === undefined ? attributes.has(name) : attributes.get(name) === value;
+    return this.children.flatMap((c) => [...(fits(c) ? [c] : []), ...c.querySelectorAll(selector)]);
+  }
+  querySelector(selector: string): FakeElement | null {
+    return this.querySelectorAll(selector)[0] ?? null;
   }
   focus(): void {}
 
