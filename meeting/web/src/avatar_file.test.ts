@@ -5,7 +5,7 @@ import { describe, expect, it } from "vitest";
 import { STRANGERS } from "./bounds";
 import { AvatarError } from "#web/avatar/inspect";
 import { glbFile, vrm1 } from "#web/avatar/testing_file";
-import { describeFile, ownLook, strangersFile } from "./avatar_file";
+import { UnreachableError, describeFile, ownLook, strangersFile } from "./avatar_file";
 import { MAX_AVATAR } from "./messages";
 
 const URL_ = "https://example.org/a.vrm";
@@ -71,6 +71,28 @@ describe("a participant's file", () => {
       return Promise.resolve(answer);
     };
     await expect(strangersFile(FILE, STRANGERS, elsewhere)).rejects.toBeInstanceOf(AvatarError);
+  });
+});
+
+describe("an avatar that may be there later", () => {
+  it("is distinguished from one that is not", async () => {
+    const reasons = (fetcher: typeof fetch) =>
+      Promise.all(
+        [strangersFile(FILE, STRANGERS, fetcher), ownLook("plain", false, fetcher)].map((file) =>
+          file.catch((e: unknown) => e),
+        ),
+      );
+    const torn = () => new ReadableStream({ start: (c) => c.error(new TypeError("network error")) });
+    for (const passing of [
+      () => Promise.reject(new TypeError("Failed to fetch")),
+      () => Promise.resolve(new Response(torn())),
+      giving(DATA, { status: 503 }),
+    ])
+      for (const e of await reasons(passing)) expect(e).toBeInstanceOf(UnreachableError);
+    for (const e of await reasons(giving(DATA, { status: 404 }))) {
+      expect(e).toBeInstanceOf(AvatarError);
+      expect(e).not.toBeInstanceOf(UnreachableError);
+    }
   });
 });
 

@@ -14,6 +14,9 @@ type File = Extract<AvatarChoice, { url: string }>;
 export const LIGHT_STRANGERS: Readonly<Bounds> = { ...STRANGERS, triangles: 70_000 };
 const TIMEOUT = 60_000; // ms for a whole file
 
+/** The server cannot be reached, or does not work, at the moment. */
+export class UnreachableError extends AvatarError {}
+
 const tooLong = (): AvatarError =>
   new AvatarError("The avatar's file is larger than announced, or than 64 MB.");
 
@@ -48,11 +51,13 @@ async function fetchFile(url: string, most: number, fetcher: typeof fetch): Prom
     });
     if (answer.url && !avatarUrl(answer.url))
       throw new AvatarError(`${host} redirects to an address that is not secure.`);
+    if (answer.status >= 500)
+      throw new UnreachableError(`${host} could not send the avatar's file (${answer.status}).`);
     if (!answer.ok) throw new AvatarError(`${host} does not have the avatar's file (${answer.status}).`);
     return await bodyOf(answer, most);
   } catch (e) {
     if (e instanceof AvatarError) throw e;
-    throw new AvatarError(
+    throw new UnreachableError(
       `The avatar's file could not be downloaded from ${host}. Does the server allow other pages to use it (CORS)?`,
     );
   }
@@ -88,7 +93,15 @@ export async function ownLook(
   light: boolean,
   fetcher: typeof fetch = fetch,
 ): Promise<ArrayBuffer> {
-  const answer = await fetcher(`/avatars/${encodeURIComponent(look + (light ? "-light" : ""))}.vrm`);
-  if (!answer.ok) throw new AvatarError(`The server has no avatar "${look}".`);
-  return (await bodyOf(answer, MAX_AVATAR)).buffer;
+  const name = encodeURIComponent(look + (light ? "-light" : ""));
+  try {
+    const answer = await fetcher(`/avatars/${name}.vrm`);
+    if (answer.status >= 500)
+      throw new UnreachableError(`The server could not send the avatar "${look}" (${answer.status}).`);
+    if (!answer.ok) throw new AvatarError(`The server has no avatar "${look}".`);
+    return (await bodyOf(answer, MAX_AVATAR)).buffer;
+  } catch (e) {
+    if (e instanceof AvatarError) throw e;
+    throw new UnreachableError(`The avatar "${look}" could not be downloaded from the meeting's server.`);
+  }
 }

@@ -80,6 +80,17 @@ describe("the board", () => {
     b.setEpoch(3);
     expect(b.strokes).toEqual([A]);
   });
+  it("loses pages that do not come back", () => {
+    const b = new Board();
+    b.setPage("p01", 0, page(0, A));
+    b.setPage("p02", 0, page(0, B));
+    b.setPage("p03", 0, page(0, C));
+    expect(b.removeUnconfirmed(null)).toBe(false);
+    b.connected();
+    b.setPage("p02", 0, page(0, B));
+    expect(b.removeUnconfirmed("p01")).toBe(true);
+    expect(b.strokes).toEqual([A, B]);
+  });
   it("limits the points of one and of all", () => {
     const b = new Board();
     const large = page(0, stroke(...Array.from({ length: 3000 }, () => 1)));
@@ -203,6 +214,16 @@ describe("own strokes", () => {
     own.draw("#ffffff", 40, [0, 0, 1, 1]);
     b.send();
     expect(readBoard(b.kept.get(0)!)!.epoch).toBe(1);
+  });
+  it("of later epochs wait for the meeting's", () => {
+    const own = new OwnStrokes();
+    own.draw("#ffffff", 40, [0, 0, 1, 1]);
+    for (const [n, epoch] of [2, 1, 3].entries()) expect(own.receive(n, page(epoch, A))).toBe(false);
+    own.setEpoch(2);
+    expect(own.content).toEqual(new Map([[0, page(2, A)]]));
+    expect(own.take()).toEqual([{ page: 1, bytes: new Uint8Array(0) }]);
+    own.setEpoch(3);
+    expect(own.content).toEqual(new Map([[2, page(3, A)]]));
   });
   it("from before a wipe are cleared", () => {
     const own = new OwnStrokes();

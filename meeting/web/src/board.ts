@@ -15,6 +15,8 @@ interface Page {
   epoch: number;
   strokes: readonly Stroke[];
   points: number;
+  /** It has arrived since the connection opened. */
+  confirmed: boolean;
 }
 
 export class Board {
@@ -36,10 +38,26 @@ export class Board {
     }
   }
 
+  /** A new connection: the broker does not say which pages were cleared meanwhile. */
+  connected(): void {
+    for (const pages of this.pages.values()) for (const page of pages.values()) page.confirmed = false;
+  }
+
+  /** Removes the pages of others than `me` that have not arrived since the connection opened. False: there are none. */
+  removeUnconfirmed(me: string | null): boolean {
+    const { version } = this;
+    for (const [id, pages] of this.pages) {
+      if (id === me) continue;
+      for (const [n, page] of [...pages]) if (!page.confirmed) this.setPage(id, n, null);
+    }
+    return this.version !== version;
+  }
+
   /** Takes a page; null removes it. Gives the strokes that were added, or null when everything must be redrawn. */
   setPage(id: string, n: number, content: BoardMessage | null): readonly Stroke[] | null {
     const mine = this.pages.get(id) ?? new Map<number, Page>();
     const before = mine.get(n);
+    if (before) before.confirmed = true;
     if (!content || content.epoch < this.epoch) {
       if (!before || !content) {
         mine.delete(n);
@@ -56,7 +74,7 @@ export class Board {
       this.crowded++;
       return [];
     }
-    mine.set(n, { epoch: content.epoch, strokes: content.strokes, points: count });
+    mine.set(n, { epoch: content.epoch, strokes: content.strokes, points: count, confirmed: true });
     this.pages.set(id, mine);
     if (content.epoch !== this.epoch) return []; // shown once the meeting has this epoch
     const old = before?.epoch === content.epoch ? before.strokes : [];
@@ -99,6 +117,8 @@ export class OwnStrokes {
   private readonly echoes = new Map<number, string[]>();
   /** The pages that the broker has sent since the connection opened. */
   private readonly received = new Map<number, string>();
+  /** Pages of later epochs that the broker has sent: they may arrive before the meeting's epoch. */
+  private readonly later = new Map<number, BoardMessage>();
   private readonly open = new Set<number>();
   /** The number of strokes of each drawn line, which is undone as one. */
   private readonly lines: number[] = [];
@@ -143,6 +163,16 @@ export class OwnStrokes {
     for (const n of this.pages.keys()) this.open.add(n);
     this.pages.clear();
     this.lines.length = 0;
+    for (const [n, content] of this.later) {
+      if (content.epoch > epoch) continue;
+      this.later.delete(n);
+      if (content.epoch < epoch) {
+        this.open.add(n);
+      } else {
+        this.open.delete(n);
+        this.pages.set(n, [...content.strokes]);
+      }
+    }
   }
 
   /**
@@ -152,10 +182,15 @@ export class OwnStrokes {
   receive(n: number, content: BoardMessage | null): boolean {
     const sent = key(content?.strokes);
     this.received.set(n, sent);
+    this.later.delete(n);
     const echoes = this.echoes.get(n) ?? [];
     const mine = echoes.indexOf(sent);
     if (mine >= 0) {
       echoes.splice(0, mine + 1);
+      return false;
+    }
+    if (content && content.epoch > this.epoch) {
+      if (content.strokes.length) this.later.set(n, content);
       return false;
     }
     if (this.open.has(n) || echoes.length) return false;
@@ -163,7 +198,6 @@ export class OwnStrokes {
       if (content.strokes.length) this.open.add(n); // from before the board was wiped
       return false;
     }
-    if (content && content.epoch > this.epoch) return false;
     if (content?.strokes.length) this.pages.set(n, [...content.strokes]);
     else this.pages.delete(n);
     return true;

@@ -13,6 +13,8 @@ export interface Bounds {
   side: number;
   pictures: number;
   materials: number;
+  /** Parts of meshes that are drawn one by one, each time they are used. */
+  draws: number;
   /** Spring joints: each costs time in every picture. */
   springs: number;
   /** Colliders of the springs. */
@@ -27,6 +29,7 @@ export const STRANGERS: Readonly<Bounds> = {
   side: 8192,
   pictures: 120,
   materials: 100,
+  draws: 500,
   springs: 1500,
   colliders: 300,
 };
@@ -127,18 +130,27 @@ function checkMeshes(json: Json, bounds: Bounds): number {
   const accessors = list(json.accessors);
   const count = (index: unknown): number => whole(accessors[whole(index)]?.count);
   const uses = new Map<unknown, number>();
-  for (const n of list(json.nodes)) uses.set(n.mesh, (uses.get(n.mesh) ?? 0) + 1);
+  for (const n of list(json.nodes)) {
+    // Instances would multiply a mesh without being counted here.
+    if (isObject(n.extensions) && n.extensions.EXT_mesh_gpu_instancing !== undefined)
+      throw new AvatarError("The avatar has instanced meshes, which are not supported.");
+    uses.set(n.mesh, (uses.get(n.mesh) ?? 0) + 1);
+  }
+  let draws = 0;
   let triangles = 0;
   let vertices = 0;
   list(json.meshes).forEach((mesh, i) => {
+    const times = Math.max(1, uses.get(i) ?? 0);
     for (const p of list(mesh.primitives)) {
       const points = count(isObject(p.attributes) ? p.attributes.POSITION : undefined);
       const corners = p.indices === undefined ? points : count(p.indices);
       const shapes = Array.isArray(p.targets) ? p.targets.length : 0;
-      triangles += Math.ceil(corners / 3) * Math.max(1, uses.get(i) ?? 0);
+      draws += times;
+      triangles += Math.ceil(corners / 3) * times;
       vertices += points * (1 + shapes);
     }
   });
+  check(draws, bounds.draws, `${draws} parts of meshes`);
   check(triangles, bounds.triangles, `${triangles} triangles`);
   check(vertices, bounds.vertices, `${vertices} points`);
   return triangles;

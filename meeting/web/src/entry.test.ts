@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import {
   EntryError,
   LOOKS,
   enter,
+  enterStored,
   inviteOf,
+  inviteOfTab,
   readEntered,
   readSaved,
+  storedEntry,
   tokenFor,
   withSeat,
   trackerCommand,
@@ -23,6 +26,16 @@ const ANSWER = {
   return: "token-1",
 };
 
+/** A browser's storage. */
+const storage = () => {
+  const kept = new Map<string, string>();
+  return {
+    getItem: (key: string) => kept.get(key) ?? null,
+    setItem: (key: string, value: string) => void kept.set(key, value),
+  };
+};
+afterEach(() => vi.unstubAllGlobals());
+
 describe("a link", () => {
   it("has its secret behind #", () => {
     expect(inviteOf("#k=abc_DEF-123")).toBe("abc_DEF-123");
@@ -30,6 +43,17 @@ describe("a link", () => {
     for (const f of ["", "#", "#k=", "#abc", `#k=${"x".repeat(201)}`, "#k=<script>"]) {
       expect(inviteOf(f)).toBeNull();
     }
+  });
+  it("is known to its tab after a reload", () => {
+    vi.stubGlobal("sessionStorage", storage());
+    expect(inviteOfTab(null)).toBeNull();
+    expect(inviteOfTab("abc")).toBe("abc");
+    expect(inviteOfTab(null)).toBe("abc");
+    expect(inviteOfTab("def")).toBe("def");
+    expect(inviteOfTab(null)).toBe("def");
+    vi.stubGlobal("sessionStorage", undefined);
+    expect(inviteOfTab("abc")).toBe("abc");
+    expect(inviteOfTab(null)).toBeNull();
   });
 });
 
@@ -124,27 +148,46 @@ describe("entering", () => {
 
 describe("what the browser stores", () => {
   const entered = readEntered(ANSWER)!;
+  const by = (invite: string | null, token: string | null = null) => ({ invite, token, watch: false });
   it("leads to the seat of a link, or the last", () => {
     let saved = readSaved(null);
     expect(tokenFor(saved, "A")).toBeNull();
-    saved = withSeat(saved, "A", entered);
-    saved = withSeat(saved, "B", { ...entered, token: "token-2", topic: "r/lab/two" });
+    saved = withSeat(saved, by("A"), entered);
+    saved = withSeat(saved, by("B"), { ...entered, token: "token-2", topic: "r/lab/two" });
     expect([tokenFor(saved, "A"), tokenFor(saved, "B"), tokenFor(saved, "C")]).toEqual([
       "token-1",
       "token-2",
       null,
     ]);
     expect(tokenFor(saved, null)).toBe("token-2");
-    saved = withSeat(saved, null, { ...entered, token: "token-3" }); // back without the link
+    saved = withSeat(saved, by(null, "token-1"), { ...entered, token: "token-3" }); // back without the link
     expect(tokenFor(saved, "A")).toBe("token-3");
     expect(readSaved(JSON.stringify(saved))).toEqual(saved);
   });
+  it("keeps the seats of two links to a meeting", () => {
+    let saved = withSeat(readSaved(null), by("CHAIR"), entered);
+    saved = withSeat(saved, by("SPEAK"), { ...entered, token: "token-2" });
+    saved = withSeat(saved, by(null, "token-2"), { ...entered, token: "token-3" });
+    expect([tokenFor(saved, "CHAIR"), tokenFor(saved, "SPEAK")]).toEqual(["token-1", "token-3"]);
+  });
+  it("keeps the seats of two tabs", async () => {
+    vi.stubGlobal("localStorage", storage());
+    const giving = (token: string) => () =>
+      Promise.resolve(new Response(JSON.stringify({ ...ANSWER, return: token })));
+    const tabs = [storedEntry(), storedEntry()] as const;
+    await Promise.all([
+      enterStored(tabs[0], by("CHAIR"), giving("token-1")),
+      enterStored(tabs[1], by("SPEAK"), giving("token-2")),
+    ]);
+    const saved = storedEntry().load();
+    expect([tokenFor(saved, "CHAIR"), tokenFor(saved, "SPEAK")]).toEqual(["token-1", "token-2"]);
+  });
   it("does not contain the secret", () => {
-    expect(JSON.stringify(withSeat(readSaved(null), "VERYSECRET", entered))).not.toContain("VERYSECRET");
+    expect(JSON.stringify(withSeat(readSaved(null), by("VERYSECRET"), entered))).not.toContain("VERYSECRET");
   });
   it("is bounded, and empty when malformed", () => {
     let saved = readSaved(null);
-    for (let i = 0; i < 50; i++) saved = withSeat(saved, `link${i}`, { ...entered, token: `t${i}` });
+    for (let i = 0; i < 50; i++) saved = withSeat(saved, by(`link${i}`), { ...entered, token: `t${i}` });
     expect(saved.seats.length).toBe(10);
     for (const t of [
       "{",

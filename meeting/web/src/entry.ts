@@ -17,6 +17,18 @@ export function inviteOf(fragment: string): string | null {
   return k && /^[A-Za-z0-9_.~-]{1,200}$/.test(k) ? k : null;
 }
 
+const INVITE_KEY = "telemime-room-link";
+
+/** The secret of the link by which this tab came: `given`, which a reloaded tab still knows, or else that one. */
+export function inviteOfTab(given: string | null): string | null {
+  try {
+    if (given) sessionStorage.setItem(INVITE_KEY, given);
+    return given ?? sessionStorage.getItem(INVITE_KEY);
+  } catch {
+    return given; // nothing can be stored here
+  }
+}
+
 export const LOOKS = ["plain", "casual", "office", "summer", "robot"] as const;
 const ROLES = ["speak", "board", "chair"] as const;
 export type Role = (typeof ROLES)[number];
@@ -188,13 +200,28 @@ export function tokenFor(saved: Saved, invite: string | null): string | null {
   return saved.seats.find((s) => s.by === hashOf(invite))?.token ?? null;
 }
 
-export function withSeat(saved: Saved, invite: string | null, entered: Entered): Saved {
+/** `request`: what was sent. Without a link, the new token replaces the one that was sent. */
+export function withSeat(saved: Saved, request: EntryRequest, entered: Entered): Saved {
   const { token, topic } = entered;
   if (!token) return saved;
-  const by = invite ? hashOf(invite) : (saved.seats.find((s) => s.topic === topic)?.by ?? hashOf(topic));
+  const { invite } = request;
+  const before = saved.seats.find((s) => s.token === request.token);
+  const by = invite ? hashOf(invite) : (before?.by ?? hashOf(topic));
   const others = saved.seats.filter((s) => s.by !== by);
   return { ...saved, seats: [...others, { by, topic, token }].slice(-MAX_SEATS_SAVED) };
 }
 
 /** Where nothing can be stored, the seat is lost when the page is closed. */
 export const storedEntry = () => new Stored<Saved>(KEY, SavedSchema);
+
+/** Enters and stores the new token. When no token is given, that of the seat that is stored for this link is sent. */
+export async function enterStored(
+  store: Stored<Saved>,
+  { invite, token, watch }: EntryRequest,
+  fetcher: typeof fetch = fetch,
+): Promise<Entered> {
+  const request = { invite, token: token ?? tokenFor(store.load(), invite), watch };
+  const entered = await enter(request, fetcher);
+  store.save(withSeat(store.load(), request, entered)); // another tab may have stored a seat meanwhile
+  return entered;
+}

@@ -9,12 +9,11 @@ import { Shortcuts } from "#web/shared/shortcuts";
 import { exposeMeeting } from "./debug";
 import {
   EntryError,
-  enter,
+  enterStored,
   inviteOf,
+  inviteOfTab,
   storedEntry,
-  tokenFor,
   trackerCommand,
-  withSeat,
   type Entered,
 } from "./entry";
 import type { Dial, LinkState } from "./link";
@@ -33,7 +32,7 @@ import { MeetingTab } from "./ui/meeting_tab";
 import { MeetingState } from "./ui/status";
 
 // The secret of the link leaves the address bar before anything else happens.
-let invite = inviteOf(location.hash);
+let invite = inviteOfTab(inviteOf(location.hash));
 const tidy = (): void => history.replaceState(null, "", location.pathname + location.search);
 if (location.hash) tidy();
 
@@ -43,7 +42,7 @@ buildFrame({
 });
 
 const entryStore = storedEntry();
-let saved = entryStore.load();
+const saved = entryStore.load();
 const stored = storedSettings();
 const settings = stored.load();
 const toasts = new Toasts();
@@ -53,6 +52,8 @@ const nobody = new Roster("r/none/none");
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
 let client: MeetingClient | null = null;
 let wish: Wish | null = null;
+/** Leads back to the seat that this page had. */
+let token: string | null = null;
 /** The MQTT library is loaded when it is needed. */
 let brokerDial: ((entered: Entered, will: LocalParticipant["will"] | null) => Dial) | null = null;
 
@@ -66,7 +67,10 @@ const chatIsOpen = (): boolean =>
   document.body.dataset.stage === "meeting";
 
 const people = new People();
-const chat = new ChatView((text) => client?.write(text) ?? "You have not joined the meeting.");
+const chat = new ChatView(
+  (text) => client?.write(text) ?? "You have not joined the meeting.",
+  (words) => status.announce(words),
+);
 const meetingTab = new MeetingTab({
   alter: async (change) => (await client?.alter(change)) ?? "You have not joined the meeting.",
   command: () => (client ? trackerCommand(client.entered, client.me?.state ?? null) : null),
@@ -129,6 +133,7 @@ function showStatus(): void {
 function linked(s: LinkState): void {
   banner.setState(s.kind === "lost" ? s : s.kind === "connecting" ? s : { kind: "open" });
   showStatus();
+  if (client && s.kind === "open") scene.cast?.retry(client.roster);
   if (s.kind === "refused") void comeBack(s.words);
 }
 
@@ -152,9 +157,8 @@ async function comeBack(words: string): Promise<void> {
 
 async function ask(watch: boolean): Promise<Entered> {
   brokerDial ??= (await import("./broker")).brokerDial;
-  const entered = await enter({ invite, token: tokenFor(saved, invite), watch });
-  saved = withSeat(saved, invite, entered);
-  entryStore.save(saved);
+  const entered = await enterStored(entryStore, { invite, token, watch });
+  token = entered.token ?? token;
   return entered;
 }
 
@@ -194,7 +198,6 @@ function start(entered: Entered, seat: number | null): void {
     line: (l) => {
       chat.add(l);
       if (l.kind === "said") scene.showMessage(l.from, l.text);
-      else status.announce(l.text);
     },
     strokes: (s) => scene.slate.add(s),
     mine: showStatus,
@@ -240,8 +243,7 @@ function leave(words: string): void {
 }
 
 const entryForm: EntryForm = new EntryForm(saved, come, (name, avatar) => {
-  saved = { ...saved, name, avatar };
-  entryStore.save(saved);
+  entryStore.save({ ...entryStore.load(), name, avatar });
 });
 
 function setView(view: View): void {
@@ -322,7 +324,8 @@ window.addEventListener("hashchange", () => {
   const other = inviteOf(location.hash);
   if (location.hash) tidy();
   if (!other) return;
-  invite = other;
+  invite = inviteOfTab(other);
+  token = null;
   if (client) leave("");
   else entryForm.open("", true);
 });

@@ -254,6 +254,33 @@ describe("the blackboard", () => {
     await wait(1000);
     expect(ana.client.board.strokes.length).toBe(1);
   });
+  it("keeps own pages that arrive before the epoch", async () => {
+    const strokes = [{ c: "#ffffff", w: 40, p: [0, 0, 9, 9] }];
+    broker.publish(`${TOPIC}/p/p01/board/0`, toBytes({ epoch: 1, strokes }), true);
+    broker.publish(`${TOPIC}/room`, toBytes({ title: "", seats: 8, epoch: 1, chairs: [] }), true);
+    await wait(100);
+    const ana = new Page(broker, "p01", "Ana");
+    await wait(1000);
+    expect(ana.client.board.strokes).toEqual(strokes);
+    ana.client.draw("#ffffff", 40, [0, 0, 1, 1]);
+    await wait(1000);
+    expect(ana.client.board.strokes.length).toBe(2);
+    expect(broker.stored("p/p01/board/0")).toMatchObject({ epoch: 1, strokes: [strokes[0], {}] });
+  });
+  it("forgets lines erased while it was away", async () => {
+    const [ana, bo] = await anaAndBo();
+    ana.client.draw("#ffffff", 40, [0, 0, 1, 1]);
+    bo.client.draw("#ffffff", 40, [0, 1, 1, 0]);
+    await wait(1000);
+    broker.cut("p01");
+    bo.client.undo();
+    await wait(20000);
+    expect(ana.client.state.kind).toBe("open");
+    expect(ana.client.board.strokes.length).toBe(2); // Bo's page may still come back
+    await wait(10000);
+    expect(ana.client.board.strokes).toEqual(bo.client.board.strokes);
+    expect(ana.client.board.strokes.length).toBe(1);
+  });
 });
 
 describe("chairs of the meeting", () => {

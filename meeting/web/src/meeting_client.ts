@@ -10,7 +10,7 @@ import { Link, anySession, type Dial, type LinkState } from "./link";
 import { LocalParticipant, type OwnState } from "./local_participant";
 import { writeMeeting, type MeetingMessage, type Stroke } from "./messages";
 import { RateLimit } from "./rate_limit";
-import { Roster, type MeetingEvent } from "./roster";
+import { COME_BACK, Roster, type MeetingEvent } from "./roster";
 import { freeSeat } from "./seats";
 import { boardTopic, parseTopic, topicOf } from "./topics";
 
@@ -63,6 +63,8 @@ export class MeetingClient {
   private readonly joining = new Map<string, number>(); // participants without a note yet: since when
   private everSettled = false;
   private gatherUntil = 0;
+  /** After this time, pages of the others that the broker has not sent again are gone, s. */
+  private pagesUntil = Infinity;
   /** There are messages from before this client was made: it does not know who is not back yet. */
   private blind: boolean;
   private readonly sending = new Set<string>(); // messages on their way
@@ -197,6 +199,8 @@ export class MeetingClient {
       this.gatherUntil = this.everSettled || this.blind ? seconds() + GATHER : 0;
       this.me?.connected(this.link.session);
       this.own.connected();
+      this.board.connected();
+      this.pagesUntil = seconds() + COME_BACK;
       this.sending.clear();
       this.settleTimer = setTimeout(() => this.settle(), SETTLE);
     }
@@ -296,6 +300,7 @@ export class MeetingClient {
     if (this.board.epoch === epoch) return;
     this.board.setEpoch(epoch);
     this.own.setEpoch(epoch);
+    this.showOwn();
     this.listener.strokes(null);
     this.sendPages();
   }
@@ -304,6 +309,10 @@ export class MeetingClient {
     const now = seconds();
     if (this.link.state.kind !== "open") return;
     for (const e of this.roster.step(now)) this.happened(e, now);
+    if (now > this.pagesUntil) {
+      this.pagesUntil = Infinity;
+      if (this.board.removeUnconfirmed(this.me?.id ?? null)) this.listener.strokes(null);
+    }
     if (!this.everSettled) return;
     if (this.settled && this.me?.other && !this.roster.get(this.me.id)?.here) {
       this.me.vanished();

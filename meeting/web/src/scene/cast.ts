@@ -3,6 +3,7 @@
 
 import { AvatarError } from "#web/avatar/inspect";
 import type { Avatar, BoneReading } from "#web/avatar/load";
+import { UnreachableError } from "../avatar_file";
 import { LOOKS } from "../entry";
 import type { AvatarChoice, StateMessage } from "../messages";
 import type { Roster } from "../roster";
@@ -16,6 +17,8 @@ import type { Tags } from "./tags";
 /** Least time between changes of one avatar, ms: each costs all participants time. */
 const CHANGE_PAUSE = 2000;
 const MAX_FAILED = 20;
+/** After this time, avatars that could not be downloaded are tried again, ms. */
+const RETRY = 15000;
 /** For avatars that cannot be loaded, and for trackers that name none. */
 const SUBSTITUTE: AvatarChoice = { look: LOOKS[0] };
 
@@ -25,6 +28,8 @@ interface Member {
   wanted: string;
   /** Choices that failed, and why: they are not tried again. */
   failed: Map<string, string>;
+  /** Those of them that could not be downloaded: they are tried again later. */
+  unreachable: Set<string>;
   complaint: string;
   /** A choice is being loaded, or the pause after it is not over. */
   busy: boolean;
@@ -42,6 +47,7 @@ export class Cast {
   private lastShow = 0;
   private hidden: string | null = null;
   private underWay = 0;
+  private retryTimer: number | undefined;
 
   constructor(
     private readonly stage: MeetingStage,
@@ -66,7 +72,23 @@ export class Cast {
   }
 
   clear(): void {
+    this.cancelRetry();
     for (const id of [...this.all.keys()]) this.remove(id);
+  }
+
+  /** Tries again to load what could not be downloaded. Call it also when the connection has opened again. */
+  retry(roster: Roster): void {
+    this.cancelRetry();
+    for (const [id, member] of this.all) {
+      for (const key of member.unreachable) member.failed.delete(key);
+      member.unreachable.clear();
+      this.dress(id, member, roster);
+    }
+  }
+
+  private cancelRetry(): void {
+    window.clearTimeout(this.retryTimer);
+    this.retryTimer = undefined;
   }
 
   complaint(id: string): string {
@@ -75,7 +97,14 @@ export class Cast {
 
   private add(id: string): Member {
     const figure = new Figure();
-    const member: Member = { figure, wanted: "", failed: new Map(), complaint: "", busy: false };
+    const member: Member = {
+      figure,
+      wanted: "",
+      failed: new Map(),
+      unreachable: new Set(),
+      complaint: "",
+      busy: false,
+    };
     this.all.set(id, member);
     this.stage.add(id, figure);
     return member;
@@ -109,7 +138,8 @@ export class Cast {
     const { choice, why } = this.choiceFor(member, roster.get(id)?.state ?? null);
     member.complaint = why;
     const wanted = choice ? keyOf(choice) : "";
-    if (wanted === member.wanted) return;
+    const before = member.wanted;
+    if (wanted === before) return;
     member.wanted = wanted;
     if (!choice) {
       this.put(member, null);
@@ -128,6 +158,10 @@ export class Cast {
         member.complaint = e instanceof AvatarError ? e.message : "The avatar could not be loaded.";
         if (member.failed.size >= MAX_FAILED) member.failed.clear();
         member.failed.set(wanted, member.complaint);
+        if (member.wanted === wanted) member.wanted = before; // which is still shown
+        if (!(e instanceof UnreachableError) || !here()) return;
+        member.unreachable.add(wanted);
+        this.retryTimer ??= window.setTimeout(() => this.retry(roster), RETRY);
       })
       .finally(() => {
         this.count(-1);

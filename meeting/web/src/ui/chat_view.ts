@@ -18,8 +18,14 @@ export class ChatView {
   private unread = 0;
   private open = false;
 
-  /** `send` gives an empty string, or the reason why the message cannot be sent. */
-  constructor(private readonly send: (text: string) => string) {
+  /**
+   * `send` gives an empty string, or the reason why the message cannot be sent. `announce` tells screen readers what is
+   * added while the chat is not visible; they read a visible chat by themselves.
+   */
+  constructor(
+    private readonly send: (text: string) => string,
+    private readonly announce: (words: string) => void,
+  ) {
     byId("chat-form", HTMLFormElement).addEventListener("submit", (e) => {
       e.preventDefault();
       if (!this.text.value.trim()) return;
@@ -62,7 +68,13 @@ export class ChatView {
     );
     while (box.children.length > MOST_LINES) box.firstElementChild?.remove();
     if (low) box.scrollTop = box.scrollHeight;
-    if (line.kind === "said" && !line.mine && !this.open) this.setUnread(this.unread + 1);
+    if (this.open) return;
+    if (line.kind === "note") {
+      this.announce(line.text);
+    } else if (!line.mine) {
+      this.announce(`${line.name}: ${line.text}`);
+      this.setUnread(this.unread + 1);
+    }
   }
 
   /** `open`: whether the chat is visible. */
