@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/hosting/provisioning.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -153,26 +154,32 @@ void Provisioning::work() {
     std::erase_if(known_, [&members](const auto& one) { return !members.contains(one.first); });
     lock.unlock();
 
-    // Update the broker and answer them.
+    // Update the broker. What it did not take is taken back, but for those who ask again already.
     const bool updated = update_broker(accounts, secrets);
-    if (updated) {
-      hooks_.changed(std::move(chairs), freed);
-    }
-    for (const Waiting& one : waiting) {
-      one.answer(updated ? std::optional(one.grant) : std::nullopt);
-    }
-
     lock.lock();
     if (updated) {
       known_ = std::move(members);
     } else {
       freed_.insert(freed_.end(), freed.begin(), freed.end());
       for (const Waiting& one : waiting) {
-        const auto known = known_.find(one.grant.participant);
-        policy_.take_back(one.grant.participant,
-                          known == known_.end() ? std::nullopt : std::optional(known->second));
+        const std::string& id = one.grant.participant;
+        const auto known = known_.find(id);
+        if (std::none_of(waiting_.begin(), waiting_.end(),
+                         [&id](const Waiting& next) { return next.grant.participant == id; })) {
+          policy_.take_back(id, known == known_.end() ? std::nullopt : std::optional(known->second));
+        }
       }
     }
+    lock.unlock();
+
+    // Answer them.
+    if (updated) {
+      hooks_.changed(std::move(chairs), freed);
+    }
+    for (const Waiting& one : waiting) {
+      one.answer(updated ? std::optional(one.grant) : std::nullopt);
+    }
+    lock.lock();
   }
 }
 

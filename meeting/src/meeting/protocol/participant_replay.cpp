@@ -109,7 +109,8 @@ std::optional<ReplayStep> ParticipantReplay::pose(const RecordedMessage& message
     return step;
   }
   const auto frame = decode_pose_frame({bytes, message.payload.size()});
-  if (!frame || ended_.contains(frame->session) || !follow(frame->session, message.at)) {
+  const bool ended = frame && recorded_ != frame->session && ended_.contains(frame->session);
+  if (!frame || ended || !follow(frame->session, message.at)) {
     return std::nullopt;
   }
   const bool newer = !sequence_ || (frame->sequence > *sequence_ && frame->captured > captured_);

@@ -53,12 +53,12 @@ class ParticipantReplay {
   std::optional<std::uint16_t> recorded_;            ///< the session being replayed
   bool left_ = false;                                ///< it has said goodbye
   std::map<std::uint16_t, std::uint64_t> replaced_;  ///< earlier sessions, and when a newer one began, us
-  std::set<std::uint16_t> ended_;                    ///< those that had sent poses: they send no more
-  std::optional<std::uint32_t> sequence_;            ///< recorded, of the newest frame
-  std::uint64_t captured_ = 0;                       ///< recorded, of the newest frame
-  std::uint64_t first_captured_ = 0;                 ///< recorded, of the first frame of the session
-  std::uint64_t first_clock_ = 0;                    ///< the time that corresponds to it
-  std::uint64_t last_clock_ = 0;                     ///< of the last frame
+  std::set<std::uint16_t> ended_;          ///< those that had sent poses: only their presence revives them
+  std::optional<std::uint32_t> sequence_;  ///< recorded, of the newest frame
+  std::uint64_t captured_ = 0;             ///< recorded, of the newest frame
+  std::uint64_t first_captured_ = 0;       ///< recorded, of the first frame of the session
+  std::uint64_t first_clock_ = 0;          ///< the time that corresponds to it
+  std::uint64_t last_clock_ = 0;           ///< of the last frame
   std::uint32_t next_sequence_ = 0;
   std::optional<double> last_at_;  ///< when the last frame was sent, us of the replay
 };

@@ -125,6 +125,8 @@ TEST(ParticipantReplay, PageReturnsAfterItsTracker) {
     ASSERT_TRUE(back && back->here) << says_goodbye;
     EXPECT_FALSE(part.step(pose(4 * kSecond, 6, 41, 2000))) << "of a session that has ended";
     EXPECT_TRUE(part.step(here(7 * kSecond, 5))) << "and stays";
+    ASSERT_TRUE(part.step(here(9 * kSecond, 6))) << "the tracker is back";
+    EXPECT_TRUE(part.step(pose(10 * kSecond, 6, 42, 3000)));
   }
 }
 
