@@ -187,6 +187,10 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
+  // With networks a person is found without colours, too: what a grey picture teaches would be wrong later.
+  if (has_networks() && !is_coloured(coloured_share_of(p.bgr))) {
+    return {false, "the image has no colour: colours are learned as soon as it has some"};
+  }
   shape_ = HeadShape{};
   const std::optional<PoseLandmarks> landmarks = find_landmarks(frame, true);
   const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
@@ -207,10 +211,6 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   }
   if (!face) {
     return {false, "no face was found: look at the camera, and make sure that there is enough light"};
-  }
-  // Skin and clothes have no colours of their own in a grey picture, nor later, when it has colours again.
-  if (!is_coloured(coloured_share_of(p.bgr))) {
-    return {false, "the image has no colour: colours are learned when it has"};
   }
   // Reject faces that are part of the background.
   std::optional<HeadRegion> head = head_region_of(face, p);

@@ -74,8 +74,12 @@ Timed<std::optional<FaceLandmarks>> find_face(const Frame& frame,
 // The hands of the person (docs/hands.md).
 Timed<std::array<SeenHand, 2>> find_hands(const Frame& frame, const std::optional<PoseLandmarks>& landmarks,
                                           SceneState& scene) {
-  if (!scene.hands.has_networks() || !landmarks) {
+  if (!scene.hands.has_networks()) {
     return {};
+  }
+  if (!landmarks) {
+    const SeenHand nowhere{.looked = true, .found = {}};
+    return {.found = {nowhere, nowhere}};
   }
   Stopwatch watch;
   auto hands = scene.hands.find(frame.image, *landmarks, scene.features.working_size(), frame.time,
@@ -131,13 +135,15 @@ std::optional<FaceMotion> face_of(const FrameFeatures& features, const Camera& c
 
 // After a pause the last pose says nothing: the person is searched for as after a loss, in this frame.
 void advance_time(double time, const Tracker& tracker, TrackerState& state, FrameEstimate& result) {
-  state.elapsed = std::min(units_between(state.time, time), kMostSteps);
-  state.lost_for += state.phase == Phase::lost ? state.elapsed : 0.0;
+  const double passed = units_between(state.time, time);
+  state.elapsed = std::min(passed, kMostSteps);
+  state.lost_for += state.phase == Phase::lost ? passed : 0.0;
   state.steps_before = state.steps;
   state.steps = steps_between(state.time, time);
   if (time - state.time > kLongestGap) {
     if (state.phase == Phase::tracking) {
       mark_lost("the input has a pause", tracker, state, result);
+      state.lost_for = passed;
     }
     state.steps_until_search = 0.0;
   }

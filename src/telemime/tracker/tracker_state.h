@@ -68,7 +68,7 @@ struct TrackerState {
   int bad_frames = 0;               ///< in a row: frames that the body does not fit
   double bad_for = 0.0;             ///< how long that has lasted, in 1/25 s
   double steps_until_search = 0.0;  ///< while not tracking, until the next search, in 1/25 s
-  double lost_for = 0.0;            ///< since the person was last tracked, in 1/25 s
+  double lost_for = 0.0;            ///< since the person was last tracked, pauses included, in 1/25 s
   double waited = 0.0;              ///< with a head since the person was last tracked, in 1/25 s
 
   bool calibrated() const { return person.has_value(); }
