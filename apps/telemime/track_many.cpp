@@ -195,7 +195,11 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
       } else if (before == FinishedRun::nobody_tracked) {
         ++failed;
         code = code == 0 ? kExitTracking : code;
-        say(i, "done before: nobody was tracked; results in " + requests[i].out.string());
+        const std::string words = "done before: nobody was tracked; results in " + requests[i].out.string();
+        if (options.quiet) {
+          std::cerr << shown_url(requests[i].input) << ": " << words << std::endl;
+        }
+        say(i, words);
       } else {
         running[start(requests[i], options, told[i])] = i;
       }

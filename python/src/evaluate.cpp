@@ -27,7 +27,7 @@ PoseFile poses_of(const std::vector<FramePointer>& frames) {
   PoseFile file;
   file.camera = (*known)->header->camera;
   for (const FramePointer& frame : frames) {
-    // A live run ends with its last frame once more, as lost.
+    // A live run ends, and is calibrated again, with its last frame once more, as lost.
     const bool repeated = !file.frames.empty() && frame->motion.frame == file.frames.back().frame &&
                           frame->motion.state == TrackState::lost;
     if (repeated) {

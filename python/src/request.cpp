@@ -19,7 +19,7 @@ TrackRequest make_request(const std::string& settings, const std::string& input,
                           const std::string& calibration, double rate, bool mirrored, const std::string& out,
                           std::vector<std::string> formats, std::int64_t frames) {
   if (frames < 0) {
-    throw Error(ErrorKind::usage, "frames is " + std::to_string(frames) + ", but no number is negative",
+    throw Error(ErrorKind::usage, "frames is " + std::to_string(frames) + ", but must not be negative",
                 "0 is all of them.");
   }
   constexpr double kLowestRate = 0.001, kHighestRate = 1000.0;

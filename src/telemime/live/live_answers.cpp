@@ -90,7 +90,8 @@ LiveAnswers::Answer LiveAnswers::add_output(std::uint64_t client, const std::str
                                                   ? "the output \"" + shown + "\": " + words
                                                   : words);
   }
-  // One that was paused is saved already, or is an output of the command line.
+  // One that was paused is saved already, or was not to be: of the command line, or added from another
+  // computer.
   if (is_new && hooks_.from_here(client)) {
     hooks_.keep(url);
   }

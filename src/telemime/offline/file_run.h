@@ -59,7 +59,7 @@ class FileRun {
   void note(const std::string& message);
 
   const TrackRequest& request_;
-  const nlohmann::json asked_;  ///< request_json() before anything is read
+  const nlohmann::json asked_;  ///< request_json() before the frames are tracked
   const RunHooks& hooks_;
   const SourceInfo& info_;
   const TrackingRun& run_;

@@ -82,7 +82,8 @@ class WebSocketLink final : public Link {
  private:
   using Stream = beast::websocket::stream<asio::ip::tcp::socket>;
 
-  /// The closing handshake (RFC 6455, section 7), without the loop, which is ending.
+  /// The closing handshake (RFC 6455, section 7), without SendLoop::wait(), which throws when the sender
+  /// ends.
   void say_goodbye() noexcept {
     constexpr std::chrono::milliseconds kLongestGoodbye(200);
     if (!stream_->is_open()) {

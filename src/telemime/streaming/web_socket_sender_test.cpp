@@ -60,7 +60,9 @@ class Server {
       beast::flat_buffer buffer;
       stream_->read(buffer, error);
     }
-    return error == beast::websocket::error::closed ? std::optional(stream_->reason().code) : std::nullopt;
+    // The client may be gone before its goodbye is answered.
+    const std::uint16_t code = stream_->reason().code;
+    return code == beast::websocket::close_code::none ? std::nullopt : std::optional(code);
   }
 
  private:
