@@ -13,7 +13,7 @@
 #include "telemime/capture/playback.h"
 #include "telemime/core/errors.h"
 #include "telemime/live/live_session.h"
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "waiting.h"
 
 namespace telemime::python {
@@ -40,8 +40,8 @@ class LiveTrack {
       const std::lock_guard lock(mutex_);
       header_ = std::make_shared<StreamHeader>(header);
     };
-    hooks.motion = [this, finite = FiniteFrames()](const MotionFrame& motion, double) mutable {
-      FramePointer frame = make_frame(finite(motion), header());
+    hooks.motion = [this, clean = CleanFrames()](const MotionFrame& motion, double) mutable {
+      FramePointer frame = make_frame(clean(motion), header());
       {
         const std::lock_guard lock(mutex_);
         latest_ = frame;

@@ -8,7 +8,7 @@
 
 #include "bindings.h"
 #include "telemime/offline/track_file.h"
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "waiting.h"
 
 namespace telemime::python {
@@ -80,8 +80,8 @@ class FileTrack {
       const std::lock_guard lock(mutex_);
       header_ = std::make_shared<StreamHeader>(header);
     };
-    hooks.motion = [this, finite = FiniteFrames()](const MotionFrame& motion) mutable {
-      frames_.put(make_frame(finite(motion), header()));
+    hooks.motion = [this, clean = CleanFrames()](const MotionFrame& motion) mutable {
+      frames_.put(make_frame(clean(motion), header()));
     };
     try {
       const TrackSummary summary = track_file(request_, hooks);

@@ -12,7 +12,7 @@
 #include "bindings.h"
 #include "frame.h"
 #include "telemime/core/errors.h"
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/tracker/scene.h"
 #include "telemime/tracker/set_up.h"
 #include "telemime/tracker/smoother.h"
@@ -128,7 +128,7 @@ class ImageTracker {
       header_ = std::make_shared<StreamHeader>(header_of(source_->info(), *run_));
       smoother_ = make_smoother(request_.config.smoothing, header_->body, header_->camera);
     }
-    MotionFrame motion = finite_(smoother_ ? (*smoother_)(record.estimate.motion) : record.estimate.motion);
+    MotionFrame motion = clean_(smoother_ ? (*smoother_)(record.estimate.motion) : record.estimate.motion);
     motion.time += *first_;
     return make_frame(motion, header_);
   }
@@ -185,7 +185,7 @@ class ImageTracker {
   std::optional<TrackingRun> run_;
   std::unique_ptr<Smoother> smoother_;  ///< since a person was calibrated
   std::shared_ptr<const StreamHeader> header_;
-  FiniteFrames finite_;
+  CleanFrames clean_;
   std::string note_;
   std::int64_t count_ = 0;
   std::optional<double> first_, last_;  ///< times of images, s

@@ -113,6 +113,17 @@ inline std::vector<MotionFrame> gesture(const StreamHeader& header, std::size_t 
   return frames;
 }
 
+/// Makes a frame lost, with the body of the one before it, as outputs write it.
+inline void lose(std::vector<MotionFrame>& frames, std::size_t index) {
+  MotionFrame& frame = frames.at(index);
+  const MotionFrame& before = frames.at(index - 1);
+  frame.state = TrackState::lost;
+  frame.pose = before.pose;
+  frame.joints = before.joints;
+  frame.pixels = before.pixels;
+  frame.hands = before.hands;
+}
+
 /// The complete file of an encoder for these frames, with patches applied.
 inline std::string encode_all(Encoder& encoder, const StreamHeader& header,
                               const std::vector<MotionFrame>& frames) {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/encoder.h"
-#include "telemime/outputs/finite.h"
 #include "telemime/outputs/humanoid.h"
 
 namespace telemime {
@@ -17,8 +17,8 @@ class PersonMotion {
 
   const Body& body() const { return body_; }
   const HumanoidSkeleton& skeleton() const { return skeleton_; }
-  /// The frame with only finite numbers (outputs/finite.h). Call it once per frame, in order.
-  MotionFrame clean(const MotionFrame& frame) { return finite_(frame); }
+  /// The frame with only finite numbers (outputs/clean_frames.h). Call it once per frame, in order.
+  MotionFrame clean(const MotionFrame& frame) { return clean_(frame); }
   /// The pose of a frame that clean() returned; nothing if the person is lost in it.
   std::optional<HumanoidMotion> operator()(const MotionFrame& frame) {
     if (frame.state == TrackState::lost) {
@@ -37,7 +37,7 @@ class PersonMotion {
  private:
   Body body_;
   HumanoidSkeleton skeleton_;
-  FiniteFrames finite_;
+  CleanFrames clean_;
   std::optional<Eigen::Vector3d> origin_;  ///< m, camera frame
 };
 

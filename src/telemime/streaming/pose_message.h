@@ -8,7 +8,7 @@
 namespace telemime {
 
 /// The messages `body` and `pose` of docs/live-protocol.md, JSON without line breaks, for one person. Numbers
-/// that are not finite are replaced as in outputs/finite.h.
+/// that are not finite are replaced as in outputs/clean_frames.h.
 class PoseMessages {
  public:
   /// The origin of the scale is read from header.extra["scale_from"], if present.

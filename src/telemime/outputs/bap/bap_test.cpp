@@ -140,7 +140,7 @@ TEST(BapProfile, AliasAndUnknownName) {
 TEST(BapFile, ReadsBackWhatItWroteForEveryProfile) {
   const StreamHeader header = testing_motion::header();
   auto frames = testing_motion::gesture(header, 30);
-  frames[3].state = TrackState::lost;
+  testing_motion::lose(frames, 3);
   for (const BapProfile& profile : bap_profiles()) {
     const BapFile file =
         parse_bap(testing_motion::encode_all(*make_bap_encoder(profile.name), header, frames));

@@ -6,7 +6,7 @@
 
 #include "telemime/outputs/bap/fingers.h"
 #include "telemime/outputs/bap/profile.h"
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
@@ -44,7 +44,7 @@ class BapEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const MotionFrame frame = finite_(raw);
+    const MotionFrame frame = clean_(raw);
     const Pose pose = frame.hands ? with_wrists(frame.pose, *frame.hands) : frame.pose;
     last_ = encode_bap(profile_, pose, last_);
     std::string text = mask_ + std::to_string(frame.frame);
@@ -68,7 +68,7 @@ class BapEncoder final : public Encoder {
  private:
   const BapProfile& profile_;
   std::string mask_;
-  FiniteFrames finite_;
+  CleanFrames clean_;
   bool fingers_ = false;
   BapValues last_{};
   FingerBapValues last_fingers_{};

@@ -7,8 +7,8 @@
 
 #include "telemime/body/rotations.h"
 #include "telemime/outputs/bvh/skeleton.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/euler.h"
-#include "telemime/outputs/finite.h"
 #include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/numbers.h"
 
@@ -74,10 +74,12 @@ class BvhEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const MotionFrame frame = finite_(raw);
+    const MotionFrame frame = clean_(raw);
     BvhMotion motion = bvh_motion(body_, frame.hands ? with_wrists(frame.pose, *frame.hands) : frame.pose);
-    if (frame.face) {
-      turn_head(*frame.face, motion);
+    // A lost frame keeps the head as it keeps the body.
+    face_ = frame.state == TrackState::tracking ? frame.face : face_;
+    if (face_) {
+      turn_head(*face_, motion);
     }
     if (fingers_ && frame.hands) {
       fingers_ = finger_skeleton(*frame.hands);
@@ -124,7 +126,8 @@ class BvhEncoder final : public Encoder {
 
   Body body_;
   double fps_ = 25.0;
-  FiniteFrames finite_;
+  CleanFrames clean_;
+  std::optional<FaceMotion> face_;  ///< of the last tracked frame
   std::optional<FingerSkeleton> fingers_;
   FingerRotations turned_;
   std::array<EulerAngles, kBvhBoneCount + kFingerBoneCount> last_{};

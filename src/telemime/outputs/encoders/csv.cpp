@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
@@ -52,7 +52,7 @@ class CsvEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const MotionFrame frame = finite_(raw);
+    const MotionFrame frame = clean_(raw);
     std::string line = std::to_string(frame.frame);
     append_cell(line, frame.time, 6);
     line += frame.state == TrackState::tracking ? ",tracking" : ",lost";
@@ -117,7 +117,7 @@ class CsvEncoder final : public Encoder {
     }
   }
 
-  FiniteFrames finite_;
+  CleanFrames clean_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ std::vector<std::vector<std::string>> table(const std::string& text) {
 TEST(Csv, EveryRowHasEveryColumnAndTheRightNumbers) {
   const StreamHeader header = testing_motion::header();
   auto frames = testing_motion::gesture(header, 4);
-  frames[2].state = TrackState::lost;
+  testing_motion::lose(frames, 2);
   Random random(1);
   frames[1].face = testing_motion::random_face(random);
   frames[3].hands.emplace();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/outputs/all.h"
 
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
@@ -158,7 +158,7 @@ class JsonlEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const MotionFrame frame = finite_(raw);
+    const MotionFrame frame = clean_(raw);
     Json angles = Json::object();
     for (std::size_t a = 0; a < kAngleCount; ++a) {
       angles[std::string(kAngleNames[a])] = degrees(frame.pose.angles[a]);
@@ -199,7 +199,7 @@ class JsonlEncoder final : public Encoder {
   }
 
  private:
-  FiniteFrames finite_;
+  CleanFrames clean_;
 };
 
 }  // namespace

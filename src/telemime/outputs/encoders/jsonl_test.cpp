@@ -35,7 +35,7 @@ TEST(Jsonl, ReadsBackWhatItWrote) {
   shape.shoulders = 0.9;
   header.body = make_body(shape);
   auto frames = testing_motion::gesture(header, 20);
-  frames[7].state = TrackState::lost;
+  testing_motion::lose(frames, 7);
   const PoseFile file = parse_pose_jsonl(encoded(header, frames), "test");
   EXPECT_TRUE(file.complaint.empty());
   EXPECT_DOUBLE_EQ(file.fps, header.fps);

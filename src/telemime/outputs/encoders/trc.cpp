@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/numbers.h"
 
 namespace telemime {
@@ -50,7 +50,7 @@ class TrcEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    const MotionFrame frame = finite_(raw);
+    const MotionFrame frame = clean_(raw);
     if (count_ == 0) {
       start_ = frame.time;
     }
@@ -89,7 +89,7 @@ class TrcEncoder final : public Encoder {
     return padded_count(count_, kCountWidth) + between_counts_ + padded_count(count_, kCountWidth);
   }
 
-  FiniteFrames finite_;
+  CleanFrames clean_;
   bool fingers_ = false;
   std::size_t count_ = 0;
   double start_ = 0.0;

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "telemime/outputs/all.h"
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 #include "telemime/outputs/gltf/humanoid.h"
 #include "telemime/outputs/gltf/keys.h"
 #include "telemime/outputs/numbers.h"
@@ -47,7 +47,7 @@ class GltfMotionEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
-    keys_->add(finite_(raw));
+    keys_->add(clean_(raw));
     ++frames_;
     return keys_->count() >= next_snapshot_ ? snapshot() : std::string();
   }
@@ -88,7 +88,7 @@ class GltfMotionEncoder final : public Encoder {
   bool mannequin_;      ///< shows the motion; otherwise VRM animation
   GltfDocument fixed_;  ///< the constant part: skeleton and mannequin
   std::optional<MotionKeys> keys_;
-  FiniteFrames finite_;
+  CleanFrames clean_;
   std::string head_;           ///< always of the same size
   std::size_t json_size_ = 0;  ///< of the JSON chunk
   std::size_t written_ = 0;    ///< bytes of the binary chunk

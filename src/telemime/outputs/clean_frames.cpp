@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/outputs/finite.h"
+#include "telemime/outputs/clean_frames.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,17 +45,19 @@ double finite_or(double value, double otherwise) {
 }  // namespace
 
 // Eigen leaves new vectors uninitialised.
-MotionFrame FiniteFrames::blank() {
+MotionFrame CleanFrames::blank() {
   MotionFrame frame;
   frame.joints.at.fill(frame.pose.root);
   frame.pixels.fill(Eigen::Vector2d::Zero());
   return frame;
 }
 
-MotionFrame FiniteFrames::operator()(const MotionFrame& frame) {
+MotionFrame CleanFrames::operator()(const MotionFrame& frame) {
   MotionFrame clean = frame;
-  if (!pose_is_finite(frame)) {
-    clean.state = TrackState::lost;
+  const bool finite = pose_is_finite(frame);
+  clean.state = finite ? frame.state : TrackState::lost;
+  tracked_ = tracked_ || clean.state == TrackState::tracking;
+  if (!finite || (tracked_ && clean.state == TrackState::lost)) {
     clean.pose = last_.pose;
     clean.joints = last_.joints;
     clean.pixels = last_.pixels;
