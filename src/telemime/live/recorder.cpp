@@ -34,7 +34,20 @@ struct Task {
 struct Open {
   Recording recording;
   Resampler resampler;
-  std::vector<std::unique_ptr<FileOutput>> files;
+  struct File {
+    std::unique_ptr<FileOutput> output;
+    bool own_times = false;
+  };
+  std::vector<File> files;
+
+  // Frames with their own times go to the formats that have them, resampled ones to the others.
+  void write(const MotionFrame& frame, bool own_times) {
+    for (const File& file : files) {
+      if (file.own_times == own_times) {
+        file.output->write(frame);
+      }
+    }
+  }
 };
 
 }  // namespace
@@ -119,10 +132,9 @@ struct Recorder::State {
     if (!open) {
       begin();
     }
+    open->write(frame, true);
     open->resampler.push(frame, [this](const MotionFrame& made) {
-      for (const auto& file : open->files) {
-        file->write(made);
-      }
+      open->write(made, false);
       const std::lock_guard lock(mutex);
       open->recording.frames = made.frame + 1;
       open->recording.seconds = static_cast<double>(made.frame + 1) / header->fps;
@@ -156,7 +168,8 @@ struct Recorder::State {
     Open made{recording, Resampler(header->body, header->camera, header->fps), {}};
     for (const OutputFormat& format : formats) {
       made.files.push_back(
-          std::make_unique<FileOutput>(recording.folder / format.file_name, format.make(options), *header));
+          {std::make_unique<FileOutput>(recording.folder / format.file_name, format.make(options), *header),
+           format.own_times});
     }
     open.emplace(std::move(made));
   }
@@ -169,7 +182,7 @@ struct Recorder::State {
   }
 
   void end() {
-    const Open last = std::move(*open);
+    Open last = std::move(*open);
     open.reset();  // the recording is over, whatever fails from here on
     Recording recording = last.recording;
     std::int64_t missing = 0;
@@ -177,20 +190,20 @@ struct Recorder::State {
       const std::lock_guard lock(mutex);
       missing = std::exchange(lost, 0);  // later losses count for the next recording
     }
-    for (const auto& file : last.files) {
+    for (Open::File& file : last.files) {
+      const std::filesystem::path path = file.output->path();
       try {
-        file->close();
+        file.output->close();
       } catch (const Error& e) {
         say(MessageLevel::error, e.what());
       } catch (const std::exception& e) {  // out of memory: the others may need less
-        say(MessageLevel::error, file->path().string() + " is incomplete: " + e.what());
+        say(MessageLevel::error, path.string() + " is incomplete: " + e.what());
       }
-    }
-    for (const auto& file : last.files) {
+      file.output.reset();  // its frames with it: the next file needs room to end
       std::error_code failed;
-      const auto bytes = std::filesystem::file_size(file->path(), failed);
+      const auto bytes = std::filesystem::file_size(path, failed);
       if (!failed) {
-        recording.files.push_back({file->path().filename().string(), bytes});
+        recording.files.push_back({path.filename().string(), bytes});
       }
     }
     {

@@ -32,7 +32,8 @@ struct Recording {
 /// Two hours at 30 frames per second.
 inline constexpr std::int64_t kMostRecordedFrames = 216'000;
 
-/// Records live motion in every format at a constant rate (resampler.h), one folder per recording. After a
+/// Records live motion in every format, one folder per recording: with the frames and times of the tracker in
+/// formats that have times, at a constant rate (resampler.h) in the others. After a
 /// gap of more than 10 s it continues in a new recording. A separate thread writes: a slow disk
 /// loses frames of the recording after 10 s but never delays the tracker; a full disk ends the recording,
 /// whose files keep the frames written so far. Thread-safe; only the constructor throws.
@@ -42,8 +43,8 @@ class Recorder {
 
   /// `folder` is created with the first recording. `message` receives messages for the user, from the
   /// recorder's thread. After `most_frames` frames a recording continues in a new one, because some formats
-  /// hold 230 bytes per frame in memory until the end (all formats: 62 MB for an hour at 25 frames a second,
-  /// twice that at the end).
+  /// hold their frames in memory until the end (all formats with hands and face: 1,600 bytes per frame, 142
+  /// MB for an hour at 25 frames a second, and half as much again while the recording ends).
   Recorder(std::filesystem::path folder, OutputOptions options, Message message,
            std::int64_t most_frames = kMostRecordedFrames,
            std::span<const OutputFormat> formats = kOutputFormats);

@@ -206,12 +206,19 @@ TEST_F(Records, DurationsAgreeForAnyTimes) {
     const std::size_t input = glb.json["animations"][0]["samplers"][0]["input"];
     EXPECT_NEAR(testing_glb::numbers<float>(glb, input).back(), time, step) << name;
   }
-  for (const char* table : {"motion.trc", "pose.csv"}) {
+  const auto last_time = [&](const char* table) {
     const std::string rows = text(table);
     const std::string last = rows.substr(rows.rfind('\n', rows.size() - 2) + 1);
-    EXPECT_NEAR(std::stod(last.substr(last.find_first_of(",\t") + 1)), time, step) << table;
-  }
-  EXPECT_NEAR(read_pose_jsonl(recording.folder / "pose.jsonl").frames.back().time, time, step);
+    return std::stod(last.substr(last.find_first_of(",\t") + 1));
+  };
+  EXPECT_NEAR(last_time("motion.trc"), time, step);
+  // Files with times have the frames and times of the tracker, so that they can be compared with a truth.
+  EXPECT_NEAR(last_time("pose.csv"), 7.0 + time, 1e-5);
+  const PoseFile poses = read_pose_jsonl(recording.folder / "pose.jsonl");
+  ASSERT_EQ(poses.frames.size(), 60U);
+  EXPECT_EQ(poses.frames.back().frame, 59);
+  EXPECT_NEAR(poses.frames.front().time, 7.0, 1e-5);
+  EXPECT_NEAR(poses.frames.back().time, 7.0 + time, 1e-5);
 }
 
 TEST_F(Records, AfterALongGapItGoesOnInTheNext) {
