@@ -141,6 +141,7 @@ void FileRun::begin() {
   const StreamHeader header = header_of(info_, run_);
   if (smoothing_) {
     write_ready(true);
+    outputs_.set_body(header.body);
   } else {
     outputs_.begin(header);
     if (hooks_.person) {

@@ -8,7 +8,9 @@
 #include <string>
 #include <system_error>
 
-#include "telemime/capture/input_kind.h"
+#include "telemime/capture/image_sequence.h"
+#include "telemime/core/errors.h"
+#include "telemime/offline/run_outputs.h"
 
 namespace telemime {
 namespace {
@@ -16,10 +18,35 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Size and time of a file, by which it is told from another of the same name; null for what has none
-// (nothing, a stream, a pattern of images, a preset's name).
+// A digest of name, size and time of each image; null without images. FNV-1a, as std::hash may differ from
+// one build to the next.
+Json identity_of_images(const std::string& input, InputKind kind) {
+  std::uint64_t digest = 14695981039346656037U;
+  std::size_t count = 0;
+  try {
+    for (const fs::path& image : image_files(input, kind)) {
+      std::error_code unknown;
+      const std::uintmax_t size = fs::file_size(image, unknown);
+      const auto time = fs::last_write_time(image, unknown).time_since_epoch().count();
+      for (const char c : image.string() + " " + std::to_string(size) + " " + std::to_string(time) + "\n") {
+        digest = (digest ^ static_cast<unsigned char>(c)) * 1099511628211U;
+      }
+      ++count;
+    }
+  } catch (const Error&) {
+    return nullptr;
+  }
+  return {{"images", count}, {"digest", digest}};
+}
+
+// Size and time of a file, by which it is told from another of the same name; of a folder or a pattern, name,
+// size and time of each image. Null for what has none (nothing, a stream, a preset's name).
 Json identity_of(const std::string& name) {
   const std::string file = without_file_scheme(name);
+  const InputKind kind = input_kind(name);
+  if (kind == InputKind::folder || kind == InputKind::pattern) {
+    return identity_of_images(file, kind);
+  }
   std::error_code unknown;
   const auto time = fs::last_write_time(file, unknown);
   if (unknown) {
@@ -39,6 +66,10 @@ Json as_read(const Json& json) {
 Json request_json(const TrackRequest& r) {
   Json settings = to_json(r.config);
   settings.erase("threads");
+  Json identities = Json::array();
+  for (const std::string& name : names_read(r)) {
+    identities.push_back(identity_of(name));
+  }
   return {{"version", r.version},
           {"input", shown_url(r.input)},
           {"rate", r.input_options.rate},
@@ -52,9 +83,7 @@ Json request_json(const TrackRequest& r) {
           {"overlay", r.overlay},
           {"frames", r.most_frames},
           {"networks", uses_networks(r.config)},
-          {"read",
-           {identity_of(r.input), identity_of(r.background), identity_of(r.camera),
-            identity_of(r.calibration), identity_of(r.config.limits), identity_of(r.config.filter.model)}},
+          {"read", identities},
           {"settings", settings}};
 }
 

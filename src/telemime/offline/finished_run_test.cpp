@@ -91,6 +91,31 @@ TEST(FinishedRun, AnotherInputOfTheSameNameIsTrackedAgain) {
   }
 }
 
+// Overwriting an image changes neither the time of its folder nor a pattern.
+TEST(FinishedRun, ImagesThatWereReplacedAreTrackedAgain) {
+  for (const char* name : {"shots", "shots/*.png", "shots/%d.png"}) {
+    FinishedExample run;
+    fs::create_directories(run.folder.path() / "shots");
+    const std::string second = run.folder.file("shots/2.png");
+    std::ofstream(run.folder.file("shots/1.png")) << "an image";
+    std::ofstream(second) << "an image";
+    run.request.input = run.folder.file(name);
+    run.write({{"request", request_json(run.request)}, {"interrupted", false}, {"files", {run.pose()}}});
+    EXPECT_EQ(finished_run(run.request), FinishedRun::complete) << name;
+    const auto time = fs::last_write_time(second);
+    const auto time_of_folder = fs::last_write_time(run.folder.path() / "shots");
+    std::ofstream(second) << "another image";
+    fs::last_write_time(second, time);
+    fs::last_write_time(run.folder.path() / "shots", time_of_folder);
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << name << ", another size";
+    std::ofstream(second) << "an image";
+    fs::last_write_time(second, time + std::chrono::hours(1));
+    EXPECT_EQ(finished_run(run.request), FinishedRun::none) << name << ", another time";
+    fs::last_write_time(second, time);
+    EXPECT_EQ(finished_run(run.request), FinishedRun::complete) << name;
+  }
+}
+
 TEST(FinishedRun, AStreamIsTrackedAgain) {
   FinishedExample run;
   run.request.input = "http://nas/clip?id=6";

@@ -21,7 +21,7 @@ double overlay_rate(double fps) {
 }
 
 OverlayVideo::OverlayVideo(const std::filesystem::path& folder, double fps, Note note)
-    : file_(folder / "overlay.mp4"),
+    : file_(folder / kFileName),
       rate_(overlay_rate(fps)),
       longest_gap_(longest_gap(fps)),
       note_(std::move(note)) {
@@ -100,7 +100,7 @@ void OverlayVideo::close() {
   try {
     std::vector<unsigned char> png;
     cv::imencode(".png", best_, png);
-    write_whole_file(file_.parent_path() / "overlay.png", std::string(png.begin(), png.end()));
+    write_whole_file(file_.parent_path() / kPictureName, std::string(png.begin(), png.end()));
   } catch (const std::exception& e) {
     if (note_) {
       note_(std::string("the overlay picture is not written: ") + e.what());

@@ -17,6 +17,8 @@ double overlay_rate(double fps);
 class OverlayVideo {
  public:
   using Note = std::function<void(const std::string&)>;
+  static constexpr const char* kFileName = "overlay.mp4";
+  static constexpr const char* kPictureName = "overlay.png";
 
   /// Tries whether a video can be written in the folder. `fps`: of the input. `note` may be empty.
   OverlayVideo(const std::filesystem::path& folder, double fps, Note note);

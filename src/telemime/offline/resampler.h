@@ -24,6 +24,9 @@ class Resampler {
   Resampler(const Body& body, const Camera& camera, double fps)
       : body_(body), camera_(camera), fps_(fps), longest_gap_(longest_gap(fps)), slack_(0.03 / fps) {}
 
+  /// The person of the frames that follow.
+  void set_body(const Body& body) { body_ = body; }
+
   /// Time since the previous frame, s; 0 for the first frame.
   double gap_before(const MotionFrame& frame) const { return last_ ? frame.time - last_->time : 0.0; }
 

@@ -8,9 +8,29 @@
 #include <system_error>
 #include <utility>
 
+#include "telemime/capture/input_kind.h"
+#include "telemime/core/errors.h"
 #include "telemime/core/files.h"
 
 namespace telemime {
+namespace {
+
+// A result in the place of a file that is being read would destroy it.
+void keep_inputs(const TrackRequest& request, const std::filesystem::path& result) {
+  for (const std::string& name : names_read(request)) {
+    std::error_code apart;
+    if (!name.empty() && std::filesystem::equivalent(without_file_scheme(name), result, apart)) {
+      throw Error(ErrorKind::usage, result.string() + " is read by this run and would be replaced",
+                  "Choose another place for the results with --out.");
+    }
+  }
+}
+
+}  // namespace
+
+std::array<std::string, 6> names_read(const TrackRequest& r) {
+  return {r.input, r.background, r.camera, r.calibration, r.config.limits, r.config.filter.model};
+}
 
 void prepare_outputs(const TrackRequest& request) {
   for (const std::string& name : request.formats) {
@@ -30,9 +50,16 @@ void prepare_outputs(const TrackRequest& request) {
   if (access(request.out.c_str(), W_OK) != 0) {
     throw cannot_write(request.out, errno);
   }
+  for (const OutputFormat& format : kOutputFormats) {
+    keep_inputs(request, request.out / format.file_name);
+  }
+  for (const char* name : {OverlayVideo::kFileName, OverlayVideo::kPictureName, "report.json"}) {
+    keep_inputs(request, request.out / name);
+  }
 }
 
-void prepare_file(const std::filesystem::path& file) {
+void prepare_file(const std::filesystem::path& file, const TrackRequest& request) {
+  keep_inputs(request, file);
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (access(folder.c_str(), W_OK) != 0) {
     throw cannot_write(file, errno);
@@ -40,6 +67,12 @@ void prepare_file(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) {
     throw cannot_write(file, EISDIR);
+  }
+}
+
+void RunOutputs::set_body(const Body& body) {
+  if (resampler_) {
+    resampler_->set_body(body);
   }
 }
 

@@ -14,12 +14,18 @@
 
 namespace telemime {
 
+/// What a request reads, by the user's names: input, background clip, camera, calibration, limits and the
+/// filter's model; empty ones where it names none.
+std::array<std::string, 6> names_read(const TrackRequest& request);
+
 /// Makes the folder of the results and sees to it that they can be written there. Throws Error(usage) for a
-/// format or an option that there is not, Error(output).
+/// format or an option that there is not, and where a result would replace a file that the request reads;
+/// Error(output).
 void prepare_outputs(const TrackRequest& request);
 
-/// Throws Error(output) where a file of that name could not be written later; writes nothing.
-void prepare_file(const std::filesystem::path& file);
+/// Throws Error(output) where a file of that name could not be written later, and Error(usage) where it would
+/// replace one that the request reads; writes nothing.
+void prepare_file(const std::filesystem::path& file, const TrackRequest& request = {});
 
 /// The files of one run: the encoders' and the overlay video. None where the request names no folder.
 class RunOutputs {
@@ -31,6 +37,9 @@ class RunOutputs {
   /// Opens the encoders' files: the head of each holds the person's shape, so this waits until it is known.
   /// Throws Error(output).
   void begin(const StreamHeader& header);
+
+  /// The person of the frames that follow. What a file's head says of the first stays.
+  void set_body(const Body& body);
 
   /// A frame at its true time, which must increase; files of constant rate get resampled ones.
   void write(const MotionFrame& frame);

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/outputs/gltf/testing_glb.h"
 #include "telemime/outputs/readers/jsonl.h"
@@ -82,6 +83,70 @@ TEST(RunOutputs, DurationsAgreeForAnyTimes) {
       EXPECT_EQ(poses.frames.size(), 60U) << "the true ones";
       EXPECT_NEAR(poses.frames.back().time, time, 1e-5);
     }
+  }
+}
+
+// A run that goes on with another person, at a time between those of the files of constant rate.
+TEST(RunOutputs, FramesBetweenHaveTheBonesOfTheirPerson) {
+  const ScratchFolder scratch;
+  TrackRequest request;
+  request.out = scratch.path();
+  request.overlay = false;
+  request.formats = {"trc"};
+  const StreamHeader header = testing_motion::header();
+  Shape tall;
+  tall.stature = 2.0;
+  RunOutputs outputs(request, header.fps, nullptr);
+  outputs.begin(header);
+  const auto write = [&](const Body& body, int first, int last) {
+    for (int i = first; i < last; ++i) {
+      MotionFrame frame = testing_motion::frame_of(body, header.camera, Pose(), i, header.fps);
+      frame.time += 0.4 / header.fps * (i % 2);
+      outputs.write(frame);
+    }
+  };
+  write(header.body, 0, 20);
+  outputs.set_body(make_body(tall));
+  write(make_body(tall), 20, 40);
+  outputs.close({});
+  // The head stands one neck above the root in all frames of a person.
+  std::istringstream lines(text_of(scratch.file("motion.trc")));
+  std::vector<double> heights;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::vector<double> row;
+    for (double cell = 0.0; cells >> cell;) {
+      row.push_back(cell);
+    }
+    if (row.size() > 12) {
+      heights.push_back(row[6] - row[3]);
+    }
+  }
+  ASSERT_GE(heights.size(), 39U);
+  for (std::size_t i = 22; i < heights.size(); ++i) {
+    EXPECT_NEAR(heights[i], heights.back(), 0.1) << i;
+  }
+  EXPECT_GT(heights.back(), 1.1 * heights.front());
+}
+
+TEST(RunOutputs, NeverReplaceWhatTheRunReads) {
+  const ScratchFolder folder;
+  TrackRequest request;
+  request.out = folder.path();
+  for (std::string* read : {&request.input, &request.background, &request.camera, &request.calibration}) {
+    for (const char* name : {"overlay.mp4", "overlay.png", "report.json", "pose.jsonl"}) {
+      const std::string file = folder.file(name);
+      std::ofstream(file) << "precious";
+      for (const std::string& spelled : {file, "file://" + file, (folder.path() / "." / name).string()}) {
+        *read = spelled;
+        EXPECT_THROW(RunOutputs(request, 25.0, nullptr), Error) << spelled;
+        EXPECT_THROW(prepare_file(file, request), Error) << spelled;
+        EXPECT_EQ(text_of(file), "precious");
+      }
+      std::filesystem::remove(file);
+      EXPECT_NO_THROW(prepare_file(file, request)) << "nothing is there yet";
+    }
+    read->clear();
   }
 }
 

@@ -76,7 +76,7 @@ void report_fit(const FittedPerson& person, const RunHooks& hooks) {
 
 CalibratedPerson calibrate_file(const TrackRequest& request, const RunHooks& hooks,
                                 const std::filesystem::path& file) {
-  prepare_file(file);
+  prepare_file(file, request);
   TrackRequest forward = request;
   forward.config.look_back = false;
   OpenedFile opened = open_file(forward, hooks);
