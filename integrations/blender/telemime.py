@@ -112,13 +112,14 @@ def read_bvh(file):
             stack.pop()
     start = words.index("Time:", i)
     frame_time, values = float(words[start + 1]), [float(w) for w in words[start + 2:]]
-    if len(values) < len(channels):
-        raise ValueError("it has no frames")
+    width, rate_is_sane = len(channels), 1e-4 < frame_time < 1e4
+    if not (rate_is_sane and 0 < width <= len(values) and {"hips", "leftUpperArm", "rightUpperArm"} <= bones.keys()):
+        raise ValueError("it has no person, no frames or no rate")
     axes = {a: up_z([float(a == b) for b in "XYZ"]) for a in "XYZ"}
     poses = []
-    for n in range(len(values) // len(channels)):
+    for n in range(len(values) // width):
         turns, hips = {}, Vector()
-        for (bone, channel), value in zip(channels, values[n * len(channels):]):
+        for (bone, channel), value in zip(channels, values[n * width:(n + 1) * width]):
             if channel.endswith("position"):
                 hips += value / 100.0 * axes[channel[0]]
             else:
@@ -241,8 +242,8 @@ def import_recording(file, target=None, convention="VRM", place="FLOOR", set_rat
         raise ValueError("this is not a motion.bvh of Telemime") from e
     scene = bpy.context.scene
     if place == "FLOOR":
-        # Until somebody is found, all frames are the resting pose at one place.
-        first = next((pose for pose in poses if pose.hips != poses[0].hips), poses[0])
+        # Until somebody is found, all frames are the resting pose at one place, which faces the camera.
+        first = next((p for p in poses if p.hips != poses[0].hips or p.turns.get("hips") != Quaternion()), poses[0])
         moved = skeleton.bones["hips"][1] - first.hips
         poses = [pose._replace(hips=pose.hips + moved) for pose in poses]
     if set_rate:

@@ -8,6 +8,7 @@ import asyncio
 import json
 import os
 import random
+import re
 import socket
 import subprocess
 import sys
@@ -177,7 +178,12 @@ def check_errors(folder, *_):
     empty_scene()
     words = Path(tempfile.mkdtemp()) / "words.bvh"
     words.write_text("no motion at all")
-    for file, reason in ((words, "this is not a motion.bvh of Telemime"), (folder / "none.bvh", "No such file")):
+    motion = (folder / "motion.bvh").read_text()
+    root, rate = words.with_name("root.bvh"), words.with_name("rate.bvh")
+    root.write_text(motion.replace("ROOT Hips", "ROOT Pelvis"))
+    rate.write_text(re.sub("Frame Time: .*", "Frame Time: 0", motion))
+    for file, reason in (*((f, "this is not a motion.bvh of Telemime") for f in (words, root, rate)),
+                         (folder / "none.bvh", "No such file")):
         try:
             bpy.ops.import_anim.telemime(filepath=str(file))
             return False
