@@ -44,7 +44,7 @@ std::unique_ptr<Sender> make_web_socket_sender(const SendUrl& url);
 /// option `mirror`.
 inline constexpr std::array<SenderKind, 4> kSenderKinds = {{
     {"vmc", kMarionettePort, "vmc://localhost:39539",
-     "bundle=1|0, positions=all|hips, root=still|moves, mirror=0|1",
+     "bundle=1|0, positions=all|hips, root=still|moves, expressions=vrm0|vrm1|arkit, mirror=0|1",
      "avatar programs that receive the VMC protocol: VSeeFace, Warudo, VNyan, EVMC4U", make_vmc_sender},
     {"vrchat", kVrchatPort, "vrchat://localhost:9000", "trackers=chest,elbows,hands, bundle=1|0, mirror=0|1",
      "VRChat: head, chest, elbows and hands as OSC trackers", make_vrchat_sender},

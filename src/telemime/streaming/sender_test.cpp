@@ -59,6 +59,7 @@ TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
   EXPECT_TRUE(same("vmc://localhost", "vmc://localhost:39539"));
   EXPECT_TRUE(same("VMC://LocalHost/", "vmc://127.0.0.1?bundle=1&mirror=0"));
   EXPECT_TRUE(same("vmc://h?root=moves&bundle=0", "vmc://h?bundle=0&root=moves&positions=all"));
+  EXPECT_TRUE(same("vmc://h", "vmc://h?expressions=vrm0"));
   EXPECT_TRUE(same("vmc://h?bundle=0&bundle=1", "vmc://h?bundle=0")) << "the first one counts";
   EXPECT_TRUE(same("vmc://[0:0::1]", "vmc://[::1]:39539"));
   EXPECT_TRUE(same("ws://h:80", "ws://h/?mirror=0"));
@@ -66,6 +67,7 @@ TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
 
   EXPECT_FALSE(same("vmc://localhost", "vmc://localhost:39540"));
   EXPECT_FALSE(same("vmc://localhost", "vmc://localhost?mirror=1"));
+  EXPECT_FALSE(same("vmc://h", "vmc://h?expressions=arkit"));
   EXPECT_FALSE(same("vmc://a", "vmc://b"));
   EXPECT_FALSE(same("bap+tcp://h:4150", "ws://h:4150"));
   EXPECT_FALSE(same("ws://h:80/a", "ws://h:80/A")) << "only a host is the same in capitals";
@@ -74,7 +76,7 @@ TEST(Senders, UrlsThatMeanTheSameAreToldByIt) {
 
 TEST(Senders, EveryOptionOfTheTableIsOneAndItsFirstValueTheDefault) {
   EXPECT_EQ(meaning_of("vmc://localhost"),
-            "vmc://127.0.0.1:39539/&bundle=1&mirror=0&positions=all&root=still");
+            "vmc://127.0.0.1:39539/&bundle=1&expressions=vrm0&mirror=0&positions=all&root=still");
   for (const SenderKind& kind : sender_kinds()) {
     const std::string meaning = meaning_of(std::string(kind.example));
     const std::string options = meaning.substr(meaning.find('&') + 1);
