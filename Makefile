@@ -10,7 +10,7 @@ FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
 COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
-TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install package package-test reference count clean
+TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install uninstall package package-test reference count clean
 # Targets that install packages come before those that need them; JOBS and TEST_JOBS are what runs in parallel.
 .NOTPARALLEL:
 .PHONY: $(TARGETS) deps-page deps-python deps-test program configure
@@ -96,7 +96,10 @@ fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 
 install: deps-python build ## install program, Python package, libraries, headers and data below PREFIX (/usr/local)
 	@cmake --build build/release -j $(JOBS)
-	@cmake --install build/release --prefix $(PREFIX)
+	@cmake --install build/release --prefix "$(PREFIX)"
+
+uninstall: ## remove what `make install` installed last
+	@scripts/uninstall.sh
 
 package: deps-python build ## Debian packages, and a tarball with all libraries: build/release/packages
 	@scripts/deps.sh package

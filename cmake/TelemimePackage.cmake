@@ -87,6 +87,9 @@ if(TARGET _telemime)
 endif()
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "telemime (= ${PROJECT_VERSION}), python3 (>= 3.${TELEMIME_PYTHON_MINOR}), \
 python3 (<< 3.${next_minor}), python3-numpy")
+set(python_scripts "${PROJECT_SOURCE_DIR}/cmake/package/python3-telemime")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${python_scripts}/postinst;${python_scripts}/prerm")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)  # they are executable, whatever the checkout's files are
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION
     "The tracker of Telemime for Python: the frames of a video, a camera or arrays
 of NumPy give poses, joints, hands and faces.")

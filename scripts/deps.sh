@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages of scripts/packages.txt that are missing. Usage: scripts/deps.sh [build] [test] [check]
+# Installs the Debian packages of scripts/packages.txt that are missing, and names those that are there in another version.
+# Usage: scripts/deps.sh [build] [test] [check]
 set -euo pipefail
 list="$(dirname "$0")/packages.txt"
 uses="${*:-build}"
 
-missing=()
+missing=() others=()
 while read -r use name version command; do
   [[ "$use" != "#"* && -n "$name" && " $uses " == *" $use "* ]] || continue
   if [[ "$version" == command=* ]]; then
@@ -14,10 +15,18 @@ while read -r use name version command; do
   if [[ -n "$command" ]] && command -v "${command#command=}" > /dev/null; then
     continue
   fi
-  installed="$(dpkg-query -W -f '${db:Status-Abbrev}${Version}' "$name" 2>/dev/null || true)"
+  installed="$(dpkg-query -W -f '${db:Status-Abbrev}${Version}\n' "$name" 2>/dev/null | head -1 || true)"
   # shellcheck disable=SC2053  # the version is a pattern
-  [[ "$installed" == "ii "${version:-*} ]] || missing+=("$name${version:+=$version}")
+  if [[ "$installed" != ?"i "* ]]; then
+    missing+=("$name${version:+=$version}")
+  elif [[ "${installed#* }" != ${version:-*} ]]; then
+    others+=("$name ${installed#* }")
+  fi
 done < "$list"
+if ((${#others[@]} > 0)); then
+  words="$(printf ', %s' "${others[@]}")"
+  echo "deps: Telemime is tested with other versions (scripts/packages.txt) than these: ${words#, }" >&2
+fi
 if ((${#missing[@]} == 0)); then
   exit 0
 fi

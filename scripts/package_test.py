@@ -23,6 +23,7 @@ import urllib.request
 from demo_limits import check
 from web_socket import WebSocket
 
+MODULES = "/usr/lib/python3/dist-packages/telemime"
 NOBODY = "65534:65534"
 ENVIRONMENT = {"DEBIAN_FRONTEND": "noninteractive", "HOME": "/tmp", "LC_ALL": "C.UTF-8", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"}
 MOVED_MM = 50
@@ -136,8 +137,12 @@ def deb(root, package, python):
     track(system)
     system.run("apt-get", "-qq", "install", "--no-install-recommends", python, user="0:0")
     print("python", system.run("python3", "-c", PYTHON).strip(), "frames", flush=True)
+    system.run("python3", "-O", "-c", "import telemime", user="0:0")  # root may write compiled files beside the package's own
+    if not os.path.isdir(system.path(MODULES + "/__pycache__")):
+        sys.exit("Python compiled nothing: that it goes with the package cannot be seen")
     system.run("apt-get", "-qq", "purge", "telemime", "python3-telemime", user="0:0")
-    if left := [name for name in ("telemime", "doc/telemime") if os.path.exists(system.path("/usr/share/" + name))]:
+    folders = ("/usr/share/telemime", "/usr/share/doc/telemime", MODULES)
+    if left := [name for name in folders if os.path.exists(system.path(name))]:
         sys.exit(f"{left} are left after the removal")
 
 

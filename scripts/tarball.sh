@@ -63,4 +63,5 @@ sed "s/@VERSION@/$version/g" cmake/package/tarball_readme.in > "$stage/README"
 
 tar -C "$build/packages" --sort=name --owner=0 --group=0 --numeric-owner -c "$name" |
   XZ_OPT="${XZ_OPT:--T0}" xz > "$build/packages/$name.tar.xz"
+rm -rf "$stage"
 echo "$build/packages/$name.tar.xz: $(du -m "$build/packages/$name.tar.xz" | cut -f1) MB, ${#files[@]} libraries"

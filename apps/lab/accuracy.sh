@@ -18,7 +18,8 @@ for line in "${clips[@]}"; do
   for seed in "${seeds[@]}"; do
     run="$out/$name/$seed"
     echo "tracking $name with seed $seed" >&2
-    track_clip "$run" "$clip" --seed "$seed" > "$out/$name/log" 2>&1
+    track_clip "$run" "$clip" --seed "$seed" > "$out/$name/log" 2>&1 ||
+      { cat "$out/$name/log" >&2; echo "accuracy: $name failed with seed $seed" >&2; exit 1; }
     score "$run/pose.jsonl" "$clip/truth.json" "$run/accuracy.json"
   done
 done

@@ -53,9 +53,7 @@ void add_setting_options(CLI::App& command, TrackOptions& o) {
 
 void add_track_options(CLI::App& command, TrackOptions& o) {
   TrackRequest& r = o.request;
-  command
-      .add_option("INPUT", r.input,
-                  "Video file, folder or pattern of images, stream URL, camera index or device.")
+  command.add_option("INPUT", r.input, "Video file, folder or pattern of images, or URL of a clip.")
       ->required();
   command.add_option("--background", r.background, "Clip of the same scene without the person.");
   command.add_option("--camera", r.camera, "OpenCV camera calibration (YAML, XML or JSON).");

@@ -50,26 +50,46 @@ TEST(ThisProject, NeedsNoExactVersion) {
   EXPECT_EQ(as_text(check_versions(this_project)), "");
 }
 
-// As on a system that has other versions than those that are tested with.
-TEST(ThisProject, InstallsTheVersionsThatAreOffered) {
-  const ScratchFolder scratch;
-  const fs::path bin = scratch.path();
-  const auto program = [&](const std::string& name, const std::string& lines) {
+/// Runs scripts/deps.sh where dpkg-query is the lines `query` and apt-get the lines `get`.
+struct DepsRun {
+  DepsRun(const std::string& query, const std::string& get) {
+    program("dpkg-query", query);
+    program("sudo", "exec \"$@\"\n");
+    program("apt-get", get);
+    const std::string command = "PATH='" + bin.string() + "':\"$PATH\" APT_LOG='" + (bin / "log").string() +
+                                "' '" + (this_project / "scripts/deps.sh").string() + "' build > '" +
+                                (bin / "out").string() + "' 2>&1";
+    status = std::system(command.c_str());
+  }
+  void program(const std::string& name, const std::string& lines) const {
     std::ofstream(bin / name) << "#!/bin/sh\n" << lines;
     fs::permissions(bin / name, fs::perms::owner_all);
-  };
-  program("dpkg-query", "exit 1\n");
-  program("sudo", "exec \"$@\"\n");
-  program("apt-get", "case \"$*\" in *=*) exit 100;; install*) echo \"$*\" > \"$APT_LOG\";; esac\n");
-  const std::string command = "PATH='" + bin.string() + "':\"$PATH\" APT_LOG='" + (bin / "log").string() +
-                              "' '" + (this_project / "scripts/deps.sh").string() + "' build > '" +
-                              (bin / "out").string() + "' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  std::ifstream log(bin / "log");
-  const std::string taken(std::istreambuf_iterator<char>(log), {});
+  }
+  std::string text(const std::string& name) const {
+    std::ifstream file(bin / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  ScratchFolder scratch;
+  fs::path bin = scratch.path();
+  int status = -1;
+};
+
+// As on a system that has other versions than those that are tested with.
+TEST(ThisProject, InstallsTheVersionsThatAreOffered) {
+  const DepsRun run("exit 1\n",
+                    "case \"$*\" in *=*) exit 100;; install*) echo \"$*\" > \"$APT_LOG\";; esac\n");
+  EXPECT_EQ(run.status, 0);
+  const std::string taken = run.text("log");
   for (const char* const package : {"libeigen3-dev", "libopencv-core-dev", "libmeshoptimizer-dev"}) {
     EXPECT_NE(taken.find(package), std::string::npos) << taken;
   }
+}
+
+TEST(ThisProject, KeepsOtherVersionsThatAreThere) {
+  const DepsRun run("echo 'ii 99:1'\n", "exit 100\n");
+  EXPECT_EQ(run.status, 0) << "apt-get was called: " << run.text("out");
+  EXPECT_NE(run.text("out").find("libeigen3-dev 99:1"), std::string::npos) << run.text("out");
 }
 
 /// A correct project of three modules. Each test breaks one rule and expects its violation.

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Removes what `make install` installed last: the files that install_manifest.txt of the build lists, what Python compiled of
+# them, and folders of Telemime that are empty then. Usage: [DESTDIR=DIR] scripts/uninstall.sh [BUILD]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+manifest="${1:-build/release}/install_manifest.txt"
+if [[ ! -f "$manifest" ]]; then
+  echo "uninstall: there is no $manifest: nothing has been installed from here" >&2
+  exit 1
+fi
+mapfile -t files < "$manifest"
+declare -A folders=()
+for file in "${files[@]}"; do
+  file="${DESTDIR:-}$file"
+  rm -f -- "$file"
+  folder="${file%/*}"
+  if [[ "$file" == *.py ]]; then
+    name="${file##*/}"
+    rm -f -- "$folder/__pycache__/${name%.py}".*.pyc
+    folders["$folder/__pycache__"]=1
+  fi
+  # Folders that others may use have another name before them.
+  while [[ "$folder" == */telemime || "$folder" == */telemime/* ]]; do
+    folders["$folder"]=1
+    folder="${folder%/*}"
+  done
+done
+# The inner ones first.
+printf '%s\n' "${!folders[@]}" | sort -r | while read -r folder; do
+  [[ ! -d "$folder" ]] || rmdir --ignore-fail-on-non-empty -- "$folder"
+done
+rm -- "$manifest"
+echo "uninstall: ${#files[@]} files removed"
