@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/core/camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -40,15 +41,20 @@ Eigen::Vector2d Camera::pixel_in(const Camera& other, const Eigen::Vector2d& pix
   return {(pixel.x() + 0.5) * other.width / width - 0.5, (pixel.y() + 0.5) * other.height / height - 0.5};
 }
 
+double reference_width(int width, int height) {
+  return std::sqrt(4.0 / 3.0 * width * height);
+}
+
 Camera camera_from_field_of_view(int width, int height, double degrees) {
   if (!(degrees > 1.0 && degrees < 179.0)) {
     throw Error(ErrorKind::usage, "a field of view of " + std::to_string(degrees) + " degrees is impossible",
-                "Give the horizontal field of view between 1 and 179 degrees; most webcams have 55 to 80.");
+                "Give the field of view along the longer side between 1 and 179 degrees; most webcams have "
+                "55 to 80.");
   }
   Camera camera;
   camera.width = width;
   camera.height = height;
-  camera.fx = 0.5 * width / std::tan(0.5 * degrees * std::numbers::pi / 180.0);
+  camera.fx = 0.5 * std::max(width, height) / std::tan(0.5 * degrees * std::numbers::pi / 180.0);
   camera.fy = camera.fx;
   camera.cx = 0.5 * (width - 1);
   camera.cy = 0.5 * (height - 1);

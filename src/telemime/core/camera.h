@@ -35,8 +35,12 @@ struct Camera {
   Eigen::Vector2d pixel_in(const Camera& other, const Eigen::Vector2d& pixel) const;
 };
 
-/// Camera with square pixels, principal point in the middle, and this HORIZONTAL field of view (degrees,
-/// in (1, 179)). Throws Error(usage) outside.
+/// The width of a 4:3 image with as many pixels, px. Lengths in working images are shares of it: a camera
+/// that is held upright sees the same person at the same size.
+double reference_width(int width, int height);
+
+/// Camera with square pixels, principal point in the middle, and this field of view (degrees, in (1, 179))
+/// along the LONGER side, as a camera has it however it is held. Throws Error(usage) outside.
 Camera camera_from_field_of_view(int width, int height, double degrees);
 
 /// Reads an OpenCV calibration (YAML, XML or JSON by cv::FileStorage: camera_matrix, distortion_coefficients,

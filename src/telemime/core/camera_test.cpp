@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <string>
 
 #include "telemime/core/testing_errors.h"
@@ -68,6 +70,16 @@ TEST_F(CameraFile, NamesTheCauseOfBadFiles) {
   EXPECT_THROW(load_camera(write("d.json", R"({"fx": -1, "width": 64, "height": 48})")), Error);
   EXPECT_THROW(load_camera(write("e.json", R"({"fx": 100})")), Error);
   EXPECT_THROW(load_camera(write("f.json", "")), Error);
+}
+
+TEST(Camera, HeldUprightItIsTheSameCamera) {
+  const Camera across = camera_from_field_of_view(1920, 1080, 60.0);
+  const Camera upright = camera_from_field_of_view(1080, 1920, 60.0);
+  EXPECT_EQ(across.fx, upright.fx);
+  EXPECT_EQ(upright.fx, upright.fy);
+  EXPECT_NEAR(2.0 * std::atan(0.5 * 1920 / across.fx), std::numbers::pi / 3.0, 1e-12);
+  EXPECT_EQ(reference_width(1920, 1080), reference_width(1080, 1920));
+  EXPECT_EQ(reference_width(160, 120), 160.0);
 }
 
 }  // namespace

@@ -21,13 +21,13 @@ constexpr float kLuminanceFloor = 0.022F;
 /// Assumed noise of each channel in grey levels. On the logarithmic scale, dark pixels are noisier.
 constexpr float kChannelNoise = 1.5F;
 
-/// Variance of the logarithm of a channel at luminance `l`.
-float noise_variance(float l) {
-  const float deviation = kChannelNoise / std::exp(l);
-  return deviation * deviation;
-}
-
 }  // namespace
+
+BackgroundNoise background_noise(float l) {
+  const float deviation = kChannelNoise / std::exp(l);
+  const float channel = deviation * deviation;  // of the logarithm of a channel
+  return {kChromaFloor * kChromaFloor + 2 * channel, kLuminanceFloor * kLuminanceFloor + channel / 3};
+}
 
 BackgroundModel learn_background_model(std::span<const cv::Mat> images) {
   if (images.empty()) {
@@ -80,9 +80,9 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> images) {
     auto* chroma = model.chroma_variance.ptr<float>(r);
     auto* luminance = model.luminance_variance.ptr<float>(r);
     for (int c = 0; c < size.width; ++c) {
-      const float noise = noise_variance(l[c]);
-      chroma[c] = std::max(chroma[c], 0.0F) + kChromaFloor * kChromaFloor + 2 * noise;
-      luminance[c] = std::max(luminance[c], 0.0F) + kLuminanceFloor * kLuminanceFloor + noise / 3;
+      const BackgroundNoise noise = background_noise(l[c]);
+      chroma[c] = std::max(chroma[c], 0.0F) + noise.chroma;
+      luminance[c] = std::max(luminance[c], 0.0F) + noise.luminance;
     }
   }
   return model;
@@ -147,8 +147,8 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
   return out;
 }
 
-void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate) {
-  constexpr int kFramesToLearn = 12;
+void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate,
+                      int steady) {
   constexpr float kSteady = 0.1F;
   for (int r = 0; r < model.valid.rows; ++r) {
     const auto* w = where.ptr<unsigned char>(r);
@@ -160,15 +160,22 @@ void adapt_background(BackgroundModel& model, const LogColour& image, const cv::
     auto* mu = model.mean.u.ptr<float>(r);
     auto* mv = model.mean.v.ptr<float>(r);
     auto* ml = model.mean.l.ptr<float>(r);
+    auto* vc = model.chroma_variance.ptr<float>(r);
+    auto* vl = model.luminance_variance.ptr<float>(r);
     for (int c = 0; c < model.valid.cols; ++c) {
       float k = w[c] != 0 ? rate : 0.0F;
       // An invalid pixel averages its colours until it has been steady for long enough.
       if (valid[c] == 0) {
         const float step = std::abs(u[c] - mu[c]) + std::abs(v[c] - mv[c]) + std::abs(l[c] - ml[c]);
-        const bool steady = seen[c] > 0 && step < 3 * kSteady;
-        seen[c] = static_cast<unsigned char>(w[c] == 0 ? 0 : (steady ? seen[c] + 1 : 1));
+        const bool goes_on = seen[c] > 0 && step < 3 * kSteady;
+        seen[c] = static_cast<unsigned char>(w[c] == 0 ? 0 : (goes_on ? std::min(seen[c] + 1, 255) : 1));
         k = w[c] == 0 ? 0.0F : 1.0F / static_cast<float>(seen[c]);
-        valid[c] = seen[c] >= kFramesToLearn ? 255 : 0;
+        valid[c] = seen[c] >= steady ? 255 : 0;
+        if (valid[c] != 0) {
+          const BackgroundNoise noise = background_noise(ml[c]);
+          vc[c] = noise.chroma;
+          vl[c] = noise.luminance;
+        }
       }
       mu[c] += k * (u[c] - mu[c]);
       mv[c] += k * (v[c] - mv[c]);

@@ -20,6 +20,13 @@ struct BackgroundModel {
   bool empty() const { return valid.empty(); }
 };
 
+/// What quantisation, compression, flicker and the camera's noise make a background of luminance `l` vary.
+struct BackgroundNoise {
+  float chroma = 0.0F;     ///< variance
+  float luminance = 0.0F;  ///< variance
+};
+BackgroundNoise background_noise(float l);
+
 /// Mean and variance of each pixel over images without a person (CV_8UC3, same size), in the light of the
 /// first. All pixels are valid. Thesis 3.4.1, with logarithmic colours. Throws Error(usage) if `images` is
 /// empty or sizes differ.
@@ -48,7 +55,9 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
                                    const ShadowRange& shadow, const cv::Mat& unknown);
 
 /// Moves the mean of the model towards the image by `rate` in [0, 1] where `where` (CV_8UC1) is not 0.
-/// Invalid pixels become valid after 12 consecutive frames there with a steady colour.
-void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate);
+/// Invalid pixels become valid, with the noise of their colour as variance, after `steady` consecutive frames
+/// (1 to 255) there with a steady colour.
+void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate,
+                      int steady = 12);
 
 }  // namespace telemime

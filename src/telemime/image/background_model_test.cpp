@@ -129,5 +129,36 @@ TEST(BackgroundModel, RefusesNoImagesAndUnequalSizes) {
   EXPECT_THROW(learn_background_model(unequal), Error);
 }
 
+// What covered a pixel before has no part in its noise.
+TEST(BackgroundModel, LearnedPixelsHaveTheNoiseOfTheirOwnColour) {
+  Random random(8);
+  const std::vector<cv::Mat> black{cv::Mat(120, 160, CV_8UC3, cv::Scalar(20, 20, 20))};
+  BackgroundModel model = learn_background_model(black);
+  model.valid.setTo(0);
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  for (int i = 0; i < 20; ++i) {
+    adapt_background(model, log_colour(scene(random)), everywhere, 0.0F);
+  }
+  const std::vector<cv::Mat> one{scene(random)};
+  const BackgroundModel wall = learn_background_model(one);
+  EXPECT_NEAR(cv::mean(model.chroma_variance)[0] / cv::mean(wall.chroma_variance)[0], 1.0, 0.05);
+  EXPECT_NEAR(cv::mean(model.luminance_variance)[0] / cv::mean(wall.luminance_variance)[0], 1.0, 0.05);
+}
+
+TEST(BackgroundModel, UnknownPixelsAreLearnedAfterAsManyFramesAsAsked) {
+  Random random(9);
+  const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
+  for (const int steady : {3, 12, 30, 255}) {
+    BackgroundModel model = learned(random);
+    model.valid.setTo(0);
+    const LogColour colour = log_colour(scene(random));
+    for (int i = 0; i < steady; ++i) {
+      EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 0) << steady;
+      adapt_background(model, colour, everywhere, 0.0F, steady);
+    }
+    EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 255) << steady;
+  }
+}
+
 }  // namespace
 }  // namespace telemime

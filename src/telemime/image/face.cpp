@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "telemime/core/errors.h"
@@ -63,7 +64,10 @@ std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& 
   const cv::Size most(largest, largest);
   std::vector<cv::Rect> faces;
   frontal_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
-  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.width > b.width; });
+  // Threads find them in any order.
+  std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
+    return std::tuple(-a.width, a.y, a.x) < std::tuple(-b.width, b.y, b.x);
+  });
   for (const cv::Rect& face : faces) {
     if (is_face(face + inside.tl())) {
       return face + inside.tl();

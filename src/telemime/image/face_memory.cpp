@@ -18,7 +18,8 @@ constexpr double kUp = 1.05;
 constexpr double kDown = 1.75;
 /// Difference of l that is larger than those of a turn of the head or a change of shade.
 constexpr float kChanged = 0.18F;
-constexpr int kFramesToTrust = 3;
+constexpr double kTimeToTrust = 3.0;  // 1/25 s
+constexpr double kKept = 0.85;        // of the memory in 1/25 s
 
 /// Transform from grid to image coordinates.
 cv::Matx23d image_from_grid(const HeadRegion& head) {
@@ -48,7 +49,7 @@ cv::Rect bounding_box(const HeadRegion& head, const cv::Size& size) {
 }  // namespace
 
 void label_hands_over_face(FaceMemory& memory, const LogColour& image, const HeadRegion& head,
-                           const cv::Mat& skin, cv::Mat& labels) {
+                           const cv::Mat& skin, cv::Mat& labels, double elapsed) {
   const cv::Rect box = bounding_box(head, labels.size());
   if (box.width < 5 || box.height < 7) {
     return;
@@ -62,12 +63,12 @@ void label_hands_over_face(FaceMemory& memory, const LogColour& image, const Hea
     if (memory.appearance.empty()) {
       memory.appearance = appearance;
     } else {
-      memory.appearance += 0.15 * (appearance - memory.appearance);
+      memory.appearance += (1.0 - std::pow(kKept, elapsed)) * (appearance - memory.appearance);
     }
-    ++memory.frames;
+    memory.seen += elapsed;
     return;
   }
-  if (memory.frames < kFramesToTrust) {
+  if (memory.seen < kTimeToTrust) {
     return;
   }
   // Difference from the memory, without the darkening of the whole face in the shadow of a hand.

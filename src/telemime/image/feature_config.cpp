@@ -51,7 +51,7 @@ SettingTable settings_of(ImageConfig& c) {
       text("image.cascades", c.cascades, {},
            "Folder of OpenCV's face cascades; empty: searched in the usual places."),
       number("image.background_rate", &c.background_rate, {0, 1}, "",
-             "Share of each frame that visible background is updated with."),
+             "Share that visible background is updated with in 1/25 s."),
       number("image.motion_every", &c.motion_every, {0, 100000}, "1/25 s",
              "Interval of the checks for camera motion; 0: no checks."),
       number("image.head.detect_every", &c.head.detect_every, {1, 1000}, "1/25 s",
@@ -65,7 +65,7 @@ SettingTable settings_of(ImageConfig& c) {
       number("image.head.smallest_face", &c.head.smallest_face, {0, 1}, "",
              "Smallest face that is detected, as a share of the image height."),
       number("image.head.shape_rate", &c.head_shape_rate, {0, 1}, "",
-             "Share of each frame that the outline of the head is updated with."),
+             "Share that the outline of the head is updated with in 1/25 s."),
       number("image.shadow.darkest", &c.shadow.darkest, {0.01, 0.99}, "",
              "Smallest ratio of luminance that counts as a shadow."),
       number("image.shadow.typical", &c.shadow.typical, {0.001, 10}, "",
@@ -93,7 +93,8 @@ SettingTable settings_of(ImageConfig& c) {
       number("image.edges.high", &c.edges.high, {0, 255}, "grey levels/px",
              "Upper threshold of the hysteresis."),
       number("image.edges.distance_cap", &c.edges.distance_cap, {0.1, 1000}, "px",
-             "Largest distance to an edge, at 160 columns; grows with the width."),
+             "Largest distance to an edge in a working image of 160x120; grows with the square root of its "
+             "area."),
   };
   table.rules = {{c.edges.low <= c.edges.high, "image.edges.low must not be above image.edges.high"}};
   return table;

@@ -27,10 +27,10 @@ constexpr double kBelow = 0.8;
 constexpr int kFewArms = 50;  // in one of this many pixels
 // Share of the background that must be known to look for a head by its outline.
 constexpr double kEnoughBackground = 0.3;
-// A head region with less skin and hair than this, for more frames than these, is not the head.
+// A head region with less skin and hair than this, for longer than this, is not the head.
 constexpr double kLeastSkin = 0.25;
-constexpr int kMostWithoutSkin = 4;
-constexpr double kPause = 1.0;  // s; no motion is followed across it
+constexpr double kMostWithoutSkin = 4.0;  // 1/25 s
+constexpr double kPause = 1.0;            // s; no motion is followed across it
 
 void require_colour_image(const Frame& frame) {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
@@ -184,7 +184,24 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
   return out;
 }
 
+// A rate per 1/25 s over the time since the last frame.
+double FeatureExtractor::over_elapsed(double rate) const {
+  return elapsed_ == 1.0 ? rate : 1.0 - std::pow(1.0 - rate, elapsed_);
+}
+
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
+  // A refused frame leaves a head that is followed as it was.
+  const HeadTracker head = head_;
+  const HeadShape shape = shape_;
+  PersonReport report = learn_person_in(frame);
+  if (!report.accepted && head.current()) {
+    head_ = head;
+    shape_ = shape;
+  }
+  return report;
+}
+
+PersonReport FeatureExtractor::learn_person_in(const Frame& frame) {
   // Find the face, or the head by its outline if a mask hides the face.
   WorkingImages p = working_images(frame);
   // With networks a person is found without colours, too: what a grey picture teaches would be wrong later.
@@ -290,12 +307,12 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     segmentation = silhouette_of_mask(out.landmarks->mask, std::move(segmentation));
   }
   // The correlation can drift off the head. The colours inside the head region reveal it.
-  frames_without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < kLeastSkin
-                             ? frames_without_skin_ + 1
-                             : 0;
-  if (frames_without_skin_ > kMostWithoutSkin) {
+  without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < kLeastSkin
+                      ? without_skin_ + elapsed_
+                      : 0.0;
+  if (without_skin_ > kMostWithoutSkin) {
     head_.reset();
-    frames_without_skin_ = 0;
+    without_skin_ = 0.0;
   }
   if (!out.landmarks && covers_everything(segmentation.silhouette)) {
     head_.reset();
@@ -304,7 +321,8 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   // Hands in front of the face. This needs an accurate head region: a shifted face differs everywhere.
   constexpr double kReliableMatch = 0.75;
   if (out.head && calibration_.colours.known() && (face->detected || face->match > kReliableMatch)) {
-    label_hands_over_face(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels);
+    label_hands_over_face(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels,
+                          elapsed_);
   }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette.clone();
@@ -317,7 +335,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     follow_head_outline(p, out.silhouette);
   }
   if (out.head && !arms_near(*out.head, out.labels)) {
-    shape_ = adapted(shape_, *out.head, out.silhouette, config_.head_shape_rate);
+    shape_ = adapted(shape_, *out.head, out.silhouette, over_elapsed(config_.head_shape_rate));
   }
 
   // Edges inside the silhouette, whose outline may peak one pixel outside it, and their distance map.
@@ -326,7 +344,9 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   cv::dilate(out.silhouette, grown, square);
   out.edges =
       find_edges(deriche_gradient(p.grey, config_.edges.alpha), grown, config_.edges.low, config_.edges.high);
-  out.distance = distance_map(out.edges, config_.edges.distance_cap * config_.width / kReferenceWidth);
+  out.distance =
+      distance_map(out.edges, config_.edges.distance_cap * reference_width(config_.width, config_.height) /
+                                  kReferenceWidth);
 
   // Adapt the background model outside the person. A camera that was moved invalidates it.
   cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);
@@ -342,14 +362,16 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     }
   }
   silhouette_ = out.silhouette;
-  constexpr double kCameraMoved = 1.5;
   if (std::max(status_.camera_motion, camera_step_) > kCameraMoved && !calibration_.background.empty()) {
     calibration_.background.valid.setTo(0);
     calibration_.background.seen.setTo(0);
   } else if (!calibration_.background.empty() && config_.background_rate > 0) {
     cv::Mat where = background_mask_.clone();
     where.setTo(0, background.shaded);
-    adapt_background(calibration_.background, p.colour, where, config_.background_rate);
+    constexpr double kSteady = 12.0;  // 1/25 s
+    adapt_background(calibration_.background, p.colour, where,
+                     static_cast<float>(over_elapsed(config_.background_rate)),
+                     std::clamp(static_cast<int>(std::ceil(kSteady / elapsed_ - 0.01)), 3, 255));
   }
 
   update_camera_motion(p.grey);

@@ -85,6 +85,8 @@ class FeatureExtractor {
   void follow_head_outline(const WorkingImages& p, const cv::Mat& silhouette);
   std::vector<SceneSample> scene_samples(std::span<const Frame> clip);
   double known_background_share() const;
+  PersonReport learn_person_in(const Frame& frame);
+  double over_elapsed(double rate) const;
   void update_camera_motion(const cv::Mat& grey);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
 
@@ -109,7 +111,8 @@ class FeatureExtractor {
   std::optional<double> last_time_;  ///< of the last frame, s
   double elapsed_ = 1.0;             ///< between the last two frames, 1/25 s
   double camera_step_ = 0.0;         ///< motion of the camera in the last check, pixels at 160 columns
-  int frames_without_skin_ = 0;      ///< consecutive frames in which the head region had little skin or hair
+  double without_skin_ = 0.0;        ///< 1/25 s in which the head region had little skin or hair
+  double grey_for_ = 0.0;            ///< 1/25 s without colour
 };
 
 }  // namespace telemime

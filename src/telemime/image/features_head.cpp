@@ -17,7 +17,7 @@ std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLan
     points.mask.release();  // the face does not need it
     square = face_square(scaled_to(std::move(points), p.grey.size(), p.face.size()));
   }
-  return square ? head_.take_over(p.face, *square)
+  return square ? head_.take_over(p.face, *square, elapsed_)
                 : head_.update(p.face, face_search_area(p), skin_test(p), elapsed_);
 }
 

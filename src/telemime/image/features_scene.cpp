@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/time_base.h"
 #include "telemime/image/camera_motion.h"
 #include "telemime/image/features.h"
 #include "telemime/image/light_change.h"
@@ -15,7 +16,7 @@
 namespace telemime {
 namespace {
 
-constexpr double kMotionWidth = 160.0;     // px: motions of the camera are stated for this width
+constexpr double kMotionWidth = 160.0;     // px: motions of the camera are stated for this reference width
 constexpr double kSkinOfFace = 0.2;        // share of a face that must have the colour of skin
 constexpr std::size_t kFewestSamples = 8;  // of a clip without a face, to learn around the person
 // Weights of a new measurement of the camera's motion, and of the last one where nothing can be tracked.
@@ -24,9 +25,10 @@ constexpr double kOldMotionWeight = 0.03;
 // Shares of the image that the outline of a person without a visible head covers.
 constexpr double kLeastOutline = 0.02;
 constexpr double kMostOutline = 0.9;
-// Weights of a new frame in the shares of coloured pixels and of skin.
+// Weights of 1/25 s in the shares of coloured pixels and of skin.
 constexpr double kColourWeight = 0.1;
 constexpr double kSkinWeight = 0.03;
+constexpr double kGrey = 5.0;            // 1/25 s of pictures without colour
 constexpr double kLeastLabelled = 0.02;  // share of arms and clothes from which skin is measured
 
 cv::Mat working_image(const Frame& frame, const ImageConfig& config) {
@@ -62,28 +64,30 @@ cv::Mat around_person(const SceneSample& sample) {
   return scene;
 }
 
-/// The nearest frame of the clip at least `apart` frames of the input after this one, or else before it.
-std::optional<std::size_t> frame_apart(std::span<const Frame> clip, std::size_t from, std::int64_t apart) {
-  const std::int64_t index = clip[from].index;
+/// The nearest frame of the clip at least `apart` (s) after this one, or else before it.
+std::optional<std::size_t> frame_apart(std::span<const Frame> clip, std::size_t from, double apart) {
+  constexpr double kSlack = 1e-3;  // s, for time stamps in ms
+  const double time = clip[from].time;
   const auto later = std::find_if(clip.begin() + static_cast<std::ptrdiff_t>(from), clip.end(),
-                                  [&](const Frame& frame) { return frame.index >= index + apart; });
+                                  [&](const Frame& frame) { return frame.time > time + apart - kSlack; });
   if (later != clip.end()) {
     return static_cast<std::size_t>(later - clip.begin());
   }
   for (std::size_t i = from; i-- > 0;) {
-    if (clip[i].index <= index - apart) {
+    if (clip[i].time < time - apart + kSlack) {
       return i;
     }
   }
   return std::nullopt;
 }
 
-/// Whether the camera moves: motion that the background has in common between frames 8 apart, or 10 where the
-/// clip is a sample of a longer one, in at least a quarter of the places of the clip that can tell.
+/// Whether the camera moves: motion that the background has in common between frames a third of a second
+/// apart, or more where the clip is a sample of a longer one, in at least a quarter of the places of the clip
+/// that can tell.
 bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samples,
                   const ImageConfig& config) {
   std::vector<double> motions;
-  constexpr std::int64_t kApart = 8;
+  constexpr double kApart = 8.0 * kTimeUnit;
   constexpr std::size_t kFewest = 3;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t at = frame_of_sample(i, samples.size(), clip.size());
@@ -95,7 +99,7 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
                                       grey_at_most(working_image(clip[*other], config), config.width),
                                       around_person(samples[i]));
     if (shared) {
-      motions.push_back(shared->pixels * kMotionWidth / config.width);
+      motions.push_back(shared->pixels * kMotionWidth / reference_width(config.width, config.height));
     }
   }
   if (motions.size() < kFewest) {
@@ -135,6 +139,7 @@ void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   silhouette_.release();
   motion_image_.release();
   camera_step_ = 0.0;
+  status_.camera_motion = 0.0;
   const cv::Mat& valid = calibration_.background.valid;
   background_complete_ = !valid.empty() && cv::countNonZero(valid) == static_cast<int>(valid.total());
 }
@@ -242,7 +247,6 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   report.source = SceneSource::moving_person;
   if (camera_moves(clip, samples, config_)) {
     fresh.background.valid.setTo(0);
-    status_.camera_motion = 2.0;
     report.source = SceneSource::colours_only;
     report.sentence = "the camera moves, so no background was learned: fix the camera for better poses";
   }
@@ -254,6 +258,10 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
         " % of the image is known";
   }
   set_calibration(std::move(fresh));
+  if (report.source == SceneSource::colours_only) {
+    constexpr double kMoves = 2.0;
+    status_.camera_motion = kMoves;
+  }
   return report;
 }
 
@@ -270,7 +278,8 @@ void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
   since_motion_ = 0.0;
   if (!motion_image_.empty()) {
     const auto shared = shared_motion(motion_image_, grey, motion_mask_ & background_mask_);
-    camera_step_ = shared ? shared->pixels * kMotionWidth / config_.width : 0.0;
+    camera_step_ =
+        shared ? shared->pixels * kMotionWidth / reference_width(config_.width, config_.height) : 0.0;
     // Where nothing can be followed, a camera that moved is believed to go on for a while.
     constexpr double kLargestStep = 5.0;
     const double weight = shared ? kMotionWeight : kOldMotionWeight;
@@ -292,8 +301,12 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   status_.person = shows_something(status_) && (features.head.has_value() || outline);
   status_.people = features.landmarks ? finder_.people() : 0;
   const double coloured = coloured_share_of(p.bgr);
+  // A camera that has switched to infrared has no colours at all, whatever it had before.
+  grey_for_ = is_coloured(coloured) ? 0.0 : grey_for_ + elapsed_;
   status_.coloured_share =
-      seen_ ? status_.coloured_share + kColourWeight * (coloured - status_.coloured_share) : coloured;
+      seen_ && grey_for_ < kGrey
+          ? status_.coloured_share + over_elapsed(kColourWeight) * (coloured - status_.coloured_share)
+          : coloured;
   // Whether light has washed out the colours of the head.
   cv::Mat head = cv::Mat::zeros(p.bgr.size(), CV_8UC1);
   if (features.head) {
@@ -308,7 +321,8 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
     head &= features.silhouette;
   }
   const double white = white_share_of(p.bgr, head);
-  status_.white_share = seen_ ? status_.white_share + kColourWeight * (white - status_.white_share) : white;
+  status_.white_share =
+      seen_ ? status_.white_share + over_elapsed(kColourWeight) * (white - status_.white_share) : white;
   seen_ = true;
   status_.known_background = known_background_share();
   background_complete_ = status_.known_background >= 1.0;
@@ -317,7 +331,8 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   const double clothes = share(Label::clothes);
   if (arms + clothes > kLeastLabelled) {
     const double now = arms / (arms + clothes);
-    status_.skin_share += (status_.skin_share == 0.0 ? 1.0 : kSkinWeight) * (now - status_.skin_share);
+    status_.skin_share +=
+        (status_.skin_share == 0.0 ? 1.0 : over_elapsed(kSkinWeight)) * (now - status_.skin_share);
   }
   status_.warnings = warnings_of(status_, calibration_.colours);
 }

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
@@ -254,6 +256,100 @@ TEST(FeatureExtractor, HeadKeepsItsSizeAtFirstDetection) {
   }
   EXPECT_TRUE(by_outline);
   EXPECT_TRUE(by_face);
+}
+
+// The bundled clip with times at `rate`; `change` makes each picture another one.
+std::vector<Frame> demo_frames(std::size_t count, double rate,
+                               const std::function<cv::Mat(const cv::Mat&, double)>& change = nullptr) {
+  const cv::Mat picture =
+      frames_of(std::filesystem::path(TELEMIME_SOURCE_DIR) / "data/demo/video.mp4", 1).at(0).image;
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    frames.push_back({change ? change(picture, time) : picture, static_cast<std::int64_t>(i), time});
+  }
+  return frames;
+}
+
+cv::Mat grey_of(const cv::Mat& picture) {
+  cv::Mat grey;
+  cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(grey, grey, cv::COLOR_GRAY2BGR);
+  return grey;
+}
+
+cv::Mat shifted(const cv::Mat& picture, double right) {
+  cv::Mat out;
+  cv::warpAffine(picture, out, cv::Matx23d(1, 0, right, 0, 1, 0), picture.size(), cv::INTER_LINEAR,
+                 cv::BORDER_REFLECT);
+  return out;
+}
+
+ImageConfig without_networks() {
+  ImageConfig config;
+  config.landmarks = false;
+  return config;
+}
+
+TEST(FeatureExtractor, ACameraThatSwitchesToInfraredHasNoColourAtOnce) {
+  for (const double rate : {5.0, 25.0, 60.0}) {
+    FeatureExtractor features(without_networks());
+    const auto switches = [](const cv::Mat& picture, double time) {
+      return time < 1.0 ? picture : grey_of(picture);
+    };
+    for (const Frame& frame : demo_frames(static_cast<std::size_t>(1.3 * rate) + 1, rate, switches)) {
+      features.extract(frame);
+      if (frame.time < 1.0 || frame.time > 1.21) {
+        EXPECT_EQ(has_colour(features.status()), frame.time < 1.0) << rate << ": " << frame.time;
+      }
+    }
+  }
+}
+
+TEST(FeatureExtractor, ANewBackgroundForgetsThatTheCameraMoved) {
+  FeatureExtractor features(without_networks());
+  const auto pan = [](const cv::Mat& picture, double time) { return shifted(picture, 40.0 * time); };
+  features.bootstrap(demo_frames(40, 25.0));
+  for (const Frame& frame : demo_frames(60, 25.0, pan)) {
+    features.extract(frame);
+  }
+  ASSERT_GT(features.status().camera_motion, kCameraMoved);
+  features.learn_background(demo_frames(5, 25.0));
+  features.extract(demo_frames(1, 25.0).front());
+  EXPECT_EQ(features.status().known_background, 1.0);
+}
+
+TEST(FeatureExtractor, ARefusedFrameLeavesTheHead) {
+  const std::vector<Frame> frames = demo_frames(6, 25.0);
+  const auto empty = frames_of(std::filesystem::path(TELEMIME_SOURCE_DIR) / "data/demo/background.mp4", 10);
+  const auto radii = [&](bool refused) {
+    FeatureExtractor features(without_networks());
+    features.learn_background(empty);
+    EXPECT_TRUE(features.learn_person(frames.front()).accepted);
+    for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
+      features.extract(frames[i]);
+    }
+    if (refused) {
+      Frame nobody = frames.back();
+      cv::flip(nobody.image, nobody.image, 0);
+      EXPECT_FALSE(features.learn_person(nobody).accepted);
+    }
+    const FrameFeatures seen = features.extract(frames.back());
+    return seen.head ? seen.head->radii : Eigen::Vector2d::Zero().eval();
+  };
+  EXPECT_GT(radii(false).norm(), 0.0);
+  EXPECT_LT((radii(true) - radii(false)).norm(), 0.01);
+}
+
+// A slow pan is one at any rate.
+TEST(FeatureExtractor, AMovingCameraIsNoticedAtAnyRate) {
+  const auto pan = [](const cv::Mat& picture, double time) { return shifted(picture, 14.0 * time); };
+  for (const double rate : {25.0, 60.0, 120.0}) {
+    FeatureExtractor features(without_networks());
+    const auto count = static_cast<std::size_t>(1.6 * rate);
+    EXPECT_EQ(features.bootstrap(demo_frames(count, rate, pan)).source, SceneSource::colours_only) << rate;
+    EXPECT_NE(features.bootstrap(demo_frames(count, rate)).source, SceneSource::colours_only) << rate;
+  }
 }
 
 }  // namespace

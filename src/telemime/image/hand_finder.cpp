@@ -36,7 +36,6 @@ HandLandmarks scaled_to(HandLandmarks hand, cv::Size from, cv::Size to) {
   };
   for (HandLandmark& p : hand.points) {
     p.pixel = moved(p.pixel);
-    p.depth *= scale.x();
   }
   hand.region.centre = moved(hand.region.centre);
   hand.region.width *= scale.x();

@@ -2,6 +2,7 @@
 #include "telemime/image/head_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -11,6 +12,12 @@ namespace {
 /// Side of the face image for the correlation in pixels; largest motion between frames in sides of the face.
 constexpr int kPatch = 20;
 constexpr double kReach = 0.5;
+/// Share of the old size that stays in 1/25 s where a network finds the face in every image.
+constexpr double kKeptSide = 0.75;
+
+cv::Point2d centre_of(const cv::Rect2d& square) {
+  return {square.x + 0.5 * (square.width - 1), square.y + 0.5 * (square.height - 1)};
+}
 
 /// The square of side `side` around `centre`, resampled to `size` x `size` pixels.
 cv::Mat square_at(const cv::Mat& grey, const cv::Point2d& centre, double side, int size) {
@@ -35,7 +42,7 @@ HeadTracker::HeadTracker(const HeadTrackerConfig& config, const std::filesystem:
     : config_(config), detector_(cascades) {}
 
 void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect2d& found, bool fresh) {
-  const cv::Point2d centre(found.x + 0.5 * (found.width - 1), found.y + 0.5 * (found.height - 1));
+  const cv::Point2d centre = centre_of(found);
   const double side = found.width;
   if (!detected_before_ && face_) {
     replaced_ = face_;
@@ -50,9 +57,13 @@ void HeadTracker::set_detection(const cv::Mat& grey, const cv::Rect2d& found, bo
     // The detected square jitters by several percent: smooth its size more than its position.
     face_->side += 0.25 * (side - face_->side);
     face_->centre += 0.5 * (centre - face_->centre);
-    face_->detected = true;
-    face_->match = 1.0;
   }
+  confirm(grey);
+}
+
+void HeadTracker::confirm(const cv::Mat& grey) {
+  face_->detected = true;
+  face_->match = 1.0;
   face_image_ = square_at(grey, face_->centre, face_->side, kPatch);
   detected_before_ = true;
   since_detected_ = 0.0;
@@ -82,7 +93,7 @@ double HeadTracker::track(const cv::Mat& grey) {
 }
 
 void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend) {
-  const cv::Point2d centre(square.x + 0.5 * (square.width - 1), square.y + 0.5 * (square.height - 1));
+  const cv::Point2d centre = centre_of(square);
   if (!face_) {
     face_ = TrackedFace{centre, square.width, false, 1.0};
     misses_ = 1;
@@ -95,10 +106,20 @@ void HeadTracker::adopt(const cv::Mat& grey, const cv::Rect2d& square, double bl
   since_sure_ = 0.0;
 }
 
-std::optional<TrackedFace> HeadTracker::take_over(const cv::Mat& grey, const cv::Rect2d& square) {
+std::optional<TrackedFace> HeadTracker::take_over(const cv::Mat& grey, const cv::Rect2d& square,
+                                                  double elapsed) {
   replaced_.reset();
   misses_ = 0;
-  set_detection(grey, square, false);
+  const cv::Point2d centre = centre_of(square);
+  const bool moved_on = detected_before_ && face_ && cv::norm(centre - face_->centre) < kReach * face_->side;
+  if (moved_on) {
+    // The network's square is where the face is in this image; only its size jitters.
+    face_->centre = centre;
+    face_->side += (1.0 - std::pow(kKeptSide, elapsed)) * (square.width - face_->side);
+    confirm(grey);
+  } else {
+    set_detection(grey, square, true);
+  }
   return face_;
 }
 

@@ -44,8 +44,9 @@ class HeadTracker {
   /// the head), or starts a track there.
   void adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend);
 
-  /// Takes over a face square that a network has found in this image, as if the detector had.
-  std::optional<TrackedFace> take_over(const cv::Mat& grey, const cv::Rect2d& square);
+  /// Takes over the place of a face square that a network has found in this image, and its size smoothed over
+  /// time; all of it where it is another face. `elapsed`: 1/25 s since the last image.
+  std::optional<TrackedFace> take_over(const cv::Mat& grey, const cv::Rect2d& square, double elapsed = 1.0);
 
   /// The tracked face after the last call.
   const std::optional<TrackedFace>& current() const { return face_; }
@@ -70,6 +71,7 @@ class HeadTracker {
 
  private:
   void set_detection(const cv::Mat& grey, const cv::Rect2d& found, bool fresh);
+  void confirm(const cv::Mat& grey);
   double track(const cv::Mat& grey);
 
   HeadTrackerConfig config_;

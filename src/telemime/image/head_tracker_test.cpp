@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -110,6 +111,31 @@ TEST_F(HeadTrackerTest, DetectedFaceReplacesNothing) {
   for (int i = 0; i < 12; ++i) {
     ASSERT_TRUE(heads.update(grey_, whole(), any_face).has_value());
     EXPECT_FALSE(heads.replaced().has_value());
+  }
+}
+
+// A network finds the face in every image: its place is taken as it is, its size smoothed over time.
+TEST_F(HeadTrackerTest, FaceOfANetworkIsWhereItIsFound) {
+  for (const double rate : {5.0, 25.0, 50.0}) {
+    HeadTracker heads = tracker();
+    const auto found_at = [&](double x, double side) {
+      const double half = 0.5 * (side - 1);
+      return heads.take_over(grey_, {x - half, face_.centre.y - half, side, side}, 25.0 / rate).value();
+    };
+    const double side = face_.side;
+    found_at(face_.centre.x, side);
+    for (double time = 0.0; time < 1.0; time += 1.0 / rate) {
+      const double x = face_.centre.x + 0.4 * side * time;
+      EXPECT_NEAR(found_at(x, side).centre.x, x, 1e-9) << rate;
+    }
+    // A step of the size is taken up to the same share in the same time.
+    double after = side;
+    for (int i = 0; i < static_cast<int>(0.2 * rate + 0.5); ++i) {
+      after = found_at(face_.centre.x, 1.2 * side).side;
+    }
+    EXPECT_NEAR((after - side) / (0.2 * side), 1.0 - std::pow(0.75, 5.0), 1e-6) << rate;
+    // Another face has its own size from the start.
+    EXPECT_NEAR(found_at(face_.centre.x + 2.0 * side, 0.6 * side).side, 0.6 * side, 1e-9);
   }
 }
 

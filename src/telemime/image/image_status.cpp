@@ -45,9 +45,13 @@ bool is_coloured(double share) {
 }
 
 double detail_of(const cv::Mat& grey) {
-  constexpr int kColumns = 160;
+  constexpr double kWidth = 160.0;
+  const double scale = kWidth / reference_width(grey.cols, grey.rows);
+  const auto side = [scale](int pixels) {
+    return std::max(3, static_cast<int>(std::lround(scale * pixels)));
+  };
   cv::Mat small;
-  cv::resize(grey, small, {kColumns, std::max(3, grey.rows * kColumns / grey.cols)}, 0, 0, cv::INTER_AREA);
+  cv::resize(grey, small, {side(grey.cols), side(grey.rows)}, 0, 0, cv::INTER_AREA);
   cv::Mat dx;
   cv::Mat dy;
   cv::Sobel(small, dx, CV_32FC1, 1, 0, 3, 1.0 / 8.0);
@@ -134,8 +138,10 @@ std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColo
         "colours, "
         "or more light if it has switched to infrared, gives better poses");
   }
-  if (status.camera_motion > kCameraMoves) {
+  if (status.camera_motion > kCameraMoved) {
     out.emplace_back("the camera moves, so the background model cannot be used: fix the camera");
+  } else if (status.camera_motion > kCameraMoves) {
+    out.emplace_back("the camera moves a little, which blurs the background model: fix the camera");
   }
   if (status.person && std::abs(status.light_change) > 0.15) {
     out.push_back(

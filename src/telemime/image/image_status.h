@@ -11,6 +11,8 @@ namespace telemime {
 
 /// ImageStatus::camera_motion above which the camera moves.
 inline constexpr double kCameraMoves = 0.7;
+/// Camera motion above which the background model is dropped, in the same unit.
+inline constexpr double kCameraMoved = 1.5;
 
 /// How well the assumptions of the method held in the last frame.
 struct ImageStatus {

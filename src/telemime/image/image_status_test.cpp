@@ -38,8 +38,10 @@ bool says(const ImageStatus& status, const std::string& words,
 TEST(ImageStatus, EachViolatedAssumptionHasAWarning) {
   EXPECT_TRUE(warnings_of(good_status(), known_colours()).empty());
   ImageStatus status = good_status();
+  status.camera_motion = 1;
+  EXPECT_TRUE(says(status, "camera moves a little"));
   status.camera_motion = 2;
-  EXPECT_TRUE(says(status, "camera moves"));
+  EXPECT_TRUE(says(status, "camera moves, so the background model cannot be used"));
   status.skin_share = 0.02;
   EXPECT_TRUE(says(status, "long sleeves"));
   status.light_change = -0.3;

@@ -119,7 +119,7 @@ std::pair<std::size_t, std::size_t> find_still_stretch(std::span<const cv::Mat> 
 BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
   const Series series = series_of(samples);
   std::vector<cv::Mat> one{samples.front().bgr};
-  // Start from the noise of one image; means and validity are replaced below, pixel by pixel.
+  // A model of the right size; all of it is replaced below, pixel by pixel.
   BackgroundModel model = learn_background_model(one);
   const std::size_t count = samples.size();
   const auto heads = std::count_if(samples.begin(), samples.end(),
@@ -168,6 +168,9 @@ BackgroundModel learn_around_person(std::span<const SceneSample> samples) {
       model.mean.u.at<float>(r, c) = mean[0];
       model.mean.v.at<float>(r, c) = mean[1];
       model.mean.l.at<float>(r, c) = mean[2];
+      const BackgroundNoise noise = background_noise(mean[2]);
+      model.chroma_variance.at<float>(r, c) = noise.chroma;
+      model.luminance_variance.at<float>(r, c) = noise.luminance;
       model.valid.at<unsigned char>(r, c) = outside >= enough ? 255 : 0;
     }
   }

@@ -111,5 +111,17 @@ TEST(AroundPerson, AlwaysCoveredPixelsStayUnknown) {
   EXPECT_GT(mahalanobis2(surroundings, log_colour_of(40, 30, 120)), 25);
 }
 
+// The person begins in front of the striped wall: their clothes have no part in its noise.
+TEST(AroundPerson, NoiseIsThatOfTheBackground) {
+  const BackgroundModel model = learn_around_person(samples_of({12, 30, 8}));
+  for (int r = 0; r < model.valid.rows; ++r) {
+    for (int c = 0; c < model.valid.cols; ++c) {
+      const BackgroundNoise noise = background_noise(model.mean.l.at<float>(r, c));
+      ASSERT_EQ(model.chroma_variance.at<float>(r, c), noise.chroma) << r << ' ' << c;
+      ASSERT_EQ(model.luminance_variance.at<float>(r, c), noise.luminance) << r << ' ' << c;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace telemime

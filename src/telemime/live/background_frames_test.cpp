@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <opencv2/core.hpp>
 
 namespace telemime {
 namespace {
@@ -41,6 +42,18 @@ TEST(BackgroundFrames, EndWithTheInput) {
   const auto next = [&] { return left-- > 0 ? std::optional(Frame{}) : std::nullopt; };
   EXPECT_EQ(background_frames(next).size(), 3U);
   EXPECT_TRUE(background_frames(next).empty());
+}
+
+TEST(BackgroundFrames, OfALargeCameraAreSmall) {
+  int left = 10;
+  const auto next = [&] {
+    Frame frame;
+    frame.image = cv::Mat(2160, 3840, CV_8UC3, cv::Scalar(40, 50, 60));
+    return left-- > 0 ? std::optional(frame) : std::nullopt;
+  };
+  for (const Frame& frame : background_frames(next)) {
+    EXPECT_EQ(frame.image.size(), cv::Size(640, 360));
+  }
 }
 
 }  // namespace

@@ -24,6 +24,11 @@ PictureRegion square_of(const Eigen::Vector2d& centre, double side, const Eigen:
           .angle = 0.5 * std::numbers::pi - std::atan2(-up.y(), up.x())};
 }
 
+// The squares are those of MediaPipe's graphs (hand_landmarks_from_pose_to_recrop_roi,
+// hand_recrop_by_roi_cpu, hand_landmarks_to_roi), for which the networks were made: shifted before they are
+// enlarged.
+constexpr double kShift = 0.1;  // of what is enlarged, toward the fingers
+
 // A generous square from three points of the pose: the hand lies beyond the wrist, about the knuckles.
 PictureRegion rough_region(const PoseLandmarks& pose, HandSide side) {
   const bool left = side == HandSide::left;
@@ -35,12 +40,8 @@ PictureRegion rough_region(const PoseLandmarks& pose, HandSide side) {
   const Eigen::Vector2d little = pixel(PoseLandmarkIndex::left_pinky, PoseLandmarkIndex::right_pinky);
   const Eigen::Vector2d knuckles = (2.0 * index + little) / 3.0;
   constexpr double kMargin = 2.7;
-  constexpr double kShift = 0.1;  // of the side, away from the wrist
   const Eigen::Vector2d axis = knuckles - wrist;
-  const double side_length = 2.0 * axis.norm() * kMargin;
-  PictureRegion region = square_of(knuckles, side_length, axis);
-  region.centre = region.pixel({0.5, 0.5 - kShift});
-  return region;
+  return square_of(knuckles + 2.0 * kShift * axis, 2.0 * kMargin * axis.norm(), axis);
 }
 
 }  // namespace
@@ -64,7 +65,8 @@ std::optional<PictureRegion> hand_region(const cv::Mat& picture, const PoseLandm
   const auto corners = networks.cropper.run(network_input(picture, rough, cropper_format))[0];
   const Eigen::Vector2d middle = rough.pixel(Eigen::Vector2d(corners[0], corners[1]) / kCropperInput);
   const Eigen::Vector2d below = rough.pixel(Eigen::Vector2d(corners[2], corners[3]) / kCropperInput);
-  const PictureRegion region = square_of(middle, 2.0 * (middle - below).norm(), middle - below);
+  const Eigen::Vector2d axis = middle - below;
+  const PictureRegion region = square_of(middle + 2.0 * kShift * axis, 2.0 * axis.norm(), axis);
   return region.width >= kSmallest ? std::optional(region) : std::nullopt;
 }
 
@@ -72,7 +74,6 @@ PictureRegion next_region(const HandLandmarks& hand) {
   // The palm, thumb and middle joints, whose extent changes little when the hand closes.
   constexpr std::array<std::size_t, 12> kSteady = {0, 1, 2, 3, 5, 6, 9, 10, 13, 14, 17, 18};
   constexpr double kMargin = 2.0;
-  constexpr double kShift = 0.1;  // of the side, toward the fingers
   const auto pixel = [&](std::size_t i) { return hand.points[i].pixel; };
   const Eigen::Vector2d up = 0.5 * pixel(10) + 0.25 * (pixel(6) + pixel(14)) - pixel(0);
   const Eigen::Vector2d axis =
@@ -86,8 +87,9 @@ PictureRegion next_region(const HandLandmarks& hand) {
     high = high.max(own);
   }
   const Eigen::Array2d middle = 0.5 * (low + high);
-  const double side = kMargin * (high - low).maxCoeff();
-  return square_of((middle[0] + kShift * side) * axis + middle[1] * across, side, axis);
+  const Eigen::Array2d size = high - low;
+  return square_of((middle[0] + kShift * size[0]) * axis + middle[1] * across, kMargin * size.maxCoeff(),
+                   axis);
 }
 
 std::optional<HandLandmarks> hand_in(const cv::Mat& picture, const PictureRegion& region,
@@ -107,7 +109,6 @@ std::optional<HandLandmarks> hand_in(const cv::Mat& picture, const PictureRegion
     const float* const world = outputs[kWorld].data() + 3 * i;
     HandLandmark& point = hand.points[i];
     point.pixel = hand.region.pixel(Eigen::Vector2d(values[0], values[1]) / kLandmarkerInput);
-    point.depth = values[2] / kLandmarkerInput * hand.region.width;
     point.world.head<2>() = hand.region.rotation() * Eigen::Vector2d(world[0], world[1]);
     point.world.z() = world[2];
   }

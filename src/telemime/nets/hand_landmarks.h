@@ -20,7 +20,6 @@ enum class HandSide { left, right };
 /// finger (5 to 8), middle finger (9 to 12), ring finger (13 to 16) and little finger (17 to 20).
 struct HandLandmark {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< of the picture
-  double depth = 0.0;                               ///< behind the wrist, in pixels as the picture's axes
   Eigen::Vector3d world =
       Eigen::Vector3d::Zero();  ///< m from the middle of the hand, axes of the camera frame
 };

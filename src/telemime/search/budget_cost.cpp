@@ -24,7 +24,7 @@ PreparedFrame frame_of_model(const Model& model, const Pose& pose, const Camera&
         255;
   }
   constexpr double kCapAt160 = 10.0;  // as in feature extraction
-  seen.distance = distance_map(seen.edges, kCapAt160 * camera.width / 160.0);
+  seen.distance = distance_map(seen.edges, kCapAt160 * reference_width(camera.width, camera.height) / 160.0);
   return prepare(seen, camera);
 }
 

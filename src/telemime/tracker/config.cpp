@@ -120,7 +120,7 @@ SettingTable settings_of(Config& c) {
       number("seed", &c.seed, {0, std::numeric_limits<double>::infinity()}, "",
              "Seed of all random numbers."),
       number("fov", &c.field_of_view, {1, 179}, "degrees",
-             "Horizontal field of view of the camera, when there is no camera file."),
+             "Field of view of the camera along the longer side of the image, when there is no camera file."),
       number("budget", &c.budget_ms, {1e-6, 1e5}, "ms",
              "Time for the search of a frame, in place of particles or iterations; null: no limit."),
       flag("offline", c.look_back,

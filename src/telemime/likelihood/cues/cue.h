@@ -55,7 +55,7 @@ inline double reliability_of(const Cue& cue, const PreparedFrame& frame) {
 
 /// `share` (Cue::scale or a sigma) in the unit of the cue's cost.
 inline double in_cost_units(const Cue& cue, double share, const Camera& camera) {
-  return cue.unit == CueUnit::pixels ? share * camera.width : share;
+  return cue.unit == CueUnit::pixels ? share * reference_width(camera.width, camera.height) : share;
 }
 
 }  // namespace telemime
