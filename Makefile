@@ -97,6 +97,7 @@ fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 install: deps-python build ## install program, Python package, libraries, headers and data below PREFIX (/usr/local)
 	@cmake --build build/release -j $(JOBS)
 	@cmake --install build/release --prefix "$(PREFIX)"
+	@cp build/release/install_manifest.txt build/release/installed_by_make.txt
 
 uninstall: ## remove what `make install` installed last
 	@scripts/uninstall.sh

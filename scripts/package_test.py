@@ -139,7 +139,7 @@ def deb(root, package, python):
     print("python", system.run("python3", "-c", PYTHON).strip(), "frames", flush=True)
     system.run("python3", "-O", "-c", "import telemime", user="0:0")  # root may write compiled files beside the package's own
     if not os.path.isdir(system.path(MODULES + "/__pycache__")):
-        sys.exit("Python compiled nothing: that it goes with the package cannot be seen")
+        sys.exit("Python compiled nothing: the test cannot tell whether compiled files are removed")
     system.run("apt-get", "-qq", "purge", "telemime", "python3-telemime", user="0:0")
     folders = ("/usr/share/telemime", "/usr/share/doc/telemime", MODULES)
     if left := [name for name in folders if os.path.exists(system.path(name))]:

@@ -1,19 +1,23 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Removes what `make install` installed last: the files that install_manifest.txt of the build lists, what Python compiled of
-# them, and folders of Telemime that are empty then. Usage: [DESTDIR=DIR] scripts/uninstall.sh [BUILD]
+# Removes what `make install` installed last: the files listed in its manifest, their compiled Python files, and folders of
+# Telemime that are then empty. Usage: [DESTDIR=DIR] scripts/uninstall.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
-manifest="${1:-build/release}/install_manifest.txt"
+manifest="${1:-build/release}/installed_by_make.txt"  # of the install target; other installations have their own
 if [[ ! -f "$manifest" ]]; then
   echo "uninstall: there is no $manifest: nothing has been installed from here" >&2
   exit 1
 fi
 mapfile -t files < "$manifest"
 declare -A folders=()
+count=0
 for file in "${files[@]}"; do
   file="${DESTDIR:-}$file"
-  rm -f -- "$file"
+  if [[ -e "$file" || -L "$file" ]]; then
+    rm -- "$file"
+    count=$((count + 1))
+  fi
   folder="${file%/*}"
   if [[ "$file" == *.py ]]; then
     name="${file##*/}"
@@ -31,4 +35,4 @@ printf '%s\n' "${!folders[@]}" | sort -r | while read -r folder; do
   [[ ! -d "$folder" ]] || rmdir --ignore-fail-on-non-empty -- "$folder"
 done
 rm -- "$manifest"
-echo "uninstall: ${#files[@]} files removed"
+echo "uninstall: $count files removed"

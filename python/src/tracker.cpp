@@ -148,6 +148,7 @@ class ImageTracker {
     const std::unique_lock lock = alone();
     telemime::forget_person(*run_);
     smoother_.reset();
+    clean_ = CleanFrames();
     header_.reset();
   }
 

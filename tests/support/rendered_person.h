@@ -66,7 +66,8 @@ inline FrameFeatures observe(const Model& model, const Pose& pose, const Camera&
   seen.labels = cv::Mat(camera.height, camera.width, CV_8UC1, rendering.surface.data()).clone();
   seen.silhouette = cv::Mat(seen.labels > 0);
   seen.edges = edges_of(rendering);
-  seen.distance = distance_map(seen.edges, kDistanceCap * camera.width / 160.0);
+  seen.distance =
+      distance_map(seen.edges, kDistanceCap * reference_width(camera.width, camera.height) / 160.0);
   seen.head = head_of(model.body, k, camera);
   return seen;
 }

@@ -89,7 +89,8 @@ void collect(const Clip& clip, const Config& config, Samples& samples) {
     }
     const Body& body = run.state.model.body;
     regions.push_back(motion.region_score);
-    contours.push_back(motion.contour_score / run.tracker.config.image.width);
+    contours.push_back(motion.contour_score /
+                       reference_width(run.tracker.config.image.width, run.tracker.config.image.height));
     const FrameErrors errors =
         measure_frame(motion, clip.camera, clip.truth.frames[t], clip.truth.camera, 1.0);
     Sample sample{body, motion.pose, motion.region_score, {}};

@@ -40,7 +40,8 @@ struct Camera {
 double reference_width(int width, int height);
 
 /// Camera with square pixels, principal point in the middle, and this field of view (degrees, in (1, 179))
-/// along the LONGER side, as a camera has it however it is held. Throws Error(usage) outside.
+/// along the LONGER side, which does not change when the camera is turned upright. Throws Error(usage)
+/// outside.
 Camera camera_from_field_of_view(int width, int height, double degrees);
 
 /// Reads an OpenCV calibration (YAML, XML or JSON by cv::FileStorage: camera_matrix, distortion_coefficients,

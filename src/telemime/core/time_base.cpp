@@ -48,6 +48,13 @@ double units_between(double before, double now) {
   return std::abs(units - 1.0) < kExact || !(units > 0.0) ? 1.0 : units;
 }
 
+std::optional<double> time_since(std::optional<double> before, bool is_one, double elapsed) {
+  if (!is_one) {
+    return std::nullopt;
+  }
+  return before ? *before + elapsed : 0.0;
+}
+
 std::optional<double> rate_of(const std::vector<double>& stamps) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {

@@ -13,6 +13,10 @@ inline constexpr double kTimeUnit = 1.0 / kUnitsPerSecond;  ///< s
 /// Time between two frames in 1/25 s: exactly 1 where it is about that or not known. Times in s.
 double units_between(double before, double now);
 
+/// Time since the first of successive frames of a kind: `before` of the last frame, empty if that was none.
+/// `elapsed`: since then. Empty if this frame is none, either.
+std::optional<double> time_since(std::optional<double> before, bool is_one, double elapsed);
+
 /// Frames per second by the time stamps (s) of successive frames: of the usual step where most steps are
 /// equal (frames that were left out do not count), otherwise of the mean step; pauses do not count. A result
 /// within 1 % of a usual rate (25, 29.97, 60 ...) is that rate. Empty for fewer than three time stamps.

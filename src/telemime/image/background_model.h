@@ -20,7 +20,8 @@ struct BackgroundModel {
   bool empty() const { return valid.empty(); }
 };
 
-/// What quantisation, compression, flicker and the camera's noise make a background of luminance `l` vary.
+/// How much quantisation, compression, flicker and the noise of the camera make a background of luminance `l`
+/// vary.
 struct BackgroundNoise {
   float chroma = 0.0F;     ///< variance
   float luminance = 0.0F;  ///< variance

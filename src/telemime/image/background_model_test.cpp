@@ -130,7 +130,7 @@ TEST(BackgroundModel, RefusesNoImagesAndUnequalSizes) {
 }
 
 // What covered a pixel before has no part in its noise.
-TEST(BackgroundModel, LearnedPixelsHaveTheNoiseOfTheirOwnColour) {
+TEST(BackgroundModel, LearnedPixelsHaveTheirOwnNoise) {
   Random random(8);
   const std::vector<cv::Mat> black{cv::Mat(120, 160, CV_8UC3, cv::Scalar(20, 20, 20))};
   BackgroundModel model = learn_background_model(black);
@@ -145,7 +145,7 @@ TEST(BackgroundModel, LearnedPixelsHaveTheNoiseOfTheirOwnColour) {
   EXPECT_NEAR(cv::mean(model.luminance_variance)[0] / cv::mean(wall.luminance_variance)[0], 1.0, 0.05);
 }
 
-TEST(BackgroundModel, UnknownPixelsAreLearnedAfterAsManyFramesAsAsked) {
+TEST(BackgroundModel, PixelsAreLearnedWhenSteadyForSoLong) {
   Random random(9);
   const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
   for (const int steady : {3, 12, 30, 255}) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/core/camera.h"
 #include "telemime/image/log_colour.h"
 
 namespace telemime {
@@ -29,7 +30,7 @@ constexpr int kWindow = 11;  // pixels, of the optical flow
 // Contrast below the noise of a camera is not amplified.
 cv::Mat normalised(const cv::Mat& grey) {
   constexpr double kNoise = 5.0;  // grey levels
-  const double sigma = std::max(2.0, grey.cols / 40.0);
+  const double sigma = std::max(2.0, reference_width(grey.cols, grey.rows) / 40.0);
   cv::Mat log;
   grey.convertTo(log, CV_32FC1);
   cv::GaussianBlur(log, log, {0, 0}, 0.8);
@@ -232,12 +233,12 @@ std::optional<SharedMotion> shared_motion(const cv::Mat& before, const cv::Mat& 
   if (steps.size() < kFewestCorners || cells_with(steps, before.size()) < kFewestCells) {
     return std::nullopt;
   }
-  const double tolerance = std::max(0.75, before.cols / 200.0);
+  const double tolerance = std::max(0.75, reference_width(before.cols, before.rows) / 200.0);
   constexpr double kMost = 0.6;
   const auto count = static_cast<double>(steps.size());
   SharedMotion out{.corners = static_cast<int>(steps.size())};
   // The motion that explains the most corners, refined by least squares.
-  Similarity motion = consensus(steps, tolerance, before.cols / 8.0);
+  Similarity motion = consensus(steps, tolerance, reference_width(before.cols, before.rows) / 8.0);
   std::vector<const Step*> explained;
   for (int round = 0; round < 3; ++round) {
     explained = explained_by(motion, steps, tolerance);

@@ -64,7 +64,7 @@ std::optional<cv::Rect> FaceDetector::find(const cv::Mat& grey, const cv::Rect& 
   const cv::Size most(largest, largest);
   std::vector<cv::Rect> faces;
   frontal_.detectMultiScale(window, faces, 1.1, 3, 0, least, most);
-  // Threads find them in any order.
+  // The detector's threads report faces in no particular order.
   std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) {
     return std::tuple(-a.width, a.y, a.x) < std::tuple(-b.width, b.y, b.x);
   });

@@ -31,6 +31,7 @@ constexpr double kEnoughBackground = 0.3;
 constexpr double kLeastSkin = 0.25;
 constexpr double kMostWithoutSkin = 4.0;  // 1/25 s
 constexpr double kPause = 1.0;            // s; no motion is followed across it
+constexpr double kMostElapsed = 8.0;      // 1/25 s that one frame teaches for
 
 void require_colour_image(const Frame& frame) {
   if (frame.image.empty() || frame.image.type() != CV_8UC3) {
@@ -184,13 +185,13 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
   return out;
 }
 
-// A rate per 1/25 s over the time since the last frame.
+// A rate per 1/25 s over the time since the last frame, or less: one frame does not speak for a whole pause.
 double FeatureExtractor::over_elapsed(double rate) const {
-  return elapsed_ == 1.0 ? rate : 1.0 - std::pow(1.0 - rate, elapsed_);
+  return elapsed_ == 1.0 ? rate : 1.0 - std::pow(1.0 - rate, std::min(elapsed_, kMostElapsed));
 }
 
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
-  // A refused frame leaves a head that is followed as it was.
+  // If the frame is refused, a head that is being followed stays as it was.
   const HeadTracker head = head_;
   const HeadShape shape = shape_;
   PersonReport report = learn_person_in(frame);
@@ -307,12 +308,11 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     segmentation = silhouette_of_mask(out.landmarks->mask, std::move(segmentation));
   }
   // The correlation can drift off the head. The colours inside the head region reveal it.
-  without_skin_ = out.head && calibration_.colours.known() && segmentation.head_share < kLeastSkin
-                      ? without_skin_ + elapsed_
-                      : 0.0;
-  if (without_skin_ > kMostWithoutSkin) {
+  const bool has_skin = !out.head || !calibration_.colours.known() || segmentation.head_share >= kLeastSkin;
+  without_skin_ = time_since(without_skin_, !has_skin, elapsed_);
+  if (without_skin_ && *without_skin_ >= kMostWithoutSkin) {
     head_.reset();
-    without_skin_ = 0.0;
+    without_skin_.reset();
   }
   if (!out.landmarks && covers_everything(segmentation.silhouette)) {
     head_.reset();
@@ -322,7 +322,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   constexpr double kReliableMatch = 0.75;
   if (out.head && calibration_.colours.known() && (face->detected || face->match > kReliableMatch)) {
     label_hands_over_face(face_memory_, p.colour, *out.head, segmentation.skin, segmentation.labels,
-                          elapsed_);
+                          std::min(elapsed_, kMostElapsed));
   }
   out.labels = segmentation.labels;
   out.silhouette = segmentation.silhouette.clone();
@@ -362,7 +362,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     }
   }
   silhouette_ = out.silhouette;
-  if (std::max(status_.camera_motion, camera_step_) > kCameraMoved && !calibration_.background.empty()) {
+  if (std::max(status_.camera_motion, camera_step_) > kBackgroundIsVoid && !calibration_.background.empty()) {
     calibration_.background.valid.setTo(0);
     calibration_.background.seen.setTo(0);
   } else if (!calibration_.background.empty() && config_.background_rate > 0) {
@@ -371,7 +371,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     constexpr double kSteady = 12.0;  // 1/25 s
     adapt_background(calibration_.background, p.colour, where,
                      static_cast<float>(over_elapsed(config_.background_rate)),
-                     std::clamp(static_cast<int>(std::ceil(kSteady / elapsed_ - 0.01)), 3, 255));
+                     static_cast<int>(std::clamp(std::ceil(kSteady / elapsed_ - 0.01), 3.0, 255.0)));
   }
 
   update_camera_motion(p.grey);

@@ -110,9 +110,10 @@ class FeatureExtractor {
   double since_motion_ = 0.0;        ///< 1/25 s
   std::optional<double> last_time_;  ///< of the last frame, s
   double elapsed_ = 1.0;             ///< between the last two frames, 1/25 s
-  double camera_step_ = 0.0;         ///< motion of the camera in the last check, pixels at 160 columns
-  double without_skin_ = 0.0;        ///< 1/25 s in which the head region had little skin or hair
-  double grey_for_ = 0.0;            ///< 1/25 s without colour
+  double camera_step_ = 0.0;         ///< motion of the camera in the last check, in the unit of ImageStatus
+  /// 1/25 s since the first of the frames whose head region has little skin or hair, or that have no colour;
+  /// empty while the last one is not such a frame.
+  std::optional<double> without_skin_, grey_for_;
 };
 
 }  // namespace telemime

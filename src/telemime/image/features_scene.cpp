@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "telemime/core/camera.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/time_base.h"
 #include "telemime/image/camera_motion.h"
@@ -106,7 +107,7 @@ bool camera_moves(std::span<const Frame> clip, std::span<const SceneSample> samp
     return false;
   }
   std::sort(motions.begin(), motions.end());
-  return motions[motions.size() * 3 / 4] > kCameraMoves;
+  return motions[motions.size() * 3 / 4] > kCameraIsUnsteady;
 }
 
 }  // namespace
@@ -301,10 +302,10 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   status_.person = shows_something(status_) && (features.head.has_value() || outline);
   status_.people = features.landmarks ? finder_.people() : 0;
   const double coloured = coloured_share_of(p.bgr);
-  // A camera that has switched to infrared has no colours at all, whatever it had before.
-  grey_for_ = is_coloured(coloured) ? 0.0 : grey_for_ + elapsed_;
+  // A camera that has switched to infrared delivers no colours at all: the average would be late.
+  grey_for_ = time_since(grey_for_, !is_coloured(coloured), elapsed_);
   status_.coloured_share =
-      seen_ && grey_for_ < kGrey
+      seen_ && grey_for_.value_or(0.0) < kGrey
           ? status_.coloured_share + over_elapsed(kColourWeight) * (coloured - status_.coloured_share)
           : coloured;
   // Whether light has washed out the colours of the head.

@@ -12,7 +12,9 @@ namespace {
 /// Side of the face image for the correlation in pixels; largest motion between frames in sides of the face.
 constexpr int kPatch = 20;
 constexpr double kReach = 0.5;
-/// Share of the old size that stays in 1/25 s where a network finds the face in every image.
+/// Shares of the old place, moved along with the face, and of the old size that stay in 1/25 s where a
+/// network finds the face in every image.
+constexpr double kKeptPlace = 0.5;
 constexpr double kKeptSide = 0.75;
 
 cv::Point2d centre_of(const cv::Rect2d& square) {
@@ -111,10 +113,10 @@ std::optional<TrackedFace> HeadTracker::take_over(const cv::Mat& grey, const cv:
   replaced_.reset();
   misses_ = 0;
   const cv::Point2d centre = centre_of(square);
-  const bool moved_on = detected_before_ && face_ && cv::norm(centre - face_->centre) < kReach * face_->side;
-  if (moved_on) {
-    // The network's square is where the face is in this image; only its size jitters.
-    face_->centre = centre;
+  if (detected_before_ && face_ && cv::norm(centre - face_->centre) < kReach * face_->side) {
+    // The correlation says how the face has moved, the network where it is: neither lag nor jitter.
+    const double kept = track(grey) >= config_.lost_match ? std::pow(kKeptPlace, elapsed) : 0.0;
+    face_->centre += (1.0 - kept) * (centre - face_->centre);
     face_->side += (1.0 - std::pow(kKeptSide, elapsed)) * (square.width - face_->side);
     confirm(grey);
   } else {

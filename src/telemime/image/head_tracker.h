@@ -44,8 +44,8 @@ class HeadTracker {
   /// the head), or starts a track there.
   void adopt(const cv::Mat& grey, const cv::Rect2d& square, double blend);
 
-  /// Takes over the place of a face square that a network has found in this image, and its size smoothed over
-  /// time; all of it where it is another face. `elapsed`: 1/25 s since the last image.
+  /// Follows the face by correlation and corrects place and size by the square that a network has found in
+  /// this image; a face elsewhere replaces the track. `elapsed`: 1/25 s since the last image.
   std::optional<TrackedFace> take_over(const cv::Mat& grey, const cv::Rect2d& square, double elapsed = 1.0);
 
   /// The tracked face after the last call.

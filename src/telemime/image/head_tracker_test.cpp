@@ -114,28 +114,46 @@ TEST_F(HeadTrackerTest, DetectedFaceReplacesNothing) {
   }
 }
 
-// A network finds the face in every image: its place is taken as it is, its size smoothed over time.
-TEST_F(HeadTrackerTest, FaceOfANetworkIsWhereItIsFound) {
+// A network finds the face in every image. Its place does not trail behind the face, nor tremble with the
+// network's; its size is smoothed over time.
+TEST_F(HeadTrackerTest, FaceOfANetworkIsFollowedWithoutLag) {
+  const double side = face_.side;
+  const auto moved = [&](double right) {
+    cv::Mat image;
+    cv::warpAffine(grey_, image, cv::Matx23d(1, 0, right, 0, 1, 0), grey_.size(), cv::INTER_LINEAR,
+                   cv::BORDER_REPLICATE);
+    return image;
+  };
   for (const double rate : {5.0, 25.0, 50.0}) {
     HeadTracker heads = tracker();
-    const auto found_at = [&](double x, double side) {
-      const double half = 0.5 * (side - 1);
-      return heads.take_over(grey_, {x - half, face_.centre.y - half, side, side}, 25.0 / rate).value();
+    const auto found_at = [&](const cv::Mat& image, double x, double size) {
+      const double half = 0.5 * (size - 1);
+      return heads.take_over(image, {x - half, face_.centre.y - half, size, size}, 25.0 / rate).value();
     };
-    const double side = face_.side;
-    found_at(face_.centre.x, side);
-    for (double time = 0.0; time < 1.0; time += 1.0 / rate) {
-      const double x = face_.centre.x + 0.4 * side * time;
-      EXPECT_NEAR(found_at(x, side).centre.x, x, 1e-9) << rate;
+    found_at(grey_, face_.centre.x, side);
+    const int frames = static_cast<int>(rate);
+    for (int i = 1; i <= frames; ++i) {
+      const double right = side * i / rate;
+      EXPECT_NEAR(found_at(moved(right), face_.centre.x + right, side).centre.x, face_.centre.x + right,
+                  0.05 * side)
+          << rate << ": " << i;
     }
-    // A step of the size is taken up to the same share in the same time.
+    // The network trembles, the face does not move.
+    const cv::Mat still = moved(side);
+    for (int i = 0; i < 10; ++i) {
+      const double shift = i % 2 == 0 ? 2.0 : -2.0;
+      const double x = found_at(still, face_.centre.x + side + shift, side).centre.x;
+      EXPECT_LE(std::abs(x - face_.centre.x - side), rate < 25.0 ? 2.01 : 1.5) << rate << ": " << i;
+    }
     double after = side;
     for (int i = 0; i < static_cast<int>(0.2 * rate + 0.5); ++i) {
-      after = found_at(face_.centre.x, 1.2 * side).side;
+      after = found_at(still, face_.centre.x + side, 1.2 * side).side;
     }
     EXPECT_NEAR((after - side) / (0.2 * side), 1.0 - std::pow(0.75, 5.0), 1e-6) << rate;
-    // Another face has its own size from the start.
-    EXPECT_NEAR(found_at(face_.centre.x + 2.0 * side, 0.6 * side).side, 0.6 * side, 1e-9);
+    // Another face has its own place and size from the start.
+    const TrackedFace other = found_at(still, face_.centre.x - 2.0 * side, 0.6 * side);
+    EXPECT_NEAR(other.side, 0.6 * side, 1e-9);
+    EXPECT_NEAR(other.centre.x, face_.centre.x - 2.0 * side, 1e-9);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "telemime/core/camera.h"
 #include "telemime/image/log_colour.h"
 
 namespace telemime {
@@ -138,10 +139,10 @@ std::vector<std::string> warnings_of(const ImageStatus& status, const PersonColo
         "colours, "
         "or more light if it has switched to infrared, gives better poses");
   }
-  if (status.camera_motion > kCameraMoved) {
+  if (status.camera_motion > kBackgroundIsVoid) {
     out.emplace_back("the camera moves, so the background model cannot be used: fix the camera");
-  } else if (status.camera_motion > kCameraMoves) {
-    out.emplace_back("the camera moves a little, which blurs the background model: fix the camera");
+  } else if (status.camera_motion > kCameraIsUnsteady) {
+    out.emplace_back("the camera moves slightly, so the background model is blurred: fix the camera");
   }
   if (status.person && std::abs(status.light_change) > 0.15) {
     out.push_back(

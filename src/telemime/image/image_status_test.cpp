@@ -39,7 +39,7 @@ TEST(ImageStatus, EachViolatedAssumptionHasAWarning) {
   EXPECT_TRUE(warnings_of(good_status(), known_colours()).empty());
   ImageStatus status = good_status();
   status.camera_motion = 1;
-  EXPECT_TRUE(says(status, "camera moves a little"));
+  EXPECT_TRUE(says(status, "camera moves slightly"));
   status.camera_motion = 2;
   EXPECT_TRUE(says(status, "camera moves, so the background model cannot be used"));
   status.skin_share = 0.02;

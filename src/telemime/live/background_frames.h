@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -8,19 +9,26 @@
 #include <vector>
 
 #include "telemime/core/frame.h"
+#include "telemime/image/feature_config.h"
 #include "telemime/offline/record_queue.h"
 
 namespace telemime {
 
+/// The longest side of pictures (pixels) with which a background is as good as with larger ones.
+inline int background_side(const ImageConfig& image) {
+  constexpr int kNetworks = 640;
+  return std::max({kNetworks, image.width, image.height, 2 * image.face_width});
+}
+
 /// Frames from which the background of a live input is learned: one second of them by their time stamps
 /// (cameras often state a wrong rate), at least 8 and at most 60. If `next` returns nothing, because the
-/// input has ended or the session stops, there may be fewer or none. Large pictures are made smaller, to 640
-/// pixels on the longest side: all of them are in memory at once.
-inline std::vector<Frame> background_frames(const std::function<std::optional<Frame>()>& next) {
+/// input has ended or the session stops, there may be fewer or none. Larger pictures are made smaller: all
+/// of them are in memory at once.
+inline std::vector<Frame> background_frames(const std::function<std::optional<Frame>()>& next,
+                                            const ImageConfig& image) {
   constexpr std::size_t kFewest = 8;
   constexpr std::size_t kMost = 60;  // even if the times do not advance
   constexpr double kSeconds = 1.0;
-  constexpr int kLongestSide = 640;  // pixels
   std::vector<Frame> frames;
   while (frames.size() < kFewest ||
          (frames.size() < kMost && frames.back().time - frames.front().time < kSeconds)) {
@@ -28,7 +36,7 @@ inline std::vector<Frame> background_frames(const std::function<std::optional<Fr
     if (!frame) {
       break;
     }
-    keep_picture(kLongestSide, *frame);
+    keep_picture(background_side(image), *frame);
     frames.push_back(std::move(*frame));
   }
   return frames;

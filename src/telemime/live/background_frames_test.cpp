@@ -12,11 +12,13 @@ namespace {
 // The number of frames taken from an endless input with these time stamps.
 std::size_t taken(const std::function<double(int)>& time) {
   int count = 0;
-  return background_frames([&] {
-           Frame frame;
-           frame.time = time(count++);
-           return std::optional(frame);
-         })
+  return background_frames(
+             [&] {
+               Frame frame;
+               frame.time = time(count++);
+               return std::optional(frame);
+             },
+             ImageConfig{})
       .size();
 }
 
@@ -40,8 +42,8 @@ TEST(BackgroundFrames, OddTimesDoNoHarm) {
 TEST(BackgroundFrames, EndWithTheInput) {
   int left = 3;
   const auto next = [&] { return left-- > 0 ? std::optional(Frame{}) : std::nullopt; };
-  EXPECT_EQ(background_frames(next).size(), 3U);
-  EXPECT_TRUE(background_frames(next).empty());
+  EXPECT_EQ(background_frames(next, ImageConfig{}).size(), 3U);
+  EXPECT_TRUE(background_frames(next, ImageConfig{}).empty());
 }
 
 TEST(BackgroundFrames, OfALargeCameraAreSmall) {
@@ -51,7 +53,7 @@ TEST(BackgroundFrames, OfALargeCameraAreSmall) {
     frame.image = cv::Mat(2160, 3840, CV_8UC3, cv::Scalar(40, 50, 60));
     return left-- > 0 ? std::optional(frame) : std::nullopt;
   };
-  for (const Frame& frame : background_frames(next)) {
+  for (const Frame& frame : background_frames(next, ImageConfig{})) {
     EXPECT_EQ(frame.image.size(), cv::Size(640, 360));
   }
 }

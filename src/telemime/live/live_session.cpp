@@ -189,7 +189,7 @@ struct LiveSession::State {
 
   // False at the end of the input.
   bool learn_background() {
-    const std::vector<Frame> frames = background_frames([this] { return next_frame(); });
+    const auto frames = background_frames([this] { return next_frame(); }, run->tracker.config.image);
     if (frames.empty() || exchange.stopping()) {
       return false;
     }

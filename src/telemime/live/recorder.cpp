@@ -39,6 +39,7 @@ struct Open {
     bool own_times = false;
   };
   std::vector<File> files;
+  std::int64_t last = -1;  // number of the last frame
 
   // Frames with their own times go to the formats that have them, resampled ones to the others.
   void write(const MotionFrame& frame, bool own_times) {
@@ -132,7 +133,11 @@ struct Recorder::State {
     if (!open) {
       begin();
     }
-    open->write(frame, true);
+    // Whoever is lost at the end of the input is so in a frame that was written already.
+    if (frame.frame > open->last) {
+      open->last = frame.frame;
+      open->write(frame, true);
+    }
     open->resampler.push(frame, [this](const MotionFrame& made) {
       open->write(made, false);
       const std::lock_guard lock(mutex);
@@ -199,7 +204,7 @@ struct Recorder::State {
       } catch (const std::exception& e) {  // out of memory: the others may need less
         say(MessageLevel::error, path.string() + " is incomplete: " + e.what());
       }
-      file.output.reset();  // its frames with it: the next file needs room to end
+      file.output.reset();  // frees its frames: the next file needs memory to end
       std::error_code failed;
       const auto bytes = std::filesystem::file_size(path, failed);
       if (!failed) {

@@ -249,6 +249,19 @@ TEST_F(Records, AnotherBodyGoesOnInTheNext) {
   EXPECT_EQ(infos_.find("recording 2 ends there"), std::string::npos) << infos_;
 }
 
+// As the session reports a person who is lost at the end of the input.
+TEST_F(Records, AFrameThatComesAgainIsWrittenOnce) {
+  const auto r = started();
+  write(*r, 5);
+  MotionFrame again = testing_motion::frame_of(header_.body, header_.camera, Pose{}, 4, header_.fps);
+  again.state = TrackState::lost;
+  r->write(again);
+  ASSERT_TRUE(stops(*r, 1));
+  const Recording recording = r->ended().front();
+  EXPECT_EQ(read_pose_jsonl(recording.folder / "pose.jsonl").frames.size(), 5U);
+  EXPECT_EQ(errors(), "");
+}
+
 // A format whose tail needs more memory than there is.
 class NoEnd final : public Encoder {
  public:

@@ -10,7 +10,7 @@ namespace {
 
 // As MediaPipe's hand_landmarks_to_roi: twice the longer side of the palm and middle joints, a tenth of their
 // extent along the hand nearer to the fingertips.
-TEST(HandLandmarks, NextSquareIsTheOneThatTheNetworkWasMadeFor) {
+TEST(HandLandmarks, NextSquareIsThatOfMediaPipe) {
   HandLandmarks hand;
   for (auto& point : hand.points) {
     point.pixel = {100.0, 150.0};

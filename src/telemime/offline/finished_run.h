@@ -10,7 +10,8 @@ namespace telemime {
 
 /// What a request asks for, as report.json holds it: the input and what is known of it, the other files, the
 /// outputs, the version of the program and all settings but the number of threads, on which no result
-/// depends. Of files that are read it holds size and time, so that another file of the same name is noticed.
+/// depends. Of files that are read it holds size and time, of folders and patterns of images their digest, so
+/// that others of the same name are noticed.
 nlohmann::json request_json(const TrackRequest& request);
 
 /// What TrackRequest::out holds of a request.

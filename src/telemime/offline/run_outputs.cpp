@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "telemime/capture/image_sequence.h"
 #include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/files.h"
@@ -15,11 +16,37 @@
 namespace telemime {
 namespace {
 
+bool is_asked_for(const std::vector<std::string>& formats, const OutputFormat& format) {
+  return formats.empty() || std::find(formats.begin(), formats.end(), format.name) != formats.end();
+}
+
+// Whether the result lies in this folder.
+bool lies_in(const std::filesystem::path& result, const std::filesystem::path& folder) {
+  std::error_code apart;
+  return std::filesystem::equivalent(result.parent_path(), folder, apart);
+}
+
 // A result in the place of a file that is being read would destroy it.
 void keep_inputs(const TrackRequest& request, const std::filesystem::path& result) {
-  for (const std::string& name : names_read(request)) {
+  const auto is_result = [&result](const std::filesystem::path& name) {
     std::error_code apart;
-    if (!name.empty() && std::filesystem::equivalent(without_file_scheme(name), result, apart)) {
+    return std::filesystem::equivalent(name, result, apart);
+  };
+  for (const std::string& name : names_read(request)) {
+    const InputKind kind = input_kind(name);
+    bool replaced = is_result(without_file_scheme(name));
+    if (kind == InputKind::folder || kind == InputKind::pattern) {
+      try {
+        const auto images = image_files(without_file_scheme(name), kind);
+        // A picture among them would be one of them from the next run on.
+        replaced = std::any_of(images.begin(), images.end(), is_result) ||
+                   (kind == InputKind::folder && has_image_extension(result.string()) &&
+                    lies_in(result, without_file_scheme(name)));
+      } catch (const Error&) {
+        replaced = false;  // whoever reads them says so
+      }
+    }
+    if (!name.empty() && replaced) {
       throw Error(ErrorKind::usage, result.string() + " is read by this run and would be replaced",
                   "Choose another place for the results with --out.");
     }
@@ -51,10 +78,14 @@ void prepare_outputs(const TrackRequest& request) {
     throw cannot_write(request.out, errno);
   }
   for (const OutputFormat& format : kOutputFormats) {
-    keep_inputs(request, request.out / format.file_name);
+    if (is_asked_for(request.formats, format)) {
+      keep_inputs(request, request.out / format.file_name);
+    }
   }
-  for (const char* name : {OverlayVideo::kFileName, OverlayVideo::kPictureName, "report.json"}) {
-    keep_inputs(request, request.out / name);
+  keep_inputs(request, request.out / "report.json");
+  if (request.overlay) {
+    keep_inputs(request, request.out / OverlayVideo::kFileName);
+    keep_inputs(request, request.out / OverlayVideo::kPictureName);
   }
 }
 
@@ -101,7 +132,7 @@ void RunOutputs::begin(const StreamHeader& known) {
   header.fingers = known.fingers && options_.fingers;
   resampler_.emplace(header.body, header.camera, header.fps);
   for (const OutputFormat& format : kOutputFormats) {
-    if (formats_.empty() || std::find(formats_.begin(), formats_.end(), format.name) != formats_.end()) {
+    if (is_asked_for(formats_, format)) {
       outputs_.push_back({std::make_unique<FileOutput>(folder_ / std::string(format.file_name),
                                                        format.make(options_), header),
                           format.own_times});

@@ -38,7 +38,7 @@ class RunOutputs {
   /// Throws Error(output).
   void begin(const StreamHeader& header);
 
-  /// The person of the frames that follow. What a file's head says of the first stays.
+  /// The person of the frames that follow; the heads of the files keep the first.
   void set_body(const Body& body);
 
   /// A frame at its true time, which must increase; files of constant rate get resampled ones.

@@ -109,7 +109,7 @@ TEST(RunOutputs, FramesBetweenHaveTheBonesOfTheirPerson) {
   outputs.set_body(make_body(tall));
   write(make_body(tall), 20, 40);
   outputs.close({});
-  // The head stands one neck above the root in all frames of a person.
+  // All frames of a person have the second marker at the same height above the root.
   std::istringstream lines(text_of(scratch.file("motion.trc")));
   std::vector<double> heights;
   for (std::string line; std::getline(lines, line);) {
@@ -148,6 +148,24 @@ TEST(RunOutputs, NeverReplaceWhatTheRunReads) {
     }
     read->clear();
   }
+}
+
+TEST(RunOutputs, NeverLieAmongTheImagesThatAreRead) {
+  const ScratchFolder folder;
+  std::ofstream(folder.file("1.png")) << "an image";
+  TrackRequest request;
+  request.out = folder.path();
+  request.input = folder.path().string();
+  EXPECT_THROW(prepare_outputs(request), Error) << "overlay.png would be an image of the next run";
+  request.overlay = false;
+  EXPECT_NO_THROW(prepare_outputs(request));
+  request.overlay = true;
+  request.input = folder.file("*.png");
+  EXPECT_NO_THROW(prepare_outputs(request));
+  std::ofstream(folder.file("overlay.png")) << "an image";
+  EXPECT_THROW(prepare_outputs(request), Error);
+  request.out = folder.path() / "results";
+  EXPECT_NO_THROW(prepare_outputs(request));
 }
 
 TEST(RunOutputs, WithoutAFolderNothingIsWritten) {

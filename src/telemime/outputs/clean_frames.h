@@ -17,7 +17,7 @@ class CleanFrames {
  private:
   static MotionFrame blank();
   MotionFrame last_ = blank();
-  bool tracked_ = false;  ///< in a frame before
+  bool tracked_ = false;  ///< in an earlier frame
 };
 
 }  // namespace telemime

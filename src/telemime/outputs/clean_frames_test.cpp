@@ -36,7 +36,7 @@ StreamHeader header_with_fingers() {
   return header;
 }
 
-TEST(CleanFrames, ALostFrameRepeatsTheBodyAndHandsOfTheLastTrackedOne) {
+TEST(CleanFrames, ALostFrameRepeatsTheLastTrackedOne) {
   const std::vector<MotionFrame> frames = lost_around_tracked(header_with_fingers());
   CleanFrames clean;
   std::vector<MotionFrame> out;
@@ -56,7 +56,7 @@ TEST(CleanFrames, ALostFrameRepeatsTheBodyAndHandsOfTheLastTrackedOne) {
   }
 }
 
-TEST(CleanFrames, MotionFilesStandStillWhileThePersonIsLost) {
+TEST(CleanFrames, MotionFilesStandStillWhileLost) {
   const StreamHeader header = header_with_fingers();
   const std::vector<MotionFrame> frames = lost_around_tracked(header);
   const auto file = [&](const char* format) {

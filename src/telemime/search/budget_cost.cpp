@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
+#include "telemime/core/camera.h"
 #include "telemime/image/edges.h"
 #include "telemime/render/renderer.h"
 #include "telemime/search/budget.h"

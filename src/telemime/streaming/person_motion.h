@@ -17,7 +17,7 @@ class PersonMotion {
 
   const Body& body() const { return body_; }
   const HumanoidSkeleton& skeleton() const { return skeleton_; }
-  /// The frame with only finite numbers (outputs/clean_frames.h). Call it once per frame, in order.
+  /// The frame as outputs see it (outputs/clean_frames.h). Call it once per frame, in order.
   MotionFrame clean(const MotionFrame& frame) { return clean_(frame); }
   /// The pose of a frame that clean() returned; nothing if the person is lost in it.
   std::optional<HumanoidMotion> operator()(const MotionFrame& frame) {

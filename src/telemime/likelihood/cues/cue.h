@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "telemime/core/camera.h"
 #include "telemime/likelihood/cues/reductions.h"
 #include "telemime/likelihood/prepared_frame.h"
 
