@@ -106,6 +106,37 @@ TEST(PoorPictures, GreyPicturesTeachNoColours) {
   EXPECT_TRUE(features.learn_person(frame).accepted);
 }
 
+TEST(PoorPictures, ARefusedFrameLeavesTheHead) {
+  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
+  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
+    GTEST_SKIP() << missing;
+  }
+  const auto radii = [](bool refused) {
+    const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");
+    ImageConfig config;
+    config.models = kModels;
+    FeatureExtractor features(config);
+    Frame frame = source->next().value();
+    EXPECT_TRUE(features.learn_person(frame).accepted);
+    for (int i = 0; i < 5; ++i) {
+      features.extract(frame);
+      frame = source->next().value();
+    }
+    if (refused) {
+      Frame nobody = frame;
+      nobody.image = cv::Mat(frame.image.size(), CV_8UC3, cv::Scalar(90, 140, 60));
+      nobody.image.colRange(0, 200).setTo(cv::Scalar(30, 40, 160));
+      EXPECT_FALSE(features.learn_person(nobody).accepted);
+      frame.index += 1;
+    }
+    const FrameFeatures seen = features.extract(frame);
+    return seen.head ? seen.head->radii : Eigen::Vector2d::Zero().eval();
+  };
+  const Eigen::Vector2d usual = radii(false);
+  EXPECT_GT(usual.norm(), 0.0);
+  EXPECT_LT((radii(true) - usual).norm(), 0.1);
+}
+
 TEST(PoorPictures, OverexposureIsNamed) {
   const auto warns = [](double gain) {
     ImageConfig config;

@@ -96,16 +96,19 @@ TEST(LookAhead, PortraitKeepsAverageArms) {
   }
   const int rows = 4 * static_cast<int>((lowest + 12.0) / 4.0);
   ASSERT_LT(rows, 200);
+  Camera camera = clip().camera;
+  const int columns = rows * camera.width / camera.height;
+  const int left = (camera.width - columns) / 2;
   const auto portrait = [&](std::vector<Frame> frames) {
     for (Frame& frame : frames) {
-      frame.image = frame.image.rowRange(0, rows).clone();
+      frame.image = frame.image(cv::Rect(left, 0, columns, rows)).clone();
     }
     return frames;
   };
-  Camera camera = clip().camera;
+  camera.width = columns;
   camera.height = rows;
+  camera.cx -= left;
   Config config = quick_config();
-  config.image.height = rows / 2;
   TrackingRun run = make_tracking_run(config, camera);
   run.scene.features.learn_background(portrait(clip().background));
   support::ListSource source(portrait(clip().person));

@@ -191,11 +191,13 @@ double FeatureExtractor::over_elapsed(double rate) const {
 }
 
 PersonReport FeatureExtractor::learn_person(const Frame& frame) {
-  // If the frame is refused, a head that is being followed stays as it was.
+  // With networks a person is tracked while their colours are looked for: if the frame is refused, the head
+  // that is being followed stays as it was. Without them, what was found now is a better start than an old
+  // track.
   const HeadTracker head = head_;
   const HeadShape shape = shape_;
   PersonReport report = learn_person_in(frame);
-  if (!report.accepted && head.current()) {
+  if (!report.accepted && has_networks() && head.current()) {
     head_ = head;
     shape_ = shape;
   }
@@ -368,10 +370,10 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   } else if (!calibration_.background.empty() && config_.background_rate > 0) {
     cv::Mat where = background_mask_.clone();
     where.setTo(0, background.shaded);
-    constexpr double kSteady = 12.0;  // 1/25 s
+    constexpr double kSteady = 12.0;  // images, and 1/25 s
     adapt_background(calibration_.background, p.colour, where,
                      static_cast<float>(over_elapsed(config_.background_rate)),
-                     static_cast<int>(std::clamp(std::ceil(kSteady / elapsed_ - 0.01), 3.0, 255.0)));
+                     static_cast<int>(std::clamp(std::ceil(kSteady / elapsed_ - 0.01), kSteady, 255.0)));
   }
 
   update_camera_motion(p.grey);

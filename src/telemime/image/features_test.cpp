@@ -319,29 +319,6 @@ TEST(FeatureExtractor, ANewBackgroundForgetsThatTheCameraMoved) {
   EXPECT_EQ(features.status().known_background, 1.0);
 }
 
-TEST(FeatureExtractor, ARefusedFrameLeavesTheHead) {
-  const std::vector<Frame> frames = demo_frames(6, 25.0);
-  const auto empty = frames_of(std::filesystem::path(TELEMIME_SOURCE_DIR) / "data/demo/background.mp4", 10);
-  const auto radii = [&](bool refused) {
-    FeatureExtractor features(without_networks());
-    features.learn_background(empty);
-    EXPECT_TRUE(features.learn_person(frames.front()).accepted);
-    for (std::size_t i = 0; i + 1 < frames.size(); ++i) {
-      features.extract(frames[i]);
-    }
-    if (refused) {
-      cv::Mat upside_down;
-      cv::flip(frames.back().image, upside_down, 0);
-      EXPECT_FALSE(features.learn_person({upside_down, 6, 0.24}).accepted);
-    }
-    const FrameFeatures seen = features.extract(frames.back());
-    return seen.head ? seen.head->radii : Eigen::Vector2d::Zero().eval();
-  };
-  const Eigen::Vector2d usual = radii(false);
-  EXPECT_GT(usual.norm(), 0.0);
-  EXPECT_EQ(radii(true), usual);
-}
-
 // What comes directly after a pause does not replace all that was learned before.
 TEST(FeatureExtractor, OneFrameAfterAPauseTeachesLittle) {
   FeatureExtractor features(without_networks());
