@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 manifest="${1:-build/release}/installed_by_make.txt"  # of the install target; other installations have their own
 if [[ ! -f "$manifest" ]]; then
-  echo "uninstall: there is no $manifest: nothing has been installed from here" >&2
+  echo "uninstall: nothing has been installed from here ($manifest does not exist)" >&2
   exit 1
 fi
 mapfile -t files < "$manifest"

@@ -39,8 +39,8 @@ Json identity_of_images(const std::string& input, InputKind kind) {
   return {{"images", count}, {"digest", digest}};
 }
 
-// Size and time of a file, by which it is told from another of the same name; of a folder or a pattern, name,
-// size and time of each image. Null for what has none (nothing, a stream, a preset's name).
+// Size and time of a file, which distinguish it from another of the same name; of a folder or a pattern,
+// name, size and time of each image. Null for what has none (nothing, a stream, a preset's name).
 Json identity_of(const std::string& name) {
   const std::string file = without_file_scheme(name);
   const InputKind kind = input_kind(name);
