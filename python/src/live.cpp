@@ -36,12 +36,15 @@ class LiveTrack {
     LiveInput input = open_live_input(request.input, options, repeat);
     endless_ = input.camera || repeat;
     LiveHooks hooks;
-    hooks.person = [this](const StreamHeader& header) {
+    // The run calls both hooks one after the other, never at the same time.
+    const auto clean = std::make_shared<CleanFrames>();
+    hooks.person = [this, clean](const StreamHeader& header) {
+      *clean = CleanFrames();  // a new person does not repeat the body of the one before
       const std::lock_guard lock(mutex_);
       header_ = std::make_shared<StreamHeader>(header);
     };
-    hooks.motion = [this, clean = CleanFrames()](const MotionFrame& motion, double) mutable {
-      FramePointer frame = make_frame(clean(motion), header());
+    hooks.motion = [this, clean](const MotionFrame& motion, double) {
+      FramePointer frame = make_frame((*clean)(motion), header());
       {
         const std::lock_guard lock(mutex_);
         latest_ = frame;

@@ -296,12 +296,12 @@ struct LiveProgram::State {
       case GuideTimeout::Step::ask:
         notify(MessageLevel::warning,
                "waiting for the page, which guides the start: open " + page_url(options.web, server->port()) +
-                   "\n  Without a page, tracking starts after " +
+                   " and keep it visible\n  Without it, tracking starts after " +
                    std::to_string(std::lround(guide_timeout.seconds())) + " s; --no-guide does not wait.");
         break;
       case GuideTimeout::Step::skip:
         notify(MessageLevel::warning,
-               "no page is open to guide the start: continuing without an image of the empty room");
+               "no visible page guides the start: continuing without an image of the empty room");
         session->guide(GuideStep::skip);
         break;
     }

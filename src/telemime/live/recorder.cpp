@@ -157,12 +157,12 @@ struct Recorder::State {
 
   void begin() {
     Recording recording;
-    recording.number = next_number++;
     std::error_code failed;
     std::error_code unknown;
     std::filesystem::create_directories(folder, failed);
     do {  // never reuses a folder of an earlier or concurrent run
-      recording.folder = folder / ("recording-" + std::to_string(next_folder++));
+      recording.number = next_number++;
+      recording.folder = folder / ("recording-" + std::to_string(recording.number));
     } while (!std::filesystem::create_directory(recording.folder, failed) &&
              std::filesystem::exists(recording.folder, unknown));
     if (failed) {
@@ -257,7 +257,6 @@ struct Recorder::State {
   std::optional<Open> open;
   bool wanted = false;
   int next_number = 1;
-  int next_folder = 1;
 
   std::atomic<bool> asked = false;  // frames are recorded
 

@@ -22,7 +22,7 @@ struct RecordedFile {
 
 /// A finished recording, or the one in progress.
 struct Recording {
-  int number = 0;  ///< from 1
+  int number = 0;  ///< from 1, as in the name of its folder
   double seconds = 0.0;
   std::int64_t frames = 0;
   std::filesystem::path folder;

@@ -297,6 +297,7 @@ TEST_F(Records, FoldersOfOthersAreLeftAlone) {
   write(*r, 2);
   ASSERT_TRUE(stops(*r, 1));
   EXPECT_EQ(r->ended().front().folder.filename(), "recording-3");
+  EXPECT_EQ(r->ended().front().number, 3);
   EXPECT_TRUE(fs::is_empty(folder_.path() / "r" / "recording-1"));
 }
 
