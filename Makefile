@@ -8,7 +8,6 @@ TEST_JOBS ?= $(shell echo $$(($(JOBS) + 1)))
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 20
 ASAN_QUICK = core capture nets outputs streaming meeting_protocol meeting_transport meeting_hosting live_stream
-COMPILER_CACHE = $(if $(shell command -v ccache),-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 empty :=
 TARGETS := help deps build demo test bench experiments accuracy peer lint asan asan-quick tsan fuzz install uninstall package package-test reference count clean
 # Targets that install packages come before those that need them; JOBS and TEST_JOBS are what runs in parallel.
@@ -32,13 +31,13 @@ deps-test:
 
 # What has been configured with tests stays so: configured without them, it would have to be compiled again for them.
 program:
-	@{ cmake build/release || cmake --preset program $(COMPILER_CACHE); } > build-configure.log 2>&1 || \
+	@{ cmake build/release || cmake --preset program; } > build-configure.log 2>&1 || \
 	  { cat build-configure.log; exit 1; }
 	@rm -f build-configure.log
 	@cmake --build build/release --target telemime -j $(JOBS)
 
 configure:
-	@cmake --preset release $(COMPILER_CACHE) > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
+	@cmake --preset release > build-configure.log 2>&1 || { cat build-configure.log; exit 1; }
 	@rm -f build-configure.log
 
 build: deps-page program ## the program with its live page: build/release/telemime
@@ -73,24 +72,24 @@ lint: ## clang-format and clang-tidy; FILES="a.cpp b.h" for some only
 	@scripts/lint.sh $(FILES)
 
 asan: deps-test ## all but the slow tests and the laws under the address and undefined-behaviour sanitizers
-	@cmake --preset asan $(COMPILER_CACHE)
+	@cmake --preset asan
 	@cmake --build --preset asan -j $(JOBS)
 	@ctest --preset asan -j $(TEST_JOBS)
 
 asan-quick: deps-test ## of these the tests of what reads bytes from elsewhere
 	@scripts/deps.sh check
-	@cmake --preset asan-quick $(COMPILER_CACHE)
+	@cmake --preset asan-quick
 	@cmake --build --preset asan-quick --target $(ASAN_QUICK:=_test) -j $(JOBS)
 	@ctest --preset asan-quick -j $(TEST_JOBS) -R '^($(subst $(empty) $(empty),|,$(ASAN_QUICK)))\.'
 
 tsan: deps-test ## all but the slow tests under the thread sanitizer
-	@cmake --preset tsan $(COMPILER_CACHE)
+	@cmake --preset tsan
 	@setarch -R cmake --build --preset tsan -j $(JOBS)
 	@setarch -R ctest --preset tsan -j $(TEST_JOBS)
 
 fuzz: deps-test ## every fuzz target for FUZZ_SECONDS (20)
 	@scripts/deps.sh check
-	@cmake --preset fuzz $(COMPILER_CACHE)
+	@cmake --preset fuzz
 	@cmake --build --preset fuzz --target fuzz/all -j $(JOBS)
 	@scripts/fuzz.sh $(FUZZ_SECONDS)
 
