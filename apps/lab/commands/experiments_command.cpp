@@ -124,7 +124,7 @@ std::filesystem::path measurement_data(const std::filesystem::path& given, const
   }
   std::filesystem::path made = out / "clips";
   for (const std::string_view name : kThesisGestures) {
-    if (std::filesystem::exists(made / name / "truth.json")) {
+    if (std::filesystem::exists(made / name / kPreview)) {  // which is written last
       continue;
     }
     std::cerr << "making the clip " << name << '\n';

@@ -120,6 +120,23 @@ struct Preview {
   }
 };
 
+// Clips of an earlier run, which may have another ending or size, do not belong to the new truth.
+void remove_clips(const fs::path& folder) {
+  std::vector<fs::path> old;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    const std::string ending = entry.path().extension().string();
+    const bool clip = (stem.starts_with("video") || stem.starts_with("background")) &&
+                      (ending == ".mkv" || ending == ".mp4");
+    if (clip || entry.path().filename() == kPreview) {
+      old.push_back(entry.path());
+    }
+  }
+  for (const fs::path& file : old) {
+    fs::remove(file);
+  }
+}
+
 }  // namespace
 
 SequenceFiles make_sequence(const SequenceOptions& options) {
@@ -136,6 +153,7 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
     throw Error(ErrorKind::output, "cannot make the folder " + folder.string() + ": " + error.message(),
                 "give --out a writable folder");
   }
+  remove_clips(folder);
   const cv::Size size(filmed.width, filmed.height);
   SequenceFiles files;
   const int cores = tbb::info::default_concurrency();
@@ -175,7 +193,7 @@ SequenceFiles make_sequence(const SequenceOptions& options) {
     }
     background.finish(files.all);
   }
-  const fs::path sheet = folder / "preview.png";
+  const fs::path sheet = folder / kPreview;
   if (!cv::imwrite(sheet.string(), preview.sheet)) {
     fail(sheet);
   }

@@ -86,12 +86,15 @@ struct SequenceOptions {
   std::function<void(int, int)> progress;
 };
 
+/// The last file of a sequence that is written: where it exists, the sequence is complete.
+inline constexpr const char* kPreview = "preview.png";
+
 struct SequenceFiles {
   std::filesystem::path video;
   std::vector<std::filesystem::path> all;
 };
 
-/// Renders the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// Renders the gesture, removes clips of an earlier run from its folder, and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
 /// A compact clip of odd size, or where OpenCV can write neither H.264 nor MPEG-4, is lossless all the same.
 /// Throws Error(output) that names the file which could not be written.
 SequenceFiles make_sequence(const SequenceOptions& options);

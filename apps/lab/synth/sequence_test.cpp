@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <set>
 
 #include "telemime/capture/source.h"
 #include "telemime/core/scratch_folder.h"
@@ -88,6 +89,27 @@ TEST_F(SequenceFolder, ACompactClipIsMp4) {
   const auto source = open_source(files.video.string());
   EXPECT_TRUE(source->next().has_value());
   EXPECT_FALSE(std::filesystem::exists(folder / "asking" / "video_160x120.mkv"));
+}
+
+TEST_F(SequenceFolder, ClipsOfAnEarlierRunAreRemoved) {
+  SequenceOptions options;
+  options.scene = small_scene(Gesture::asking);
+  options.scene.frames = 2;
+  options.background_frames = 1;
+  options.folder = folder;
+  options.compact = true;
+  make_sequence(options);
+  std::ofstream(folder / "asking" / "notes.txt") << "mine";
+  options.compact = false;
+  options.background_frames = 0;
+  const SequenceFiles files = make_sequence(options);
+  std::set<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "asking")) {
+    left.insert(entry.path());
+  }
+  std::set<std::filesystem::path> expected(files.all.begin(), files.all.end());
+  expected.insert(folder / "asking" / "notes.txt");
+  EXPECT_EQ(left, expected);
 }
 
 TEST_F(SequenceFolder, AFolderThatCannotBeMadeIsNamed) {
