@@ -140,12 +140,13 @@ TEST_F(LiveCommand, FailuresHaveExitCodes) {
 TEST_F(LiveCommand, VirtualCameraGetsPictures) {
   const std::string camera = folder_ / "camera";
   e2e::write_bytes(camera, "");
-  const e2e::Ended ended = e2e::run(live({"--seconds", "3", "--virtual-camera", camera}));
-  EXPECT_EQ(ended.code, 0) << ended.words;
   constexpr std::size_t kPicture = std::size_t{2} * 320 * 240;  // YUYV
-  const std::size_t size = std::filesystem::file_size(camera);
-  EXPECT_GE(size, 5 * kPicture);
-  EXPECT_EQ(size % kPicture, 0U) << "whole pictures";
+  e2e::Program program(live({"--virtual-camera", camera}));
+  EXPECT_TRUE(comes_true([&] { return std::filesystem::file_size(camera) >= 5 * kPicture; }));
+  program.signal(SIGINT);
+  const e2e::Ended ended = program.wait();
+  EXPECT_EQ(ended.code, 0) << ended.words;
+  EXPECT_EQ(std::filesystem::file_size(camera) % kPicture, 0U) << "whole pictures";
 
   const e2e::Ended none = e2e::run({"live", "/nothing/here.mp4", "--virtual-camera", "/dev/video63"});
   EXPECT_EQ(none.code, 5) << "before the input is opened";
