@@ -3,11 +3,16 @@
 
 #include <algorithm>
 
+#include "telemime/core/visible_line.h"
+
 namespace telemime {
 namespace {
 
 // Standard deviations of a visible arm (m): elbow, wrist, hand. The upper ends of those of synthetic people.
 constexpr std::array<double, 3> kVisible = {0.07, 0.12, 0.14};
+
+// Of an upper arm, this share in the image shows where it points.
+constexpr double kEnough = 0.5;
 
 bool is_in_image(const Eigen::Vector2d& pixel, const Camera& camera) {
   return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() <= camera.width - 1 &&
@@ -27,11 +32,14 @@ NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera) {
     if (!frame.spread || visible) {
       continue;
     }
+    const auto pixel = [&](Joint joint) { return frame.pixels[static_cast<std::size_t>(joint)]; };
+    const double seen = share_in_image(camera, pixel(side == 0 ? Joint::l_shoulder : Joint::r_shoulder),
+                                       pixel(kArms[side][0]));
     const auto ratio = [&](std::size_t i) {
       const double variance = frame.spread->covariance[static_cast<std::size_t>(kArms[side][i])].trace();
       return std::max(1.0, variance / (kVisible[i] * kVisible[i]));
     };
-    noise.rotation[2 + side] = ratio(0);
+    noise.rotation[2 + side] = seen < kEnough ? ratio(0) : 1.0;
     noise.elbow[side] = ratio(1);
     noise.rotation[4 + side] = ratio(2);
   }

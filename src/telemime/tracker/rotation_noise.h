@@ -14,9 +14,9 @@ struct NoiseRatios {
   std::array<double, 2> elbow{1.0, 1.0};
 };
 
-/// An arm that is outside the image from the elbow on is as uncertain as its spread says. One of which the
-/// elbow, the wrist or the hand is visible follows the image, whatever the spread of the rest. `camera` is
-/// that of frame.pixels.
+/// An arm that is outside the image from the elbow on is as uncertain as its spread says, but for an upper
+/// arm that is seen by half or more. An arm of which the elbow, the wrist or the hand is visible follows the
+/// image, whatever the spread of the rest. `camera` is that of frame.pixels.
 NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera);
 
 }  // namespace telemime

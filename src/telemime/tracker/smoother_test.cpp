@@ -176,8 +176,9 @@ TEST(Smoother, OnlyAnArmOutsideTheImageIsSteadier) {
   const Rig rig;
   Random random(8);
   const auto seen = rig.frames(200, [&](int) { return noisy(standing(), random); });
-  // The right arm is uncertain: outside the image from the elbow on, or with its hand visible.
-  const auto uncertain = [&](bool hand_visible) {
+  // The right arm is uncertain: outside the image from the elbow on, or with its hand visible. Most of the
+  // upper arm is outside, too, unless the shoulder is far inside.
+  const auto uncertain = [&](bool hand_visible, double shoulder) {
     auto frames = seen;
     for (MotionFrame& frame : frames) {
       frame.spread = PoseSpread{};
@@ -187,12 +188,14 @@ TEST(Smoother, OnlyAnArmOutsideTheImageIsSteadier) {
         frame.spread->covariance[j] = 0.05 * Eigen::Matrix3d::Identity();
         frame.pixels[j] = {hand_visible && joint == Joint::r_hand ? 10.0 : -10.0, 10.0};
       }
+      frame.pixels[static_cast<std::size_t>(Joint::r_shoulder)] = {shoulder, 10.0};
     }
     return rig.smoothed("one-euro", frames);
   };
   const auto plain = rig.smoothed("one-euro", seen);
-  const auto outside = uncertain(false);
-  const auto with_hand = uncertain(true);
+  const auto outside = uncertain(false, 5.0);
+  const auto with_hand = uncertain(true, 5.0);
+  const auto with_upper_arm = uncertain(false, 50.0);
   const auto roughness = [](const std::vector<MotionFrame>& frames, Angle angle) {
     double sum = 0.0;
     for (std::size_t t = 51; t + 1 < frames.size(); ++t) {
@@ -204,6 +207,10 @@ TEST(Smoother, OnlyAnArmOutsideTheImageIsSteadier) {
     EXPECT_LT(roughness(outside, angle), 0.5 * roughness(plain, angle));
     EXPECT_EQ(roughness(with_hand, angle), roughness(plain, angle)) << "it follows the image";
   }
+  EXPECT_EQ(roughness(with_upper_arm, Angle::r_shoulder_flexion),
+            roughness(plain, Angle::r_shoulder_flexion));
+  EXPECT_LT(roughness(with_upper_arm, Angle::r_elbow_flexion),
+            0.5 * roughness(plain, Angle::r_elbow_flexion));
   EXPECT_EQ(roughness(outside, Angle::l_elbow_flexion), roughness(plain, Angle::l_elbow_flexion));
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "telemime/core/visible_line.h"
+
 namespace telemime {
 namespace {
 
@@ -22,7 +24,7 @@ double square(double x) {
   return x * x;
 }
 
-// Standard deviation of a bone's end outside the image, as a share of the bone's length.
+// Largest standard deviation of a bone's end outside the image, as a share of the bone's length.
 constexpr double kUnseen = 0.5;
 // The same of a wrist whose hand is outside the image: the forearm may continue there.
 constexpr double kCut = 0.25;
@@ -49,10 +51,17 @@ bool is_in_image(const Camera& camera, const Eigen::Vector3d& point) {
 Eigen::Matrix3d end_of_bone(const Camera& camera, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                             const SpreadModel& model, const Eigen::Matrix3d& start, double& along) {
   const double length = (to - from).norm();
-  if (!is_in_image(camera, to)) {
-    return start + Eigen::Matrix3d::Identity() * square(kUnseen * length);
-  }
   const Eigen::Vector3d ray = from.normalized();
+  if (!is_in_image(camera, to)) {
+    // What is seen of the bone shows its direction in the image, the less the shorter it is; not its depth.
+    const double seen = std::min(from.z(), to.z()) < kNearestSeen
+                            ? 0.0
+                            : share_in_image(camera, camera.project(from), camera.project(to));
+    const double unseen = kUnseen * length;
+    const double across = model.across < kUnseen * seen ? model.across * length / seen : unseen;
+    return start + across * across * (Eigen::Matrix3d::Identity() - ray * ray.transpose()) +
+           unseen * unseen * ray * ray.transpose();
+  }
   const double sine = length > 0.0 ? (to - from).dot(ray) / length : 0.0;
   const double across = model.across * length;
   const double before = along;

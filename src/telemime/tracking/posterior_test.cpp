@@ -276,9 +276,9 @@ TEST(ModelCovariance, OfWhatIsOutsideThePictureIsWide) {
   const auto seen = model_covariance(context(0.0), inside, numbers());
   const JointPositions joints = forward_kinematics(body(), inside).joints;
   Camera narrow = camera();
-  narrow.cx +=
-      narrow.width - 1.0 -
-      0.5 * (camera().project(joints[Joint::l_wrist]).x() + camera().project(joints[Joint::l_hand]).x());
+  narrow.cx += narrow.width - 1.0 -
+               (0.9 * camera().project(joints[Joint::l_wrist]).x() +
+                0.1 * camera().project(joints[Joint::l_hand]).x());
   ASSERT_GT(narrow.project(joints[Joint::l_hand]).x(), narrow.width);
   ASSERT_LT(narrow.project(joints[Joint::l_wrist]).x(), narrow.width - 1.0);
   const auto cut = model_covariance({.body = body(), .camera = narrow}, inside, numbers());
@@ -286,6 +286,35 @@ TEST(ModelCovariance, OfWhatIsOutsideThePictureIsWide) {
   EXPECT_GT(cut[at(Joint::l_wrist)].trace(), 1.5 * seen[at(Joint::l_wrist)].trace());
   EXPECT_LT((cut[at(Joint::l_elbow)] - seen[at(Joint::l_elbow)]).norm(), 1e-12);
   EXPECT_LT((cut[at(Joint::r_hand)] - seen[at(Joint::r_hand)]).norm(), 1e-12);
+}
+
+TEST(ModelCovariance, ABoneThatIsCutOffShowsItsDirection) {
+  const Pose pose = both_arms_seen();
+  const JointPositions joints = forward_kinematics(body(), pose).joints;
+  const Eigen::Vector3d& shoulder = joints[Joint::l_shoulder];
+  const Eigen::Vector3d& elbow = joints[Joint::l_elbow];
+  const double length = (elbow - shoulder).norm();
+  const Eigen::Vector3d ray = shoulder.normalized();
+  const Eigen::Vector3d across = ray.cross(elbow - shoulder).normalized();
+  // Cameras whose lower border cuts the upper arm at a share of it.
+  const auto deviations = [&](double share) {
+    Camera cut = camera();
+    const double from = cut.project(shoulder).y();
+    const double to = cut.project(elbow).y();
+    cut.height = static_cast<int>(std::lround(from + share * (to - from) + 0.5));
+    const auto covariance = model_covariance({.body = body(), .camera = cut}, pose, numbers());
+    const Eigen::Matrix3d added = covariance[at(Joint::l_elbow)] - covariance[at(Joint::l_shoulder)];
+    return std::pair(std::sqrt(across.dot(added * across)), std::sqrt(ray.dot(added * ray)));
+  };
+  const auto [wide, deep] = deviations(0.05);
+  const auto [half, half_deep] = deviations(0.5);
+  const auto [most, most_deep] = deviations(0.9);
+  EXPECT_NEAR(wide, 0.5 * length, 1e-9) << "too little is seen";
+  EXPECT_LT(half, 0.3 * length);
+  EXPECT_LT(most, 0.65 * half);
+  for (const double depth : {deep, half_deep, most_deep}) {
+    EXPECT_NEAR(depth, 0.5 * length, 1e-9) << "a bone without its end shows no depth";
+  }
 }
 
 TEST(ModelCovariance, OfAnArmInOneColourIsWider) {
