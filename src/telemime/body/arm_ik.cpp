@@ -51,36 +51,42 @@ ArmAngles angles_from_directions(const Eigen::Vector3d& upper, const Eigen::Vect
                                  Side side, const JointLimits& limits) {
   const ArmAngles before = arm_angles(pose, side);
   const double cosine = std::clamp(upper.dot(fore), -1.0, 1.0);
-  const double elbow = -std::acos(cosine);
+  const double elbow = std::acos(cosine);
   Eigen::Vector3d bend = fore - upper * cosine;
-  if (bend.norm() < 1e-9) {  // a straight arm says nothing about its twist: keep the one it had
+  // A straight arm says nothing about its twist: it keeps the one that it had.
+  constexpr double kStraight = 1e-5;  // rad; the cosine of less is 1 but for rounding
+  if (bend.norm() < kStraight) {
     const Eigen::Matrix3d old = compose_zxy({before.abduct, before.flexion, before.twisting});
     bend = old.col(2) - upper * upper.dot(old.col(2));
-    if (bend.norm() < 1e-9) {
+    if (bend.norm() < kStraight) {
       bend = upper.unitOrthogonal();
     }
   }
-  Eigen::Matrix3d rotation;
-  rotation.col(1) = -upper;
-  rotation.col(2) = bend.normalized();
-  rotation.col(0) = rotation.col(1).cross(rotation.col(2));
 
   const ArmIndices at = indices(side);
   const auto low = [&](Angle a) { return limits.min[static_cast<std::size_t>(a)]; };
   const auto high = [&](Angle a) { return limits.max[static_cast<std::size_t>(a)]; };
   ArmAngles best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (const AnglesZxy& candidate : decompose_zxy(rotation)) {
-    const double outside = excess(candidate.x, low(at.flexion), high(at.flexion)) +
-                           excess(candidate.y, low(at.twisting), high(at.twisting)) +
-                           excess(candidate.z, low(at.abduct), high(at.abduct));
-    const double away = std::abs(wrap_angle(candidate.x - before.flexion)) +
-                        std::abs(wrap_angle(candidate.y - before.twisting)) +
-                        std::abs(wrap_angle(candidate.z - before.abduct));
-    const double cost = 1000.0 * outside + away;
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = {candidate.x, candidate.y, candidate.z, elbow};
+  // An elbow that is stretched a little too far is bent the other way at the same twist.
+  for (const double sign : {-1.0, 1.0}) {
+    Eigen::Matrix3d rotation;
+    rotation.col(1) = -upper;
+    rotation.col(2) = -sign * bend.normalized();
+    rotation.col(0) = rotation.col(1).cross(rotation.col(2));
+    for (const AnglesZxy& candidate : decompose_zxy(rotation)) {
+      const double outside = excess(candidate.x, low(at.flexion), high(at.flexion)) +
+                             excess(candidate.y, low(at.twisting), high(at.twisting)) +
+                             excess(candidate.z, low(at.abduct), high(at.abduct)) +
+                             excess(sign * elbow, low(at.elbow), high(at.elbow));
+      const double away = std::abs(wrap_angle(candidate.x - before.flexion)) +
+                          std::abs(wrap_angle(candidate.y - before.twisting)) +
+                          std::abs(wrap_angle(candidate.z - before.abduct));
+      const double cost = 1000.0 * outside + away;
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = {candidate.x, candidate.y, candidate.z, sign * elbow};
+      }
     }
   }
   return best;

@@ -123,6 +123,28 @@ TEST_P(ArmIk, FromItsOwnPoseTheArmStays) {
   }
 }
 
+TEST_P(ArmIk, StraightArmsKeepTheirTwist) {
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    Pose pose = random_pose(limits_, random, 0.4);
+    ArmAngles arm = arm_angles(pose, side_);
+    const bool straight = i % 11 == 0;
+    arm.elbow = straight ? 0.0 : random.uniform(-5.0, 5.0) * kDegree;
+    arm.flexion = std::clamp(arm.flexion, -80 * kDegree, limits_.max[6]);  // one decomposition, not its twin
+    set_arm_angles(pose, side_, arm);
+    const ArmAngles through = arm_through(body_, pose, side_, elbow(pose), wrist(pose), limits_);
+    ASSERT_NEAR(through.twisting, arm.twisting, 1e-3) << i << ", elbow " << arm.elbow;
+    ASSERT_NEAR(through.elbow, arm.elbow, 1e-4) << i;
+    if (straight) {
+      continue;  // its swivel says nothing
+    }
+    const auto solved = solve_arm(body_, pose, side_, arm_target(body_, pose, side_), limits_);
+    ASSERT_TRUE(solved) << i;
+    ASSERT_NEAR(solved->twisting, arm.twisting, 1e-3) << i << ", elbow " << arm.elbow;
+    ASSERT_NEAR(solved->elbow, arm.elbow, 1e-4) << i;
+  }
+}
+
 TEST_P(ArmIk, SwivelIsZeroForTheLowestElbowAndTurnsIt) {
   Pose pose;  // the arm forward, the forearm up: the elbow is below the line to the wrist
   set_arm_angles(pose, side_, {-60 * kDegree, 0.0, 0.0, -60 * kDegree});

@@ -199,14 +199,15 @@ SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const Joint
                       double factor) {
   const ArmTarget target = arm_target(body, pose, side);
   SearchBlock block = with_hand(side == Side::left ? "left arm" : "right arm", pose, side, limits, factor);
-  const double z = std::max(kNearestSearched, target.wrist.z());
+  constexpr double kNearestWrist = 0.02;  // m: one that reaches for the camera stays on its viewing ray
+  const double z = std::max(kNearestWrist, target.wrist.z());
   constexpr double kAcross = 0.025;  // m, typical change of a wrist from frame to frame
   constexpr double kAlong = 0.030;
   constexpr double kSwivel = 8.0;  // degrees
   block.start.head<4>() << target.wrist.x() / z, target.wrist.y() / z, z, target.swivel;
   block.steps.head<4>() << factor * kAcross / z, factor * kAcross / z, factor * kAlong,
       factor * kSwivel * kDegree;
-  block.bounds.low.head<4>() << -4.0, -4.0, kNearestSearched, target.swivel - std::numbers::pi;
+  block.bounds.low.head<4>() << -4.0, -4.0, std::min(kNearestSearched, z), target.swivel - std::numbers::pi;
   block.bounds.high.head<4>() << 4.0, 4.0, kFarthestSearched, target.swivel + std::numbers::pi;
   block.decode = [&body, pose, side, &limits](const Eigen::VectorXd& x) {
     return with_arm(body, pose, side, x, limits);

@@ -23,8 +23,12 @@ double farthest_joint(const Body& body, const Pose& a, const Pose& b) {
 }
 
 std::vector<SearchBlock> all_blocks(const Body& body, const Pose& pose, const JointLimits& limits) {
-  return {whole_block(pose, limits, 1.5), trunk_block(body, pose, limits, 1.5),
-          arm_block(body, pose, Side::left, limits, 1.5), arm_block(body, pose, Side::right, limits, 1.5)};
+  return {whole_block(pose, limits, 1.5),
+          trunk_block(body, pose, limits, 1.5),
+          arm_block(body, pose, Side::left, limits, 1.5),
+          arm_block(body, pose, Side::right, limits, 1.5),
+          bones_block(body, pose, Side::left, limits, 1.5),
+          bones_block(body, pose, Side::right, limits, 1.5)};
 }
 
 TEST(Blocks, StartDecodesToThePose) {
@@ -32,7 +36,14 @@ TEST(Blocks, StartDecodesToThePose) {
   const JointLimits limits = anatomical_limits();
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Pose pose = bent_pose(limits, random);
+    Pose pose = bent_pose(limits, random);
+    if (i % 2 == 0) {  // every other one with arms that are straight, or stretched a little too far
+      for (const Side side : kSides) {
+        ArmAngles arm = arm_angles(pose, side);
+        arm.elbow = random.uniform(-5.0, 5.0) * kDegree;
+        set_arm_angles(pose, side, arm);
+      }
+    }
     for (const SearchBlock& block : all_blocks(body, pose, limits)) {
       ASSERT_LT(farthest_joint(body, block.decode(block.start), pose), kTenthOfMillimetre)
           << block.name << " " << i;
@@ -46,7 +57,7 @@ TEST(Blocks, SizesAndBoundsFit) {
   Random random(2);
   const Pose pose = bent_pose(limits, random);
   const auto blocks = all_blocks(body, pose, limits);
-  const Eigen::Index sizes[] = {23, 9, 7, 7};
+  const Eigen::Index sizes[] = {23, 9, 7, 7, 7, 7};
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const SearchBlock& b = blocks[i];
     EXPECT_EQ(b.start.size(), sizes[i]) << b.name;
