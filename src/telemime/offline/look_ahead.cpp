@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "telemime/core/in_parallel.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/offline/record_queue.h"
 
@@ -106,8 +107,12 @@ ShapeRefinement refined(const Config& config, const std::string& backend, const 
                         const Portrait& portrait, const std::vector<Keyframe>& keyframes, int rounds) {
   ShapeRefineConfig refine = config.calibration.refine;
   refine.rounds = rounds;
-  return refine_shape([&] { return make_backend(backend, {.cues = config.cues}); }, keyframes,
-                      portrait.start.person.shape, limits, config.calibration.shape, refine);
+  ShapeRefinement found;
+  on_threads(config.threads, [&] {
+    found = refine_shape([&] { return make_backend(backend, {.cues = config.cues}); }, keyframes,
+                         portrait.start.person.shape, limits, config.calibration.shape, refine);
+  });
+  return found;
 }
 
 // How badly the person explains the keyframes before the shape is fitted to them; nothing without keyframes.

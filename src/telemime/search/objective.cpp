@@ -126,6 +126,10 @@ Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const J
   return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
 }
 
+double share_of_motion(double velocity, double time_step, double time_step_before) {
+  return std::min(1.0, velocity * time_step / time_step_before);
+}
+
 ArmPrior arm_prior_of(const PreparedFrame& frame) {
   return frame.landmarks ? ArmPrior::motion_capture : ArmPrior::reach;
 }
@@ -196,7 +200,8 @@ double Objective::operator()(const Pose& pose, const ObjectiveWeights& weights) 
   }
   Reduction needs = Reduction::none;
   for (std::size_t i = 0; i < cues().size(); ++i) {
-    needs = weights.cues[i] > 0.0 && cues()[i].enabled ? needs | cues()[i].needs : needs;
+    const bool counts = weights.cues[i] > 0.0 && reliability_of(cues()[i], frame_) > 0.0;
+    needs = counts ? needs | cues()[i].needs : needs;
   }
   return add_cue_costs(cost, backend_, frame_, weights.cues, scored(pose, needs, {&k, 1}));
 }

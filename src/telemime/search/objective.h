@@ -65,6 +65,10 @@ double distance_from_predicted(const Kinematics& kinematics, const JointPosition
 /// small motion would only add noise.
 Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits);
 
+/// The share of the last motion that continues (`velocity`: in frames of equal length), at most 1: after a
+/// very short step between two frames their motion is mostly noise. Both steps in 1/25 s.
+double share_of_motion(double velocity, double time_step, double time_step_before);
+
 /// Weighted costs of all enabled cues, added to `cost` one after the other.
 double add_cue_costs(double cost, const Backend& backend, const PreparedFrame& frame,
                      const CueValues& weights, const Score& score);

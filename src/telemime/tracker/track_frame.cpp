@@ -138,8 +138,7 @@ void advance_time(double time, const Tracker& tracker, TrackerState& state, Fram
   const double passed = units_between(state.time, time);
   state.elapsed = std::min(passed, kMostSteps);
   state.lost_for += state.phase == Phase::lost ? passed : 0.0;
-  state.steps_before = state.steps;
-  state.steps = steps_between(state.time, time);
+  state.steps = steps_between(state.estimated, time);
   if (time - state.time > kLongestGap) {
     if (state.phase == Phase::tracking) {
       mark_lost("the input has a pause", tracker, state, result);
@@ -180,7 +179,7 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
                                FrameEstimate& result) {
   RegistrationConfig search = for_time_step(tracker.config.registration, state.steps);
   search.iterations = std::max(1, static_cast<int>(std::lround(effort * search.iterations)));
-  const double velocity = tracker.config.tracking.velocity * state.steps / state.steps_before;
+  const double velocity = share_of_motion(tracker.config.tracking.velocity, state.steps, state.steps_before);
   const Pose predicted = predict_pose(state.pose, state.previous, velocity, tracker.limits);
   // The start is chosen without a prior, and then becomes the prior of the search.
   Objective by_image(*tracker.backend, *result.prepared, state.model, tracker.limits);
@@ -304,6 +303,8 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
       // Found: the first frame to which the body can be fitted (thesis 3.3), or the known person again.
       find_person(features, tracker, state, result);
     }
+    state.estimated = features.time;
+    state.steps_before = state.steps;
   } else if (state.phase == Phase::tracking) {
     // Nothing shows the body: the last pose stays for a moment.
     check_unseen(features, tracker, state, result);

@@ -63,8 +63,9 @@ struct TrackerState {
 
   double time = 0.0;                ///< of the last frame, s
   double elapsed = 1.0;             ///< time that the last frame stands for, in 1/25 s, at most 8
-  double steps = 1.0;               ///< between the last two frames, in 1/25 s (steps_between)
-  double steps_before = 1.0;        ///< between the two before these
+  double estimated = 0.0;           ///< time of the last frame that showed anything of a body, s
+  double steps = 1.0;               ///< since that frame, in 1/25 s (steps_between)
+  double steps_before = 1.0;        ///< between the last two such frames
   int bad_frames = 0;               ///< in a row: frames that the body does not fit
   double bad_for = 0.0;             ///< how long that has lasted, in 1/25 s
   double steps_until_search = 0.0;  ///< while not tracking, until the next search, in 1/25 s

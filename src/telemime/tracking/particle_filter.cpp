@@ -57,7 +57,7 @@ void diffuse(const FilterContext& context, Generation& generation) {
 // never win.
 void predict(const StepInput& input, double time_step_before, std::span<const Particle> parents,
              FilterContext& context) {
-  const double share = input.velocity * input.time_step / time_step_before;
+  const double share = share_of_motion(input.velocity, input.time_step, time_step_before);
   const auto after = [&](const Particle& parent) {
     return predict_pose(parent.pose, parent.before, share, context.limits);
   };
