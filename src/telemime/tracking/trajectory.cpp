@@ -78,11 +78,20 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const Trajecto
     }
   }
   const std::vector<Pose> ranked = poses_of(scored(context, frame, all, backend));
-  // Every distinct left arm with every distinct right arm on up to three trunks.
+  // Every distinct left arm with every distinct right arm on up to three trunks, which often are the same.
   std::vector<Pose> trunks = {ranked.front()};
-  trunks.push_back(frame.candidates.front());
+  const auto add_trunk = [&trunks](const Pose& pose) {
+    const PoseVector numbers = pose.vector();
+    const bool known = std::any_of(trunks.begin(), trunks.end(), [&numbers](const Pose& trunk) {
+      return trunk.vector().head<9>() == numbers.head<9>();
+    });
+    if (!known) {
+      trunks.push_back(pose);
+    }
+  };
+  add_trunk(frame.candidates.front());
   if (frame.forward < frame.candidates.size()) {
-    trunks.push_back(frame.candidates[frame.forward]);
+    add_trunk(frame.candidates[frame.forward]);
   }
   const std::vector<Pose> left = distinct_arms(body, ranked, Side::left, arms);
   const std::vector<Pose> right = distinct_arms(body, ranked, Side::right, arms);
@@ -94,6 +103,11 @@ std::vector<ScoredPose> combine(const TrajectoryContext& context, const Trajecto
     }
   }
   std::vector<ScoredPose> best = scored(context, frame, all, backend);
+  // They are in the order of their costs, so that equal ones are neighbours.
+  best.erase(std::unique(
+                 best.begin(), best.end(),
+                 [](const ScoredPose& a, const ScoredPose& b) { return a.pose.vector() == b.pose.vector(); }),
+             best.end());
   best.resize(std::min(best.size(), static_cast<std::size_t>(context.config.kept)));
   return best;
 }
