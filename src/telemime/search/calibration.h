@@ -42,8 +42,9 @@ struct Calibration {
 /// to the camera, arms hanging (thesis 3.3, "model translation").
 Pose place_at_head(const Body& body, const HeadRegion& head, const Camera& camera);
 
-/// Pose of a person of known shape from the position of the head alone: the depth that minimises F, then a
-/// global search of each arm, then registration of the whole pose.
+/// Pose of a person of known shape without an earlier frame: from the landmarks where the frame has them,
+/// else from the position of the head alone: the depth that minimises F, then a global search of each arm,
+/// then registration of the whole pose.
 Pose initialise_pose(Objective& objective, const HeadRegion& head, const CalibrationConfig& config,
                      const RegistrationConfig& registration, Random& random);
 

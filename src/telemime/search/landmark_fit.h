@@ -27,7 +27,7 @@ LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyL
                              const LandmarkPrior& prior, const Pose& start, const JointLimits& limits);
 
 /// A person of this body in the pose that the landmarks and the slopes of the bones suggest, without any
-/// earlier frame. Empty when neither the shoulders nor head and a shoulder are seen.
+/// earlier frame. Empty when neither both shoulders, nor both eyes, nor both ears are seen.
 std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
                                         const BodyLandmarks& landmarks, const JointLimits& limits);
 

@@ -25,7 +25,8 @@ struct ShapeFit {
 /// The same of the distance between the shoulder joints, which varies over people as lengths do.
 double shoulder_prior(const Shape& shape, const ShapeFitConfig& config);
 
-/// Sum of the squared deviations of all logarithmic scales from the average body, in units of their spreads.
+/// Mean of the squared deviations of all logarithmic scales from the average body, in units of their spreads,
+/// plus those of the ratios of the upper arms to the forearms.
 double shape_prior(const Shape& shape, const ShapeFitConfig& config);
 
 /// Minimises the cues' costs over the 24 scales, the sleeve and the trunk's translation, in three groups:

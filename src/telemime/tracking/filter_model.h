@@ -24,7 +24,7 @@ struct SpreadModel {
   double seen = 0.0;
   double slide = 0.0;  ///< m, wrist along its forearm: bare skin does not show where the hand begins
   /// F of the poses from which these numbers were estimated. The standard deviations of a pose that fits
-  /// worse grow with the square of its F over this one.
+  /// worse grow with the square of its F over this one, where landmarks hold the pose with its square root.
   double residual = 0.0;
   double size = 0.0;        ///< size of the person, as a share of it, estimated from an average head
   double size_given = 0.0;  ///< the same with a given height
