@@ -5,7 +5,9 @@ import { defineConfig } from "vitest/config";
 // TELEMIME_MEETING=OFF builds the live page alone.
 const meeting = process.env.TELEMIME_MEETING !== "OFF";
 const root = fileURLToPath(new URL("..", import.meta.url));
-const program = "http://127.0.0.1:7070";
+/** A program refuses a Host and an Origin that are not its own. */
+const behind = (target: string) => ({ target, changeOrigin: true, rewriteWsOrigin: true });
+const program = behind("http://127.0.0.1:7070");
 
 export default defineConfig({
   root,
@@ -41,10 +43,10 @@ export default defineConfig({
     port: 7071,
     watch: { ignored: ["**/build/**"] },
     proxy: {
-      "/ws": { target: program, ws: true },
+      "/ws": { ...program, ws: true },
       "/avatars": program,
       "/recordings": program,
-      "/room/enter": "http://127.0.0.1:7080",
+      "/room/enter": behind("http://127.0.0.1:7080"),
     },
   },
   test: {

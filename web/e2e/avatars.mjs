@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { boxAvatar, glb } from "../mock/avatar.mjs";
 import { toVrm0 } from "../mock/to-vrm0.mjs";
 
-const MB = 1024 * 1024;
+const MB = 1e6;
 
 /** The program's own avatar of that look: VRM 1.0. */
 export const ownAvatar = async (program, look) =>

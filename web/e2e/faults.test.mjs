@@ -114,6 +114,23 @@ test("a page beyond the limit waits", LONG, async () => {
   await close();
 });
 
+test("another version is reported", LONG, async () => {
+  const { page, close } = await openPage(flat, program);
+  await page.routeWebSocket(/./, (socket) => {
+    const server = socket.connectToServer();
+    server.onMessage((data) => {
+      socket.send(data);
+      if (/"type":"hello"/.test(data)) socket.send(data.replace(/"version":"[^"]*"/, '"version":"next"'));
+    });
+  });
+  await page.reload();
+  await page
+    .locator(".toast.warning")
+    .filter({ hasText: "Telemime was updated. Reload the page." })
+    .waitFor();
+  await close();
+});
+
 test("the page finds a restarted program", LONG, async () => {
   const { page, close } = await openPage(browser, program);
   await follows(page);

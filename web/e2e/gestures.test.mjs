@@ -64,7 +64,8 @@ for (const [gesture, args] of inputs()) {
         `${gesture}, VRM ${version}: bones ${error.mean.toFixed(4)} degrees off, at most ${error.worst.toFixed(4)}; fingers ${error.fingers.mean.toFixed(4)}, at most ${error.fingers.worst.toFixed(4)}`,
       );
       assert.ok(error.mean <= 2);
-      assert.ok(!(error.fingers.mean > 2), "fingers"); // not a number without tracked hands
+      if (listener.status.ms.networks > 0) assert.ok(error.fingers.mean <= 2, "fingers");
+      else console.log("fingers are not checked: without networks no hands are tracked");
     }
     order.reverse(); // the next begins with the one that is shown
     listener.close();

@@ -27,6 +27,7 @@ setUp(
 after(() => camera?.close());
 
 const title = (words) => page.locator("#guide-title").filter({ hasText: words }).waitFor();
+const focused = () => page.evaluate(() => document.activeElement.id);
 const steps = () => page.evaluate(() => window.steps.splice(0));
 const following = async () => {
   await inPhase(page, "tracking");
@@ -62,8 +63,11 @@ test("again, without the countdown", LONG, async () => {
   await tabTo(page, "#guide-now");
   await page.keyboard.press("Enter");
   await title("Step in and face the camera");
+  assert.equal(await focused(), "guide-title"); // the pressed button is gone
+  await tabTo(page, "#guide-back");
   camera.show(person);
   await following();
+  assert.equal(await focused(), "main");
 });
 
 test("again, skipped with the person in view", LONG, async () => {

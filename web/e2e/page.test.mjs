@@ -2,15 +2,18 @@
 // Use of the page while the program tracks.
 
 import assert from "node:assert/strict";
+import { once } from "node:events";
 import { readFileSync } from "node:fs";
 import { afterEach, test } from "node:test";
+import { createServer } from "vite";
+import { WebSocket } from "ws";
 import { boneErrors } from "./bones.mjs";
 import { LONG, hasAvatar, inPhase, setUp, tabTo } from "./program.mjs";
 
-let listener, page, complaints;
+let listener, page, complaints, program;
 setUp(
   async (t) => {
-    ({ listener, page, complaints } = t);
+    ({ listener, page, complaints, program } = t);
     await hasAvatar(page, "Plain");
     await inPhase(page, "tracking");
   },
@@ -42,7 +45,7 @@ test("recalibrates by keyboard", LONG, async () => {
 });
 
 test("a reloaded page keeps the choices", LONG, async () => {
-  for (const key of ["m", "M", "o", "z"]) await page.keyboard.press(key);
+  for (const key of ["m", "Shift+M", "o", "z"]) await page.keyboard.press(key);
   await page.keyboard.press("1");
   assert.equal(await page.evaluate(() => document.activeElement.id), "tab-avatar");
   await tabTo(page, "#avatars input:checked");
@@ -107,6 +110,23 @@ test("single-key shortcuts can be turned off", LONG, async () => {
   assert.notEqual(await pressed("#overlay"), overlay);
 });
 
+test("high contrast shows what is chosen", LONG, async () => {
+  await page.emulateMedia({ forcedColors: "active" });
+  const style = (selector, name) =>
+    page
+      .locator(selector)
+      .first()
+      .evaluate((e, n) => getComputedStyle(e).getPropertyValue(n), name);
+  const back = await style(".bar", "background-color");
+  assert.equal(await style('.icon-button[aria-pressed="true"]', "border-top-width"), "2px");
+  assert.equal(await style('.icon-button[aria-pressed="false"]', "border-top-width"), "0px");
+  assert.notEqual(await style('[role="tab"][aria-selected="true"]', "border-bottom-color"), back);
+  assert.equal(await style('[role="tab"][aria-selected="false"]', "border-bottom-color"), back);
+  for (const mark of ["#state-dot", ".record-dot", ".legend .left", ".stage-bar span", ".stage-key i"])
+    assert.notEqual(await style(mark, "background-color"), back, mark);
+  await page.emulateMedia({ forcedColors: null });
+});
+
 test("records, saves and deletes by keyboard", LONG, async () => {
   await page.keyboard.press("r");
   await listener.next((m) => m.type === "status" && m.recording?.frames >= 40);
@@ -166,4 +186,21 @@ test("outputs are added, paused and removed", LONG, async () => {
   await press("Remove");
   await listener.next((m) => m.type === "status" && m.outputs.length === 0);
   await row.waitFor({ state: "detached" });
+});
+
+test("the server of `npm run dev` is let in", LONG, async () => {
+  const target = `http://localhost:${program.port}`;
+  const server = await createServer({
+    configFile: "web/vite.config.ts",
+    optimizeDeps: { noDiscovery: true }, // the pages are not opened
+    server: { port: 0, proxy: { "/ws": { target }, "/avatars": { target } } },
+  });
+  await server.listen();
+  const origin = `http://localhost:${server.httpServer.address().port}`;
+  const socket = new WebSocket(`${origin.replace("http", "ws")}/ws`, { origin });
+  const [hello] = await once(socket, "message");
+  assert.equal(JSON.parse(hello).type, "hello");
+  socket.terminate();
+  assert.equal((await fetch(`${origin}/avatars/plain.vrm`)).status, 200);
+  await server.close();
 });

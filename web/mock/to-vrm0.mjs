@@ -68,7 +68,23 @@ const PRESETS = {
   blink: "blink",
   blinkLeft: "blink_l",
   blinkRight: "blink_r",
+  lookUp: "lookup",
+  lookDown: "lookdown",
+  lookLeft: "lookleft",
+  lookRight: "lookright",
 };
+
+/** How an avatar looks at something, by expressions or by bones of the eyes, which few files have. */
+function lookAt({ type, ...maps } = {}) {
+  if (type !== "expression") return { lookAtTypeName: "Bone" };
+  const old = Object.entries(maps)
+    .filter(([name]) => name.startsWith("rangeMap"))
+    .map(([name, { inputMaxValue, outputScale }]) => [
+      name.replace("rangeMap", "lookAt"),
+      { xRange: inputMaxValue, yRange: outputScale },
+    ]);
+  return { lookAtTypeName: "BlendShape", ...Object.fromEntries(old) };
+}
 
 /** The expressions that VRM 0.x knows, and "Surprised", which is no preset there, by the name that VRoid gives it. */
 const expressionGroups = (json, preset) =>
@@ -155,7 +171,7 @@ export function toVrm0(file) {
     firstPerson: {
       firstPersonBone: vrm1.humanoid.humanBones.head?.node ?? -1,
       meshAnnotations: [],
-      lookAtTypeName: "Bone",
+      ...lookAt(vrm1.lookAt),
     },
     blendShapeMaster: { blendShapeGroups: expressionGroups(json, vrm1.expressions?.preset ?? {}) },
     secondaryAnimation: likeUniVrm(json, humanBones),

@@ -9,8 +9,9 @@ import { Connection } from "../live/connection";
 import { exposeDebug, plain } from "../live/debug";
 import { Loop } from "../live/loop";
 import { PROTOCOL, type Command, type Incoming, type Pose } from "../live/protocol";
+import { VersionWatch } from "../live/version";
 import { byId, setText } from "../shared/dom";
-import type { ConnectionState } from "../shared/retry";
+import { retryDelay, type ConnectionState } from "../shared/retry";
 import type { AvatarInfo } from "../ui/avatars";
 import { readOptions } from "./options";
 
@@ -36,14 +37,18 @@ const loop = new Loop(driver, [], send, mistake, { framing: options.framing, alo
 
 let avatar: AvatarInfo | null = null;
 let loading = false;
+let tries = 0;
+let retry = 0;
+const program = new VersionWatch();
 let phase = "connecting";
 let lastPose: Pose | null = null;
 const counters = { poses: 0, lost: 0 };
 
-/** Shows the avatar that the address names. What fails is tried again with the next connection. */
+/** Shows the avatar that the address names. A server that cannot be reached is asked again. */
 async function showAvatar(looks: readonly string[]): Promise<void> {
   const wanted = options.avatar ?? looks[0] ?? "";
   if (avatar || loading) return;
+  window.clearTimeout(retry);
   if (typeof wanted === "string" && !looks.includes(wanted)) {
     mistake(`Telemime has no avatar "${wanted}". It has ${looks.join(", ") || "none"}.`);
     return;
@@ -59,11 +64,14 @@ async function showAvatar(looks: readonly string[]): Promise<void> {
     say("");
     if (loaded.notes.length > 0) trouble(`${name}: ${loaded.notes.join("; ")}.`);
   } catch (e) {
-    if (e instanceof AvatarError) mistake(e.message);
-    else
-      trouble(
-        `${String(wanted)} could not be read: its server cannot be reached or forbids it (${String(e)}).`,
-      );
+    if (e instanceof AvatarError) {
+      mistake(e.message);
+      return;
+    }
+    trouble(
+      `${String(wanted)} could not be read: its server cannot be reached or forbids it (${String(e)}).`,
+    );
+    retry = window.setTimeout(() => void showAvatar(looks), retryDelay(tries++, Math.random()));
   } finally {
     loading = false;
   }
@@ -72,6 +80,10 @@ async function showAvatar(looks: readonly string[]): Promise<void> {
 function onMessage(m: Incoming): void {
   switch (m.type) {
     case "hello":
+      if (program.changed(m.version)) {
+        location.reload();
+        return;
+      }
       if (m.protocol !== PROTOCOL)
         trouble("This page and the program have different versions. Reload the page.");
       void showAvatar(m.looks);
@@ -107,6 +119,11 @@ function onConnection(s: ConnectionState): void {
   }
 }
 
+function visibility(): void {
+  if (!document.hidden) driver.resume(performance.now() / 1000);
+  subscribe();
+}
+
 /** No camera images, and no poses while the source is hidden. */
 function subscribe(): void {
   send({ type: "pictures", on: false });
@@ -118,7 +135,7 @@ function begin(): Connection {
   if (options.width) box.style.width = `${options.width}px`;
   if (options.height) box.style.height = `${options.height}px`;
   document.documentElement.style.background = options.background;
-  document.addEventListener("visibilitychange", subscribe);
+  document.addEventListener("visibilitychange", visibility);
   loop.start();
   const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`;
   return new Connection(address, { message: onMessage, picture: () => {}, state: onConnection });

@@ -4,6 +4,7 @@ import type { TrackedPose } from "../live/protocol";
 import { about, angleBetween, type Quat } from "../shared/quaternion";
 import { PoseDriver } from "./driver";
 import { foldMissing } from "./fold";
+import { relaxedFingers } from "./rest";
 
 const pose = (frame: number, q: Quat, hips: [number, number, number] = [0, 1, 0]): TrackedPose => ({
   type: "pose",
@@ -68,6 +69,41 @@ describe("the driver", () => {
     d.still = true;
     d.step((now += 0.02));
     expect(d.step(now + 0.02).moving).toBe(false);
+  });
+  it("follows on after a pause of the steps", () => {
+    const d = new PoseDriver();
+    let now = follow(d, about("z", 1), 1) + 5;
+    d.resume(now);
+    expect(d.step(now).rest).toBe(0);
+    d.setPose(pose(99, about("z", 1)), (now += 0.05));
+    expect(d.step(now).rest).toBe(0);
+  });
+  it("rests after a pause without poses", () => {
+    const d = new PoseDriver();
+    let now = follow(d, about("z", 1), 1) + 5;
+    d.resume(now);
+    for (let i = 0; i < 180; i++) d.step((now += 1 / 60));
+    expect(d.step(now).rest).toBe(1);
+    d.resume((now += 5));
+    expect(d.step(now).rest).toBe(1);
+  });
+  it("rests after a pause with a loss", () => {
+    const d = new PoseDriver();
+    const now = follow(d, about("z", 1), 1) + 5;
+    d.setLost();
+    d.resume(now);
+    expect(d.step(now).rest).toBe(1);
+  });
+  it("relaxes fingers that are tracked no more", () => {
+    const d = new PoseDriver();
+    const bent = pose(0, about("z", 0));
+    bent.bones.set("leftIndexProximal", about("z", -1));
+    d.setPose(bent, 0);
+    for (let i = 1; i <= 30; i++) d.step(i / 60);
+    const finger = () => d.step(0.6).bones.get("leftIndexProximal")!;
+    expect(angleBetween(finger(), about("z", -1))).toBeLessThan(1e-3);
+    d.setPose(pose(1, about("z", 0)), 0.55);
+    expect(angleBetween(finger(), relaxedFingers().get("leftIndexProximal")!)).toBeLessThan(1e-3);
   });
   it("mirrors on request", () => {
     const d = new PoseDriver();

@@ -40,6 +40,7 @@ export class PoseDriver {
   private target: TrackedPose | null = null;
   private state: Pose["state"] = "lost";
   private arrived = -Infinity;
+  private following = false; // at the last step
   private pending: { frame: number; stamp: number } | null = null;
   private eased = new Map<string, Quat>();
   private easedHips: Vec3 = [0, 0, 0];
@@ -67,12 +68,20 @@ export class PoseDriver {
     this.pending = null;
   }
 
+  /**
+   * Steps go on after a pause, as that of a hidden page, which gets no poses. Who was followed before counts as still there
+   * unless a loss was reported.
+   */
+  resume(now: number): void {
+    if (this.following && this.state === "tracking") this.arrived = now;
+  }
+
   step(now: number): Shown {
     const dt = this.last === null ? Infinity : Math.max(0, now - this.last);
     this.last = now;
     const before = this.blend.weight;
-    const tracked = this.state === "tracking" && now - this.arrived < SILENT;
-    const rest = this.blend.update(now, tracked);
+    this.following = this.state === "tracking" && now - this.arrived < SILENT;
+    const rest = this.blend.update(now, this.following);
     // At rest there is nothing to ease from: the return itself is gradual.
     const change = this.ease(before === 1 || this.direct ? Infinity : dt);
     const fresh = this.pending;
@@ -101,6 +110,8 @@ export class PoseDriver {
   /** Moves the eased pose toward the newest one; returns the largest change, rad or m. */
   private ease(dt: number): number {
     if (!this.target) return 0;
+    // Bones that are not tracked any more, such as fingers after a new start without hands.
+    for (const bone of this.eased.keys()) if (!this.target.bones.has(bone)) this.eased.delete(bone);
     const k = 1 - Math.exp(-dt / EASE);
     let change = 0;
     for (const [bone, q] of this.target.bones) {

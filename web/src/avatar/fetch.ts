@@ -18,9 +18,12 @@ export async function fromProgram(look: string): Promise<Fetched> {
   return { name: labelOf(look), data: await answer.arrayBuffer() };
 }
 
-/** A file at any address that this page may read. Throws TypeError where it cannot be reached. */
+/** ms for a whole file: the largest, of 200 MB, at 5 Mbit/s. */
+const TIMEOUT = 320_000;
+
+/** A file at any address that this page may read. Throws other errors than AvatarError where it cannot be reached. */
 export async function fromAddress(url: URL): Promise<Fetched> {
-  const answer = await fetch(url, { credentials: "omit" });
+  const answer = await fetch(url, { credentials: "omit", signal: AbortSignal.timeout(TIMEOUT) });
   if (!answer.ok) throw new AvatarError(`There is no avatar at ${url.href} (status ${answer.status}).`);
   return { name: url.pathname.split("/").pop()!, data: await answer.arrayBuffer() };
 }

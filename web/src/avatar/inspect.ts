@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks a file before the 3-D library gets it: whether it is an avatar that can be driven, and if not, why.
 
-const MAX_BYTES = 200 * 1024 * 1024;
+const MAX_BYTES = 200e6;
 
 /** The bones that VRM 1.0 requires; VRM 0.x files have them too. */
 export const REQUIRED_BONES = [
@@ -37,7 +37,7 @@ const text = (v: unknown): string => (typeof v === "string" ? v.trim().slice(0, 
 
 export function checkSize(bytes: number): void {
   if (bytes > MAX_BYTES) {
-    const mb = Math.round(bytes / 1024 / 1024);
+    const mb = Math.ceil(bytes / 1e6);
     throw new AvatarError(`This file is ${mb} MB. An avatar may be up to 200 MB.`);
   }
 }

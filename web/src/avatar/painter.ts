@@ -3,12 +3,17 @@
 // less often.
 
 import { Color, WebGLRenderer, type Camera, type Scene } from "three";
-import { drawsInSoftware } from "../shared/graphics";
+import { NoWebGl, drawsInSoftware } from "../shared/graphics";
 import { Resolution } from "./resolution";
 
 /** Without a graphics card: least time between two pictures, s, and the part of a picture's own time that follows it. */
 const SOFTWARE_INTERVAL = 1 / 20;
 const SOFTWARE_PAUSE = 0.5;
+const LONGEST_PAUSE = 0.5; // s: the page may have been hidden while a picture was drawn
+/** Animation frames come this much early, s: a quarter of the time between two at 60 Hz. */
+const JITTER = 0.004;
+
+const screenRatio = (): number => window.devicePixelRatio || 1;
 
 export class Painter {
   /** The browser emulates the graphics card. */
@@ -16,42 +21,59 @@ export class Painter {
   readonly renderer: WebGLRenderer;
   /** How long the last picture took, s. Measured without a graphics card only. */
   took = 0;
-  private readonly resolution: Resolution;
+  private readonly resolution = new Resolution(screenRatio(), this.software);
   /** Nothing can be drawn at the moment: the context is lost. */
   blind = false;
   /** The number of drawn pictures. */
   pictures = 0;
+  private size: readonly [number, number] = [1, 1]; // of the box, pixels of the page
+  private resized = false; // and not drawn since
   private fence: WebGLSync | null = null;
   private begun: number | null = null; // the picture that the fence belongs to
   private next = 0;
 
   /**
-   * Throws when the browser has no WebGL. `changed` is called when the size or the context has changed and a new picture is
-   * needed; `aspect` is width to height. The constructor does not call it.
+   * Throws NoWebGl. `changed` is called when the size or the context has changed and a new picture is needed; `aspect` is
+   * width to height. The constructor does not call it.
    */
   constructor(
     canvas: HTMLCanvasElement,
     private readonly box: HTMLElement,
     private readonly changed: (aspect: number) => void,
   ) {
-    this.renderer = new WebGLRenderer({
-      canvas,
-      antialias: !this.software,
-      alpha: true,
-      powerPreference: "high-performance",
-    });
+    try {
+      this.renderer = new WebGLRenderer({
+        canvas,
+        antialias: !this.software,
+        alpha: true,
+        powerPreference: "high-performance",
+      });
+    } catch {
+      throw new NoWebGl();
+    }
     this.renderer.setClearColor(new Color(0, 0, 0), 0);
-    this.resolution = new Resolution(window.devicePixelRatio || 1, this.software);
     canvas.addEventListener("webglcontextlost", (e) => {
       e.preventDefault();
       this.blind = true;
-      this.fence = null;
+      this.fence = this.begun = null;
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.blind = false;
       this.resize();
     });
     new ResizeObserver(() => this.resize()).observe(box);
+    this.watchScreen();
+  }
+
+  /** Another screen, or another zoom, gives a pixel of the page other pixels. */
+  private watchScreen(): void {
+    const changed = (): void => {
+      this.watchScreen();
+      this.resize();
+    };
+    window
+      .matchMedia(`(resolution: ${screenRatio()}dppx)`)
+      .addEventListener("change", changed, { once: true });
   }
 
   get ratio(): number {
@@ -76,28 +98,33 @@ export class Painter {
     if (this.busy) return false;
     if (this.begun !== null) {
       this.took = now - this.begun;
-      this.next = Math.max(this.begun + SOFTWARE_INTERVAL, now + SOFTWARE_PAUSE * this.took);
+      const pause = Math.min(LONGEST_PAUSE, SOFTWARE_PAUSE * this.took);
+      this.next = Math.max(this.begun + SOFTWARE_INTERVAL, now + pause);
       this.begun = null;
     }
-    return now >= this.next;
+    return now >= this.next - JITTER;
   }
 
+  /** The next picture has the size of the box. Until then the last one is shown: a new size clears the canvas. */
   resize(): void {
-    const w = Math.max(1, this.box.clientWidth);
-    const h = Math.max(1, this.box.clientHeight);
-    this.renderer.setPixelRatio(this.resolution.ratio);
-    this.renderer.setSize(w, h, false);
-    this.changed(w / h);
+    this.size = [Math.max(1, this.box.clientWidth), Math.max(1, this.box.clientHeight)];
+    this.resolution.device = screenRatio();
+    this.resized = true;
+    this.changed(this.size[0] / this.size[1]);
   }
 
   /** Draws at `now`, s. `since`: time since the last picture, s; null after a pause, which does not count as speed. */
   draw(scene: Scene, camera: Camera, now: number, since: number | null): void {
+    if (this.resized) {
+      this.renderer.setPixelRatio(this.resolution.ratio);
+      this.renderer.setSize(...this.size, false);
+      this.resized = false;
+    }
     this.renderer.render(scene, camera);
     this.pictures++;
-    if (since !== null && this.resolution.drew(since * 1000)) {
-      this.resize(); // which clears the canvas
-      this.renderer.render(scene, camera);
-    }
+    // Without a graphics card pictures are drawn with pauses, which are no part of their time.
+    if (since !== null && this.resolution.drew(1000 * (this.software ? Math.min(this.took, since) : since)))
+      this.resize();
     if (this.software && !this.blind) this.watch(now);
   }
 

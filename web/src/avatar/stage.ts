@@ -42,7 +42,7 @@ export class Stage {
   private moved = false; // since the last picture
   private paused = true; // nothing had to be drawn for a while
 
-  /** Throws when the browser has no WebGL. */
+  /** Throws NoWebGl when the browser has none. */
   constructor(
     canvas: HTMLCanvasElement,
     box: HTMLElement,
@@ -138,8 +138,9 @@ export class Stage {
     const hips = avatar.position("hips", this.scratch);
     this.shadow.position.x = hips.x;
     this.shadow.position.z = hips.z;
-    painter.draw(this.scene, this.camera, now, this.paused ? null : since);
-    this.dirty = this.moved = this.paused = false;
+    const { paused } = this;
+    this.dirty = this.moved = this.paused = false; // the painter may want another picture
+    painter.draw(this.scene, this.camera, now, paused ? null : since);
     return true;
   }
 }

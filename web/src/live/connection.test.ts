@@ -8,12 +8,14 @@ class FakeSocket {
   static all: FakeSocket[] = [];
   readyState = 0;
   onopen = (): void => {};
-  onmessage = (_e: { data: unknown }): void => {};
+  onmessage: ((e: { data: unknown }) => void) | null = null;
   onclose = (_e: { code: number; reason: string }): void => {};
   constructor() {
     FakeSocket.all.push(this);
   }
-  close(): void {}
+  close(): void {
+    this.readyState = 3;
+  }
   send(): void {}
 
   opens(): void {
@@ -21,7 +23,7 @@ class FakeSocket {
     this.onopen();
   }
   delivers(m: object): void {
-    this.onmessage({ data: JSON.stringify(m) });
+    this.onmessage?.({ data: JSON.stringify(m) });
   }
   closes(code: number, reason: string): void {
     this.readyState = 3;
@@ -86,6 +88,21 @@ describe("the connection", () => {
     socket().closes(1006, "");
     expect(last()).toMatchObject({ kind: "lost", words: "" });
     expect(wait()).toBeCloseTo(500);
+  });
+
+  it("is lost after a silence, and not before", () => {
+    socket().opens();
+    for (let s = 0; s < 60; s += 10) {
+      socket().delivers(pong);
+      vi.advanceTimersByTime(10_000);
+    }
+    expect(last().kind).toBe("open");
+    const dead = socket();
+    vi.advanceTimersByTime(7000); // 17 s in all
+    dead.delivers(pong); // late
+    expect(states.map((s) => s.kind)).toEqual(["connecting", "open", "lost", "connecting"]);
+    expect(dead.readyState).toBe(3);
+    expect(socket()).not.toBe(dead);
   });
 
   it("has no reason for an ordinary end", () => {

@@ -14,7 +14,7 @@ export interface Debug {
   /**
    * poses, lost, pictures: messages received; misunderstood: refused ones; decoded, broken: pictures; ticks: animation
    * frames; renders: drawn pictures of the avatar; ratio: its pixel ratio; drawnSent; shown: frame number of the pose that
-   * was drawn last; rest: 0 follows the person, 1 rests.
+   * was drawn last; rest, as drawn: 0 follows the person, 1 rests.
    */
   readonly counters: Record<string, number>;
   /**

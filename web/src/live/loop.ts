@@ -5,6 +5,7 @@ import type { PoseDriver } from "../avatar/driver";
 import type { Avatar } from "../avatar/load";
 import type { Stage, StageOptions } from "../avatar/stage";
 import { byId } from "../shared/dom";
+import { NoWebGl } from "../shared/graphics";
 import type { Command } from "./protocol";
 
 interface Stamped {
@@ -47,8 +48,10 @@ export class Loop {
       const [canvas, view] = [byId("avatar-canvas", HTMLCanvasElement), byId("avatar-view", HTMLElement)];
       this.stage = new loaded.Stage(canvas, view, this.options);
       this.driver.direct = this.stage.painter.software;
-    } catch {
-      this.complain("The avatar cannot be shown: WebGL is off in this browser. Everything else works.");
+    } catch (e) {
+      const others = this.options.alone ? "" : " Everything else works.";
+      const why = e instanceof NoWebGl ? "WebGL is off in this browser." : `${String(e)}. Reload the page.`;
+      this.complain(`The avatar cannot be shown: ${why}${others}`);
     }
     return this.stage;
   }
@@ -94,9 +97,10 @@ export class Loop {
     this.report();
     const now = performance.now() / 1000;
     const shown = this.driver.step(now);
-    this.rest = shown.rest;
     this.fresh = shown.fresh ?? this.fresh;
-    if (!this.stage?.draw(shown, now) || !this.fresh) return;
+    if (!this.stage?.draw(shown, now)) return;
+    this.rest = shown.rest;
+    if (!this.fresh) return;
     this.lastShown = this.fresh.frame;
     this.drawn = { frame: this.fresh.frame, stamp: this.fresh.stamp };
     this.fresh = null;

@@ -11,6 +11,7 @@ import { Shortcuts } from "../shared/shortcuts";
 import { Avatars } from "../ui/avatars";
 import { Guide } from "../ui/guide";
 import { OutputList } from "../ui/outputs";
+import { privacyNote } from "../ui/privacy";
 import { Recordings } from "../ui/recordings";
 import { storedSettings, type Settings } from "../ui/settings";
 import { LiveState } from "../ui/state";
@@ -21,11 +22,9 @@ import { Connection } from "./connection";
 import { exposeDebug, plain } from "./debug";
 import { Loop } from "./loop";
 import { PROTOCOL, type Command, type Incoming, type Phase, type Pose, type Status } from "./protocol";
+import { VersionWatch } from "./version";
 
-buildFrame({
-  state: "Connecting",
-  note: "Video, motion and avatars stay on this computer unless you send the motion somewhere.",
-});
+buildFrame({ state: "Connecting", note: privacyNote(location.hostname) });
 
 const stored = storedSettings();
 const settings: Settings = stored.load();
@@ -54,7 +53,7 @@ const avatars = new Avatars(
   },
   settings.avatar,
 );
-const outputs = new OutputList(send);
+const outputs = new OutputList(send, (words) => toasts.show("warning", words));
 const recordings = new Recordings(send, announce);
 const panel = new Panel(settings, save);
 const guide = new Guide(
@@ -65,6 +64,7 @@ const guide = new Guide(
 
 let phase: Phase | "connecting" | "disconnected" = "connecting";
 let lastPose: Pose | null = null;
+const program = new VersionWatch();
 const counters = { poses: 0, lost: 0, pictures: 0 };
 
 const enable = (id: string, on: boolean): void => void (byId(id, HTMLButtonElement).disabled = !on);
@@ -112,6 +112,7 @@ function onMessage(m: Incoming): void {
     case "hello":
       if (m.protocol !== PROTOCOL)
         toasts.show("error", "This page and the program have different versions. Reload the page.");
+      else if (program.changed(m.version)) toasts.show("warning", "Telemime was updated. Reload the page.");
       document.title = m.input ? `Telemime · ${m.input}` : "Telemime";
       camera.setCamera(m.camera);
       top.setCamera(m.camera);
@@ -155,7 +156,10 @@ function subscribe(): void {
   send({ type: "pictures", on });
   send({ type: "poses", on });
 }
-document.addEventListener("visibilitychange", subscribe);
+document.addEventListener("visibilitychange", () => {
+  if (!document.hidden) driver.resume(performance.now() / 1000);
+  subscribe();
+});
 
 const address = `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`;
 const connection: Connection = new Connection(address, {

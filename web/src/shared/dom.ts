@@ -52,9 +52,11 @@ export function setText(e: Element, text: string): void {
   if (e.textContent !== text) e.textContent = text;
 }
 
-/** Shows a count at the label of a tab (frame.ts), nothing for 0. */
-export function setCount(tab: string, count: number): void {
-  setText(byId(`count-${tab}`, HTMLElement), count ? String(count) : "");
+/** Shows a count at the label of a tab (frame.ts), nothing for 0. `bad`: with a mark that something is wrong. */
+export function setCount(tab: string, count: number, bad = false): void {
+  const label = byId(`count-${tab}`, HTMLElement);
+  setText(label, count ? `${count}${bad ? " !" : ""}` : "");
+  label.classList.toggle("bad", bad);
 }
 
 /** Replaces the children only when `key` has changed. The element with the focus keeps it, by its data-focus. */

@@ -9,6 +9,9 @@ export function flatContext(canvas: HTMLCanvasElement, alpha: boolean): CanvasRe
   return canvas.getContext("2d", { alpha, willReadFrequently: drawsInSoftware() })!;
 }
 
+/** The browser does not draw in 3-D. */
+export class NoWebGl extends Error {}
+
 let software: boolean | null = null;
 
 /**

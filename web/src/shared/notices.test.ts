@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import { Banner, toRemove } from "./notices";
+import { Banner, Toasts, toRemove } from "./notices";
 import { useFakePage } from "./testing_dom";
 
 const element = useFakePage();
@@ -36,6 +36,39 @@ describe("the banner", () => {
     expect(words()).toBe("Too many pages are open. Trying again.");
     lost("");
     expect(words()).toMatch(/^No connection to Telemime\. Is the program/);
+  });
+});
+
+describe("a message", () => {
+  const shown = (): string[] => element("toasts").children.map((t) => t.textContent);
+  const hide = (hidden: boolean) => Object.assign(document, { hidden });
+
+  it("stays for seconds, an error for ever", () => {
+    const toasts = new Toasts();
+    toasts.show("info", "news");
+    toasts.show("warning", "smoke");
+    toasts.show("error", "fire");
+    vi.advanceTimersByTime(6000);
+    expect(shown()).toEqual(["smoke", "fire"]);
+    vi.advanceTimersByTime(6000);
+    expect(shown()).toEqual(["fire"]);
+    vi.advanceTimersByTime(60000);
+    expect(shown()).toEqual(["fire"]);
+  });
+  it("waits for a page that is looked at", () => {
+    const toasts = new Toasts();
+    hide(true);
+    toasts.show("warning", "smoke");
+    vi.advanceTimersByTime(60000);
+    expect(shown()).toEqual(["smoke"]);
+    hide(false);
+    vi.advanceTimersByTime(10000);
+    hide(true);
+    vi.advanceTimersByTime(60000);
+    expect(shown()).toEqual(["smoke"]);
+    hide(false);
+    vi.advanceTimersByTime(2000);
+    expect(shown()).toEqual([]);
   });
 });
 

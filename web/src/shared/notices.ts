@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Messages over the page: the banner of a lost connection, and short messages. Errors stay until they are closed.
+// Messages over the page: the banner of a lost connection, and short messages. Errors stay until they are closed, others
+// until the page has been visible for some seconds.
 
 import { button, byId, h, setText } from "./dom";
 import { icon } from "./icons";
@@ -47,11 +48,21 @@ export class Banner {
 export type Level = "info" | "warning" | "error";
 
 const MAX_SHOWN = 4;
-const DURATION: Record<Level, number> = { info: 6000, warning: 12000, error: 0 }; // ms; 0: until closed
+const DURATION: Record<Level, number> = { info: 6, warning: 12, error: 0 }; // s; 0: until closed
 
 /** Index of the message to remove when there are too many, oldest first: an error only when all are errors. */
 export function toRemove(errors: readonly boolean[]): number {
   return Math.max(0, errors.indexOf(false));
+}
+
+/** Removes a message after so many seconds in which the page was visible. */
+function removeAfter(seconds: number, toast: HTMLElement): void {
+  const timer = window.setInterval(() => {
+    if (!document.hidden) seconds--;
+    if (seconds > 0) return;
+    window.clearInterval(timer);
+    toast.remove();
+  }, 1000);
 }
 
 export class Toasts {
@@ -74,6 +85,6 @@ export class Toasts {
       const shown = [...this.box.children];
       shown[toRemove(shown.map((t) => t.classList.contains("error")))]!.remove();
     }
-    if (DURATION[level]) window.setTimeout(remove, DURATION[level]);
+    if (DURATION[level]) removeAfter(DURATION[level], toast);
   }
 }

@@ -4,7 +4,7 @@
 import { button, byId, h } from "./dom";
 
 export interface Shortcut {
-  key: string; // as KeyboardEvent.key
+  key: string; // as KeyboardEvent.key; a capital letter is pressed with Shift
   label: string;
   run: () => void;
 }
@@ -14,6 +14,13 @@ function takesText(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target instanceof HTMLInputElement && ["radio", "checkbox"].includes(target.type)) return false;
   return target.closest("input, textarea, select, [contenteditable]") !== null;
+}
+
+/** Whether this key was pressed: a capital letter with Shift, others without. Caps Lock changes nothing. */
+function isPressed(key: string, e: KeyboardEvent): boolean {
+  const small = key.toLowerCase();
+  if (small === key.toUpperCase()) return e.key === key; // no letter: some keyboards need Shift for it
+  return e.key.toLowerCase() === small && e.shiftKey === (key !== small);
 }
 
 export class Shortcuts {
@@ -59,7 +66,7 @@ export class Shortcuts {
   private key(e: KeyboardEvent): void {
     if (e.ctrlKey || e.altKey || e.metaKey || e.repeat || takesText(e.target)) return;
     if (this.dialog.open || !this.settings.keys) return;
-    const run = e.key === "?" ? () => this.help() : this.list.find((x) => x.key === e.key)?.run;
+    const run = e.key === "?" ? () => this.help() : this.list.find((x) => isPressed(x.key, e))?.run;
     if (!run) return;
     e.preventDefault();
     run();

@@ -17,6 +17,7 @@ export class FakeElement {
   checked = false;
   value = "";
   private nodes: Child[] = [];
+  private parent: FakeElement | null = null;
   private readonly attributes = new Map<string, string>();
   private readonly listeners = new Map<string, (e: unknown) => void>();
 
@@ -33,13 +34,20 @@ export class FakeElement {
     this.nodes = words ? [words] : [];
   }
   prepend(...nodes: Child[]): void {
-    this.nodes.unshift(...nodes);
+    this.hold([...nodes, ...this.nodes]);
   }
   append(...nodes: Child[]): void {
-    this.nodes.push(...nodes);
+    this.hold([...this.nodes, ...nodes]);
   }
   replaceChildren(...nodes: Child[]): void {
+    this.hold(nodes);
+  }
+  private hold(nodes: Child[]): void {
     this.nodes = nodes;
+    for (const c of this.children) c.parent = this;
+  }
+  remove(): void {
+    this.parent?.hold(this.parent.nodes.filter((n) => n !== this));
   }
   contains(e: unknown): boolean {
     return e === this || this.children.some((c) => c.contains(e));
@@ -63,7 +71,12 @@ export class FakeElement {
   querySelector(selector: string): FakeElement | null {
     return this.querySelectorAll(selector)[0] ?? null;
   }
-  focus(): void {}
+  focus(): void {
+    Object.assign(document, { activeElement: this });
+  }
+  getClientRects(): object[] {
+    return this.hidden ? [] : [{}];
+  }
 
   addEventListener(type: string, then: (e: unknown) => void): void {
     this.listeners.set(type, then);
@@ -103,10 +116,11 @@ function fakeDocument(): (id: string) => FakeElement {
   };
   vi.stubGlobal("window", globalThis);
   vi.stubGlobal("addEventListener", () => {});
-  for (const kind of ["", "Button", "Input", "Form", "Canvas"])
+  for (const kind of ["", "Button", "Input", "Form", "Canvas", "Dialog"])
     vi.stubGlobal(`HTML${kind}Element`, FakeElement);
   vi.stubGlobal("document", {
     activeElement: null,
+    hidden: false,
     body: new FakeElement(),
     documentElement: new FakeElement(),
     addEventListener: () => {},

@@ -10,6 +10,7 @@ let said: string[];
 let connected: boolean;
 let guide: Guide;
 
+const hasFocus = (id: string): boolean => (document.activeElement as unknown) === element(id);
 const enter = (phase: Phase, roomEmpty = false): void =>
   guide.setStatus({ phase, roomEmpty, words: "" } as unknown as Status);
 
@@ -78,6 +79,33 @@ describe("the guide", () => {
     enter("tracking");
     enter("tracking");
     expect(said.join()).not.toMatch(/Done/);
+  });
+
+  it("keeps the focus when its buttons go", () => {
+    const [box, now, back] = ["guide", "guide-now", "guide-back"].map(element);
+    box!.append(now!, back!, element("guide-title"));
+    enter("empty_room");
+    now!.hidden = false;
+    now!.focus();
+    now!.hidden = true; // as by the style sheet in the next phase
+    enter("background", true);
+    expect(hasFocus("guide-title")).toBe(true);
+    back!.hidden = false;
+    back!.focus();
+    enter("person");
+    expect(hasFocus("guide-back")).toBe(true);
+    back!.hidden = true;
+    enter("tracking");
+    expect(hasFocus("guide-title")).toBe(true);
+    vi.advanceTimersByTime(3000);
+    expect(hasFocus("main")).toBe(true);
+  });
+
+  it("leaves the focus elsewhere alone", () => {
+    element("record").focus();
+    enter("empty_room");
+    enter("background", true);
+    expect(hasFocus("record")).toBe(true);
   });
 
   it("reports a missing connection", () => {

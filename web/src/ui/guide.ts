@@ -148,10 +148,16 @@ export class Guide {
     const key = step ? (step.key ?? step.title) : "";
     byId("guide-words", HTMLElement).textContent = words && words !== step?.title ? words : "";
     if (this.box.dataset.step === key) return;
+    const focus = this.box.contains(document.activeElement) ? document.activeElement : null;
     this.box.dataset.step = key;
     this.box.hidden = !step;
     this.layout(Boolean(step));
-    if (!step) return;
+    if (step) this.fill(step, done);
+    // A hidden button cannot keep the focus.
+    if (focus?.getClientRects().length === 0) byId(step ? "guide-title" : "main", HTMLElement).focus();
+  }
+
+  private fill(step: Step, done: boolean): void {
     byId("guide-title", HTMLElement).textContent = step.title;
     byId("guide-text", HTMLElement).textContent = step.text;
     this.box.dataset.figure = step.figure;

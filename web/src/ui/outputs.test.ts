@@ -7,6 +7,7 @@ import { useFakePage } from "../shared/testing_dom";
 const element = useFakePage();
 let outputs: OutputList;
 let sent: Command[];
+let warned: string[];
 let connected: boolean;
 
 const output = (url: string, state = "sending"): Output => ({
@@ -28,10 +29,14 @@ function add(url: string): void {
 beforeEach(() => {
   sent = [];
   connected = true;
-  outputs = new OutputList((c) => {
-    if (connected) sent.push(c);
-    return connected;
-  });
+  warned = [];
+  outputs = new OutputList(
+    (c) => {
+      if (connected) sent.push(c);
+      return connected;
+    },
+    (words) => warned.push(words),
+  );
   outputs.setOutputs([]);
 });
 
@@ -84,6 +89,36 @@ describe("an added address", () => {
     add(`vmc://${"a".repeat(2000)}`);
     expect(complaint()).toMatch(/2000/);
     expect(sent).toEqual([]);
+  });
+});
+
+describe("an output that fails", () => {
+  const url = "vmc://localhost";
+  const states = (...all: string[]): void => {
+    for (const state of all) {
+      vi.advanceTimersByTime(500);
+      outputs.setOutputs([output(url, state), output("ws://b")]);
+    }
+  };
+  const count = (): string => element("count-send").textContent;
+
+  it("is reported once, and marked", () => {
+    states("connecting", "sending");
+    expect([count(), warned.length]).toEqual(["2", 0]);
+    for (let i = 0; i < 10; i++) states("failed", "sending"); // tried again and again
+    expect(count()).toBe("2 !");
+    expect(element("count-send").classes.has("bad")).toBe(true);
+    expect(warned).toEqual(["vmc://localhost: failed."]);
+  });
+  it("is reported again after a recovery", () => {
+    states("failed", ...Array<string>(22).fill("sending"));
+    expect(count()).toBe("2");
+    expect(element("count-send").classes.has("bad")).toBe(false);
+    states("failed", "off");
+    expect([count(), warned.length]).toEqual(["2", 2]);
+    states("failed");
+    outputs.setOutputs([output("ws://b")]); // removed
+    expect([count(), warned.length]).toEqual(["1", 3]);
   });
 });
 

@@ -12,6 +12,12 @@ const LOOKS_LIKE_URL = /^[a-z][a-z0-9+.-]*:\/\/\S+$/i;
 const MAX_ADDRESS = 2000; // characters, the limit of the program
 
 /**
+ * An output that has not failed for so long has recovered, ms: the program tries again within 5 s, and a try by UDP counts as
+ * sending until it fails.
+ */
+const RECOVERED = 10_000;
+
+/**
  * The address as the program shows it: without a user's password, or the secret of a meeting's link.
  * The same as without_password in src/telemime/streaming/url.cpp.
  */
@@ -54,7 +60,14 @@ export class OutputList {
   /** The address that was added last, until the list or an error answers it. */
   private pending: { url: string; shown: string; at: number } | null = null;
 
-  constructor(private readonly send: (c: Command) => boolean) {
+  /** When the failing outputs failed last, by address. */
+  private readonly failed = new Map<string, number>();
+
+  /** `warn` tells the user that an output fails. */
+  constructor(
+    private readonly send: (c: Command) => boolean,
+    private readonly warn: (words: string) => void,
+  ) {
     byId("output-form", HTMLFormElement).addEventListener("submit", (e) => {
       e.preventDefault();
       this.add();
@@ -84,13 +97,27 @@ export class OutputList {
     if (this.error.textContent === NO_CONNECTION) this.showError("");
     this.connected = true;
     this.outputs = outputs;
+    this.watch();
     this.show();
+  }
+
+  /** Warns of outputs that fail, once until they have recovered. */
+  private watch(): void {
+    const now = performance.now();
+    const on = new Set(this.outputs.filter((o) => o.state !== "off").map((o) => o.url));
+    for (const [url, at] of this.failed) if (!on.has(url) || now - at > RECOVERED) this.failed.delete(url);
+    for (const { url, state, words } of this.outputs) {
+      if (state !== "failed") continue;
+      if (!this.failed.has(url)) this.warn(`${url}: ${words || state}.`);
+      this.failed.set(url, now);
+    }
   }
 
   /** The states are unknown until the next status. */
   disconnected(): void {
     this.connected = false;
     this.pending = null;
+    this.failed.clear();
     this.show();
   }
 
@@ -99,7 +126,7 @@ export class OutputList {
       ? this.outputs
       : this.outputs.map((o) => ({ ...o, state: "", words: "not connected" }));
     byId("outputs-empty", HTMLElement).hidden = outputs.length > 0;
-    setCount("send", outputs.length);
+    setCount("send", outputs.length, this.failed.size > 0);
     renderOnce(this.list, outputs.map((o) => `${o.url} ${o.state} ${o.words}`).join("\n"), () =>
       outputs.map((o) => {
         const remove = () => this.ask({ type: "output", remove: o.url });

@@ -60,6 +60,21 @@ describe("recording", () => {
     expect(sent).toEqual([true, false, true]);
   });
 
+  it("stops for as long as files are completed", () => {
+    recordings.toggle();
+    status(0.5);
+    recordings.toggle();
+    for (let i = 0; i < 20; i++) {
+      vi.advanceTimersByTime(500);
+      status(60);
+      expect(label()).toBe("Stopping…");
+    }
+    status(null);
+    expect(label()).toBe("Record");
+    recordings.toggle();
+    expect(sent).toEqual([true, false, true]);
+  });
+
   it("that was stopped ignores an older status", () => {
     recordings.toggle();
     recordings.toggle();

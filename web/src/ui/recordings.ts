@@ -5,7 +5,7 @@ import type { Command, Recording, Status } from "../live/protocol";
 import { button, byId, confirmTwice, durationText, h, renderOnce, setCount, sizeText } from "../shared/dom";
 import { icon, trashButton } from "../shared/icons";
 
-const ANSWER_TIME = 3000; // ms in which a status confirms a request
+const ANSWER_TIME = 3000; // ms in which a status confirms a request, but for a stop
 
 /** What this page requested last, until a status confirms it. */
 interface Request {
@@ -67,7 +67,9 @@ export class Recordings {
 
   /** Whether recording is requested or, without a request, going on. */
   private wanted(): boolean {
-    if (this.request && performance.now() - this.request.at > ANSWER_TIME) this.request = null;
+    const { request } = this;
+    const closing = request?.on === false && this.recording; // the program completes the files, which may take minutes
+    if (request && !closing && performance.now() - request.at > ANSWER_TIME) this.request = null;
     return this.request?.on ?? this.recording;
   }
 

@@ -2,6 +2,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { retryDelay } from "../shared/retry";
 import { durationText, sizeText } from "../shared/dom";
+import { privacyNote } from "./privacy";
 import { fileAddress } from "./recordings";
 import { DEFAULTS, SettingsSchema, storedSettings } from "./settings";
 import { parseStored } from "../shared/stored";
@@ -50,6 +51,12 @@ describe("words", () => {
   it("for times and sizes", () => {
     expect([durationText(0), durationText(61.9), durationText(600)]).toEqual(["0:00", "1:01", "10:00"]);
     expect([sizeText(12), sizeText(81234), sizeText(4.5e6)]).toEqual(["12 B", "81 kB", "4.5 MB"]);
+  });
+  it("for privacy, true on any computer", () => {
+    for (const host of ["localhost", "127.0.0.1", "[::1]"])
+      expect(privacyNote(host)).toContain("stay on this computer");
+    for (const host of ["192.168.1.5", "studio.local", "127.example.org", "localhost.example.org"])
+      expect(privacyNote(host)).not.toContain("this computer");
   });
   it("for addresses of files", () => {
     expect(fileAddress(3, "a b.bvh")).toBe("/recordings/3/a%20b.bvh");

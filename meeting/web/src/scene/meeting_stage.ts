@@ -32,15 +32,13 @@ export class MeetingStage {
   private readonly figures = new Map<string, Figure>();
   private readonly slate: CanvasTexture;
   private built: Object3D[] = [];
-  /** The canvas is empty: it is drawn at once. */
-  blank = true;
   private dirty = true;
   private slateOld = true;
   private slateAt = -Infinity;
   private drewAt: number | null = null;
   private readonly scratch = new Vector3();
 
-  /** Throws when the browser has no WebGL. */
+  /** Throws NoWebGl when the browser has none. */
   constructor(
     canvas: HTMLCanvasElement,
     box: HTMLElement,
@@ -51,7 +49,7 @@ export class MeetingStage {
     this.painter = new Painter(canvas, box, (aspect) => {
       this.rig.aspect = this.camera.aspect = aspect;
       this.camera.updateProjectionMatrix();
-      this.dirty = this.blank = true; // resizing clears the canvas
+      this.dirty = true;
     });
     this.software = this.painter.software;
     this.slate = new CanvasTexture(board);
@@ -149,9 +147,9 @@ export class MeetingStage {
     this.camera.updateMatrixWorld();
     // A picture may take longer than a second: that is not a pause.
     const since = this.drewAt === null ? null : Math.min(1, now - this.drewAt);
-    this.painter.draw(this.scene, this.camera, now, since);
     this.drewAt = now;
-    this.dirty = this.blank = false;
+    this.dirty = false; // the painter may want another picture
+    this.painter.draw(this.scene, this.camera, now, since);
     for (const [id, figure] of this.figures) {
       this.tags.place(id, id === hidden ? null : figure.tagPlace(this.scratch), this.camera);
     }

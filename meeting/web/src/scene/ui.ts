@@ -88,7 +88,7 @@ export class SceneUi {
         requestAnimationFrame(tick); // the browser calls nothing while the page is hidden
         this.ticks++;
         const now = performance.now() / 1000;
-        if (stage.ready(now) || stage.blank) this.draw(stage, cast, now);
+        if (stage.ready(now)) this.draw(stage, cast, now);
       };
       requestAnimationFrame(tick);
     } catch (e) {
