@@ -122,8 +122,9 @@ struct Preview {
 
 // Clips of an earlier run, which may have another ending or size, do not belong to the new truth.
 void remove_clips(const fs::path& folder) {
+  std::error_code error;
   std::vector<fs::path> old;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string stem = entry.path().stem().string();
     const std::string ending = entry.path().extension().string();
     const bool clip = (stem.starts_with("video") || stem.starts_with("background")) &&
@@ -133,7 +134,10 @@ void remove_clips(const fs::path& folder) {
     }
   }
   for (const fs::path& file : old) {
-    fs::remove(file);
+    if (!fs::remove(file, error)) {
+      throw Error(ErrorKind::output, "cannot remove " + file.string() + ": " + error.message(),
+                  "give --out a writable folder");
+    }
   }
 }
 

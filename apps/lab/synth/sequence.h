@@ -94,7 +94,8 @@ struct SequenceFiles {
   std::vector<std::filesystem::path> all;
 };
 
-/// Renders the gesture, removes clips of an earlier run from its folder, and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// Renders the gesture and writes video, background, their 160-pixel-wide copies, truth.json and preview.png.
+/// Clips of an earlier run in its folder are removed first.
 /// A compact clip of odd size, or where OpenCV can write neither H.264 nor MPEG-4, is lossless all the same.
 /// Throws Error(output) that names the file which could not be written.
 SequenceFiles make_sequence(const SequenceOptions& options);

@@ -24,6 +24,16 @@ SceneOptions small_scene(Gesture gesture) {
   return options;
 }
 
+SequenceOptions compact_clip(const std::filesystem::path& folder, int background_frames) {
+  SequenceOptions options;
+  options.scene = small_scene(Gesture::asking);
+  options.scene.frames = 2;
+  options.background_frames = background_frames;
+  options.folder = folder;
+  options.compact = true;
+  return options;
+}
+
 bool same(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
@@ -78,12 +88,7 @@ TEST_F(SequenceFolder, WritesLosslessClipsAndTruth) {
 }
 
 TEST_F(SequenceFolder, ACompactClipIsMp4) {
-  SequenceOptions options;
-  options.scene = small_scene(Gesture::asking);
-  options.scene.frames = 2;
-  options.background_frames = 0;
-  options.folder = folder;
-  options.compact = true;
+  const SequenceOptions options = compact_clip(folder, 0);
   const SequenceFiles files = make_sequence(options);
   EXPECT_EQ(files.video, folder / "asking" / "video.mp4");
   const auto source = open_source(files.video.string());
@@ -92,12 +97,7 @@ TEST_F(SequenceFolder, ACompactClipIsMp4) {
 }
 
 TEST_F(SequenceFolder, ClipsOfAnEarlierRunAreRemoved) {
-  SequenceOptions options;
-  options.scene = small_scene(Gesture::asking);
-  options.scene.frames = 2;
-  options.background_frames = 1;
-  options.folder = folder;
-  options.compact = true;
+  SequenceOptions options = compact_clip(folder, 1);
   make_sequence(options);
   std::ofstream(folder / "asking" / "notes.txt") << "mine";
   options.compact = false;

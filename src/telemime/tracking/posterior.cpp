@@ -53,7 +53,7 @@ Eigen::Matrix3d end_of_bone(const Camera& camera, const Eigen::Vector3d& from, c
   const double length = (to - from).norm();
   const Eigen::Vector3d ray = from.normalized();
   if (!is_in_image(camera, to)) {
-    // What is seen of the bone shows its direction in the image, the less the shorter it is; not its depth.
+    // What is seen of the bone shows its direction in the image, the longer the better, but not its depth.
     const double seen = std::min(from.z(), to.z()) < kNearestSeen
                             ? 0.0
                             : share_in_image(camera, camera.project(from), camera.project(to));

@@ -120,14 +120,14 @@ describe("the painter", () => {
     expect(gpu.ratio).toBe(0.75);
   });
 
-  it("says that there is no WebGL", () => {
+  it("says that WebGL is off", () => {
     gpu.works = false;
     expect(() => open()).toThrow(NoWebGl);
   });
 });
 
 describe("the painter without a graphics card", () => {
-  /** Animation frames at 60 Hz, early and late by turns, for so many seconds. Returns the number of pictures. */
+  /** Animation frames at 60 Hz, early and late by turns, for this time, s. Returns the number of pictures. */
   function animate(painter: Painter, seconds: number): number {
     const before = painter.pictures;
     let last: number | null = null;

@@ -6,7 +6,7 @@ const draw = (r: Resolution, ms: number, times: number) => {
   for (let i = 0; i < times; i++) r.drew(ms);
 };
 
-/** Draws for so many seconds; `cost`: ms of a picture at a ratio. Returns the ratios, one after each change. */
+/** Draws for this time, s; `cost`: ms of a picture at a ratio. Returns the ratios, one after each change. */
 function drawFor(r: Resolution, seconds: number, cost: (ratio: number) => number): number[] {
   const ratios: number[] = [];
   for (let now = 0; now < 1000 * seconds;) {

@@ -15,7 +15,7 @@ vi.mock("../avatar/stage", () => ({
   },
 }));
 
-/** What the user is told when the stage fails in this way. */
+/** What the page says when the stage fails in this way. */
 async function complaint(failure: Error, options: StageOptions = {}): Promise<string> {
   fake.failure = failure;
   return new Promise((complain) => new Loop(new PoseDriver(), [], () => true, complain, options));

@@ -55,7 +55,7 @@ export function toRemove(errors: readonly boolean[]): number {
   return Math.max(0, errors.indexOf(false));
 }
 
-/** Removes a message after so many seconds in which the page was visible. */
+/** Removes a message once the page has been visible for this time, s. */
 function removeAfter(seconds: number, toast: HTMLElement): void {
   const timer = window.setInterval(() => {
     if (!document.hidden) seconds--;
