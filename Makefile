@@ -48,6 +48,7 @@ demo: deps program ## track the clip in data/demo and score the result: out/demo
 test: deps-test configure ## build and run the tests (the long ones: ctest --preset release -C long -L long)
 	@cmake --build --preset release -j $(JOBS)
 	@ctest --preset release -j $(TEST_JOBS)
+	@/usr/bin/python3 scripts/skipped.py build/release/Testing/Temporary/LastTest.log
 
 bench: deps-test configure ## run the benchmarks
 	@cmake --build --preset release --target telemime-lab -j $(JOBS)
