@@ -11,9 +11,9 @@ def check(file):
     with open(file, encoding="utf-8") as text:
         result = json.load(text)
     tracked = result["error"]["tracked"]
-    good = tracked["aligned_mm"] <= 45 and tracked["image_px"] <= 3.5
+    good = tracked["aligned_mm"] <= 40 and tracked["image_px"] <= 2.0
     if not good or result["lost"]["all_frames"] or result["swapped"]["frames"]:
-        sys.exit("demo: the error is above its limit (45 mm, 3.5 px, no lost frame, no exchanged arms)")
+        sys.exit("demo: the error is above its limit (40 mm, 2 px, no lost frame, no exchanged arms)")
     return tracked
 
 

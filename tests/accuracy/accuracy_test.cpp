@@ -25,7 +25,7 @@ struct Bounds {
 };
 
 const fs::path kDemo = fs::path(TELEMIME_SOURCE_DIR) / "data/demo";
-constexpr Bounds kDemoBounds = {45.0, 3.5};
+constexpr Bounds kDemoBounds = {40.0, 2.0};
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file);
@@ -112,13 +112,13 @@ TEST(Gate, DemoClip) {
   // The gate itself: the same poses are refused where left and right are exchanged.
   const std::string refused = complaints(folder.path(), exchanged_sides(truth), kDemoBounds);
   EXPECT_NE(refused.find("exchanged in 165 frames"), std::string::npos) << refused;
-  EXPECT_NE(refused.find(" mm, at most 45"), std::string::npos) << refused;
+  EXPECT_NE(refused.find(" mm, at most 40"), std::string::npos) << refused;
 }
 
 struct SynthClip {
   const char* gesture;
   int seed;
-  Bounds bounds;  // as measured, plus 15 %
+  Bounds bounds;  // a fifth above what was measured: other draws change the error by a few millimetres
 };
 
 void PrintTo(const SynthClip& clip, std::ostream* out) {
@@ -141,8 +141,8 @@ TEST_P(GestureGate, SyntheticClip) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Synth, GestureGate,
-                         testing::Values(SynthClip{"raising_arms", 22, {70.2, 2.76}},
-                                         SynthClip{"joy", 21, {46.2, 2.88}},
+                         testing::Values(SynthClip{"raising_arms", 22, {57.0, 1.95}},
+                                         SynthClip{"joy", 21, {37.0, 2.3}},
                                          SynthClip{"exclaiming", 23, {25.5, 2.42}}),
                          [](const auto& clip) { return std::string(clip.param.gesture); });
 
