@@ -174,6 +174,7 @@ FilterResult ParticleFilter::step(const StepInput& input, FilterState& state) co
   // Propose: children by local search, the others by diffusion (equation 4.13) of the parts that move.
   run(Stage::partition, context, generation);
   run(Stage::optimise, context, generation);
+  run_searches(context, generation);
   const std::size_t searched = generation.particles.size();
   diffuse(context, generation);
 

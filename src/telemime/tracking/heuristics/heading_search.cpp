@@ -61,6 +61,33 @@ std::vector<Trunk> trunks_to_try(const FilterContext& context, const Pose& from,
   return trunks;
 }
 
+constexpr int kStarts = 2;  // evaluated before each search
+
+// The pose with this trunk, searched from there.
+Particle search_turned(const FilterContext& context, const Pose& from, const Trunk& trunk, std::size_t index,
+                       int parent, Backend& backend) {
+  const Body& body = context.model.body;
+  Objective objective(backend, context.frame, context.model, context.limits,
+                      Prior{.heading = context.heading});
+  RegistrationConfig search = context.search;
+  search.iterations = trunk.evaluations;
+  search.proposals = no_proposals();
+  Random random = context.random(purpose::kHeadingSearch, 1 + index);
+  Pose start = turned(body, from, trunk, context.limits);
+  // The arms turn with the trunk, or stay where they are in the image.
+  const Pose seen = carry_arms(body, from, body, start, context.limits);
+  if (objective(seen, search.region) < objective(start, search.region)) {
+    start = seen;
+  }
+  const RegistrationResult found = register_pose(objective, start, search, random);
+  Particle particle;
+  particle.pose = found.pose;
+  particle.parent = parent;
+  particle.prior = static_cast<double>(search.iterations) / context.config.particles;
+  particle.origin = Origin::elsewhere;
+  return particle;
+}
+
 }  // namespace
 
 void search_heading(const FilterContext& context, Generation& generation) {
@@ -68,35 +95,16 @@ void search_heading(const FilterContext& context, Generation& generation) {
   if (context.frame.landmarks) {
     return;
   }
-  constexpr int kStarts = 2;  // evaluated before each search
-  const Pose& from = generation.parents[heaviest(generation.parents)].pose;
-  const Body& body = context.model.body;
+  const std::size_t best = heaviest(generation.parents);
+  const Pose& from = generation.parents[best].pose;
   Random random = context.random(purpose::kHeadingSearch);
   const std::vector<Trunk> trunks = trunks_to_try(context, from, random);
-  std::vector<Particle> made(trunks.size());
-  context.evaluators.each(trunks.size(), [&](std::size_t i, Backend& backend) {
-    Objective objective(backend, context.frame, context.model, context.limits,
-                        Prior{.heading = context.heading});
-    RegistrationConfig search = context.search;
-    search.iterations = trunks[i].evaluations;
-    search.proposals = no_proposals();
-    Random own = context.random(purpose::kHeadingSearch, 1 + i);
-    Pose start = turned(body, from, trunks[i], context.limits);
-    // The arms turn with the trunk, or stay where they are in the image.
-    const Pose seen = carry_arms(body, from, body, start, context.limits);
-    if (objective(seen, search.region) < objective(start, search.region)) {
-      start = seen;
-    }
-    const RegistrationResult found = register_pose(objective, start, search, own);
-    Particle& particle = made[i];
-    particle.pose = found.pose;
-    particle.parent = static_cast<int>(heaviest(generation.parents));
-    particle.prior = static_cast<double>(search.iterations) / context.config.particles;
-    particle.origin = Origin::elsewhere;
-  });
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    generation.particles.push_back(made[i]);
-    generation.evaluations += trunks[i].evaluations + kStarts;
+  for (std::size_t i = 0; i < trunks.size(); ++i) {
+    generation.searches.push_back(
+        {.run = [&context, from, best, i, trunk = trunks[i]](Backend& backend) -> std::vector<Particle> {
+           return {search_turned(context, from, trunk, i, static_cast<int>(best), backend)};
+         },
+         .evaluations = trunks[i].evaluations + kStarts});
   }
 }
 

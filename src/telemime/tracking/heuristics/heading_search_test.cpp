@@ -29,7 +29,9 @@ struct ShortSearch : Scene {
 Generation searched(Scene& scene, std::vector<Particle> parents, std::uint64_t seed = 1) {
   Generation generation;
   generation.parents = std::move(parents);
-  search_heading(scene.context(seed), generation);
+  const FilterContext context = scene.context(seed);
+  search_heading(context, generation);
+  run_searches(context, generation);
   return generation;
 }
 

@@ -14,6 +14,25 @@ constexpr double kFollowing = 0.12;       // m, of elbows and wrists in 1/25 s; 
 constexpr std::size_t kMostFollowed = 4;  // proposals about the prediction
 constexpr std::size_t kMostNew = 4;       // proposals from the landmarks alone
 
+// The pose of a proposal, searched with all cues.
+Particle search_further(const FilterContext& context, Particle particle, std::size_t index,
+                        Backend& backend) {
+  const int effort = context.config.landmark_evaluations;
+  Objective objective(backend, context.frame, context.model, context.limits,
+                      prior_at(context.model.body, particle.pose, context.heading));
+  RegistrationConfig search = context.search;
+  search.iterations = effort;
+  search.proposals = no_proposals();
+  Random random = context.random(purpose::kLandmarkSearch, index);
+  const RegistrationResult found = register_pose(objective, particle.pose, search, random);
+  particle.pose = found.pose;
+  particle.score = found.score;
+  particle.log_likelihood = log_likelihood(context, found.pose, found.score, particle.parent);
+  particle.prior = static_cast<double>(effort) / context.config.particles;
+  particle.origin = Origin::optimised;
+  return particle;
+}
+
 }  // namespace
 
 void search_landmarks(const FilterContext& context, Generation& generation) {
@@ -40,29 +59,22 @@ void search_landmarks(const FilterContext& context, Generation& generation) {
     made[i].origin = Origin::elsewhere;
   }
   measure(context, made);
-  generation.evaluations += static_cast<int>(made.size());
   // The likeliest, searched further by all cues.
   std::stable_sort(made.begin(), made.end(),
                    [](const Particle& a, const Particle& b) { return a.log_likelihood > b.log_likelihood; });
-  const auto searched = std::min(made.size(), static_cast<std::size_t>(context.config.landmark_searches));
   const int effort = context.config.landmark_evaluations;
-  context.evaluators.each(effort > 1 ? searched : 0, [&](std::size_t i, Backend& backend) {
-    Particle& particle = made[i];
-    Objective objective(backend, context.frame, context.model, context.limits,
-                        prior_at(body, particle.pose, context.heading));
-    RegistrationConfig search = context.search;
-    search.iterations = effort;
-    search.proposals = no_proposals();
-    Random random = context.random(purpose::kLandmarkSearch, i);
-    const RegistrationResult found = register_pose(objective, particle.pose, search, random);
-    particle.pose = found.pose;
-    particle.score = found.score;
-    particle.log_likelihood = log_likelihood(context, found.pose, found.score, particle.parent);
-    particle.prior = static_cast<double>(effort) / context.config.particles;
-    particle.origin = Origin::optimised;
-  });
-  generation.evaluations += effort > 1 ? static_cast<int>(searched) * effort : 0;
-  generation.particles.insert(generation.particles.end(), made.begin(), made.end());
+  const auto searched =
+      effort > 1 ? std::min(made.size(), static_cast<std::size_t>(context.config.landmark_searches)) : 0;
+  for (std::size_t i = 0; i < searched; ++i) {
+    generation.searches.push_back(
+        {.run = [&context, i, from = made[i]](Backend& backend) -> std::vector<Particle> {
+           return {search_further(context, from, i, backend)};
+         },
+         .evaluations = effort});
+  }
+  made.erase(made.begin(), made.begin() + static_cast<std::ptrdiff_t>(searched));
+  generation.evaluations += static_cast<int>(searched);
+  generation.searches.push_back({.run = [made](Backend&) { return made; }});
 }
 
 }  // namespace telemime

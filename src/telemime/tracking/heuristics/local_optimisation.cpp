@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "telemime/body/interpenetration.h"
 #include "telemime/tracking/search_space.h"
@@ -141,19 +140,16 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
 void optimise_families(const FilterContext& context, Generation& generation) {
   const std::vector<Job> jobs = jobs_of(context, generation);
   const auto best = static_cast<int>(heaviest(generation.parents));
-  std::vector<std::vector<Particle>> made(jobs.size());
-  context.evaluators.each(jobs.size(), [&](std::size_t i, Backend& backend) {
-    made[i] = context.config.blocks
-                  ? search_blocks(context, generation, jobs[i], jobs[i].parent == best, backend)
-                  : descend(context, generation, jobs[i], backend);
-  });
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    int& left = generation.counts[static_cast<std::size_t>(jobs[i].parent)];
-    // After a simplex converged, the rest of its family is diffused.
-    const int spent = context.config.blocks ? jobs[i].evaluations : static_cast<int>(made[i].size());
-    left = std::max(0, left - spent);
-    generation.evaluations += spent;
-    std::move(made[i].begin(), made[i].end(), std::back_inserter(generation.particles));
+  for (const Job& job : jobs) {
+    const bool blocks = context.config.blocks;
+    generation.searches.push_back({.run =
+                                       [=, &context, &generation](Backend& backend) {
+                                         return blocks ? search_blocks(context, generation, job,
+                                                                       job.parent == best, backend)
+                                                       : descend(context, generation, job, backend);
+                                       },
+                                   .evaluations = blocks ? job.evaluations : 0,
+                                   .family = job.parent});
   }
 }
 
