@@ -16,14 +16,16 @@ clips=(
   "close_webcam talking --seed 39 --distance 0.75 --background-frames 0"
 )
 
-# make_clip "NAME SYNTH_OPTIONS..." FOLDER: makes the clip of a line of `clips` unless it is there. Sets `clip`, its folder.
+# make_clip "NAME SYNTH_OPTIONS..." FOLDER: makes the clip of a line of `clips` unless it is there, made with the same options.
+# Sets `clip`, its folder.
 make_clip() {
   local words
   read -ra words <<< "$1"
   clip="$2/${words[0]}/clip/${words[1]}"
-  if [[ ! -f "$clip/preview.png" ]]; then
+  if [[ "$(cat "$clip/made_with" 2> /dev/null)" != "$1" ]]; then
     echo "making ${words[0]}" >&2
     "$build/telemime-lab" synth "${words[@]:1}" --size 320x240 --no-small --quiet --out "$2/${words[0]}/clip"
+    echo "$1" > "$clip/made_with"
   fi
 }
 

@@ -16,6 +16,9 @@ read -ra options <<< "${OPTIONS:-}"
 # shellcheck source=apps/lab/clips.sh
 source apps/lab/clips.sh
 read -ra names <<< "${CLIPS-${clips[*]%% *}}"
+for name in "${names[@]}"; do
+  [[ " ${clips[*]%% *} " == *" $name "* ]] || { echo "peer: no clip is called $name; there are ${clips[*]%% *}" >&2; exit 1; }
+done
 data="${TELEMIME_DATA:-../shared/data}"
 folders=()
 for truth in "$data"/{dev,dev_practical,real}/*/truth.json; do

@@ -120,7 +120,11 @@ void run_bench(BenchArguments arguments) {
   engine.quick = arguments.lab.quick;
   engine.seed = arguments.lab.seed;
   engine.seconds = steady_seconds;
-  engine_backends(engine);  // refuses unknown names before anything is measured
+  // What cannot be is refused before anything is measured.
+  engine_backends(engine);
+  if (!arguments.json.empty()) {
+    write_text(arguments.json, "[]\n");
+  }
   nlohmann::json json = nlohmann::json::array();
   const auto show = [&](const Table& table) {
     std::cout << to_text(table) << std::endl;
@@ -147,7 +151,8 @@ void add_bench_command(CLI::App& app) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App* const command = app.add_subcommand(
       "bench", "Time features, evaluations and frames beside the thesis's tables, and time the back ends");
-  command->add_option("--json", arguments->json, "also write the tables to this file");
+  CLI::Option* const json =
+      command->add_option("--json", arguments->json, "also write the tables to this file");
   command->add_option("--data", arguments->data,
                       "folder with the clip joy [the development clips, else made]");
   command->add_option("--out", arguments->out, "folder for clips that have to be made")
@@ -158,7 +163,8 @@ void add_bench_command(CLI::App& app) {
   command
       ->add_option("--soak", arguments->soak_minutes,
                    "instead, evaluate for this many minutes and watch the memory")
-      ->check(CLI::Range(0.01, 1e5));
+      ->check(CLI::Range(0.01, 1e5))
+      ->excludes(json);
   command->callback([arguments] { run_bench(*arguments); });
 }
 

@@ -152,9 +152,11 @@ void add_experiments_command(CLI::App& app) {
       ->add_option("--seeds", arguments->lab.seeds,
                    "number of runs of each particle filter [5; 2 with --quick]")
       ->check(CLI::Range(1, 1000));
-  command->add_option("--write-budget", arguments->budget,
-                      "also write the coefficients of F3-28 to this file (data/budget.json)");
-  command->add_flag("--quick", arguments->lab.quick, "few frames, coarse grids: about a minute");
+  CLI::Option* const budget =
+      command->add_option("--write-budget", arguments->budget,
+                          "also write the coefficients of F3-28 to this file (data/budget.json)");
+  command->add_flag("--quick", arguments->lab.quick, "few frames, coarse grids: about a minute")
+      ->excludes(budget);
   command->callback([arguments] { run_experiments(*arguments); });
 }
 
