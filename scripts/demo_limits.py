@@ -7,13 +7,14 @@ import json
 import sys
 
 
-def check(file):
+def check(file, millimetres=40):
+    """`millimetres`: the largest mean error of elbows and wrists. The default is that of tests/accuracy."""
     with open(file, encoding="utf-8") as text:
         result = json.load(text)
     tracked = result["error"]["tracked"]
-    good = tracked["aligned_mm"] <= 40 and tracked["image_px"] <= 2.0
+    good = tracked["aligned_mm"] <= millimetres and tracked["image_px"] <= 2.0
     if not good or result["lost"]["all_frames"] or result["swapped"]["frames"]:
-        sys.exit("demo: the error is above its limit (40 mm, 2 px, no lost frame, no exchanged arms)")
+        sys.exit(f"demo: the error is above its limit ({millimetres} mm, 2 px, no lost frame, no exchanged arms)")
     return tracked
 
 
