@@ -51,6 +51,20 @@ TEST(Blocks, StartDecodesToThePose) {
   }
 }
 
+TEST(Blocks, AWristRightAtTheCameraStaysThere) {
+  const Body body = make_body(Shape{});
+  const JointLimits limits = anatomical_limits();
+  for (const Side side : kSides) {
+    Pose pose;
+    set_arm_angles(pose, side, {-80 * kDegree, 0.0, 0.0, -10 * kDegree});
+    // The root moves until the wrist is 8 cm before the camera, nearer than a search would go.
+    pose.root += Eigen::Vector3d(0.02, -0.01, 0.08) - forward_kinematics(body, pose).joints[wrist_of(side)];
+    const SearchBlock block = arm_block(body, pose, side, limits, 1.5);
+    EXPECT_LT(farthest_joint(body, block.decode(block.start), pose), kTenthOfMillimetre);
+    EXPECT_TRUE((block.start.array() >= block.bounds.low.array()).all());
+  }
+}
+
 TEST(Blocks, SizesAndBoundsFit) {
   const Body body = make_body(Shape{});
   const JointLimits limits = anatomical_limits();

@@ -128,6 +128,20 @@ TEST(Combine, OrdersByCostAndKeepsNoMoreThanAsked) {
                              [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; }));
 }
 
+TEST(Combine, NoPoseComesTwice) {
+  Scene scene;
+  const TrajectoryConfig config;
+  const TrajectoryFrame frame =
+      frame_with(scene, raised(0), {raised(20), raised(20), raised(-20), raised(20)});
+  const auto scalar = make_backend("scalar");
+  const auto poses = combine(context_of(scene, config), frame, *scalar);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NE(poses[i].pose.vector(), poses[j].pose.vector()) << i << " and " << j;
+    }
+  }
+}
+
 TEST(Combine, TakesEachArmFromWhereItIsRight) {
   Scene scene;
   const Pose truth = both_arms_seen();
