@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lists the tests that ctest skipped, by reason. Usage: skipped.py LastTest.log
 
-Where the environment variable CI is set, a reason that no computer for tests can remedy is the only one allowed: a
-test that is skipped for another one fails the run."""
+Where the environment variable CI is set, a test that is skipped for another reason than those in ALLOWED fails the run."""
 
 import collections
 import os
 import re
 import sys
 
-# What a computer for tests need not have: a graphics card, an ordinary user, a network, Blender.
+# What a computer that runs the tests need not have: a graphics card, an ordinary user, a network, Blender.
 ALLOWED = (
     r"^cuda was not run",
     r"^root may write everywhere$",
@@ -46,7 +45,7 @@ def main(file):
         wrong += not allowed
         print(f"skipped {len(tests)}: {reason}" + ("" if allowed else f" ({', '.join(tests[:3])})"))
     if wrong and os.environ.get("CI"):
-        sys.exit("skipped: on a computer for tests these reasons must be remedied")
+        sys.exit("skipped: where CI is set, these tests must run")
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ make_clip() {
   clip="$2/${words[0]}/clip/${words[1]}"
   if [[ "$(cat "$clip/made_with" 2> /dev/null)" != "$1" ]]; then
     echo "making ${words[0]}" >&2
+    rm -f "$clip/made_with"
     "$build/telemime-lab" synth "${words[@]:1}" --size 320x240 --no-small --quiet --out "$2/${words[0]}/clip"
     echo "$1" > "$clip/made_with"
   fi

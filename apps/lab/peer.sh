@@ -16,9 +16,6 @@ read -ra options <<< "${OPTIONS:-}"
 # shellcheck source=apps/lab/clips.sh
 source apps/lab/clips.sh
 read -ra names <<< "${CLIPS-${clips[*]%% *}}"
-for name in "${names[@]}"; do
-  [[ " ${clips[*]%% *} " == *" $name "* ]] || { echo "peer: no clip is called $name; there are ${clips[*]%% *}" >&2; exit 1; }
-done
 data="${TELEMIME_DATA:-../shared/data}"
 folders=()
 for truth in "$data"/{dev,dev_practical,real}/*/truth.json; do
@@ -31,6 +28,9 @@ fail() {
   echo "peer: $*" >&2
   exit 1
 }
+for name in "${names[@]}"; do
+  [[ " ${clips[*]%% *} " == *" $name "* ]] || fail "no clip is called $name; there are ${clips[*]%% *}"
+done
 chromium="${TELEMIME_CHROMIUM:-/usr/bin/chromium}"
 [[ -x "$chromium" ]] ||
   fail "Chromium is missing (TELEMIME_CHROMIUM names it; now $chromium). scripts/deps.sh page test installs it."

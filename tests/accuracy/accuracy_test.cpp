@@ -118,7 +118,7 @@ TEST(Gate, DemoClip) {
 struct SynthClip {
   const char* gesture;
   int seed;
-  Bounds bounds;  // a fifth above what was measured: other draws change the error by a few millimetres
+  Bounds bounds;  // a tenth to a fifth above the largest that several versions had
 };
 
 void PrintTo(const SynthClip& clip, std::ostream* out) {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The list of skipped tests, from what ctest wrote."""
 
-import importlib.util
 import pathlib
 import re
 import subprocess

@@ -3,6 +3,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "commands.h"
 #include "lab/experiments/engine.h"
 #include "lab/experiments/experiments.h"
+#include "telemime/core/errors.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/models/table.h"
@@ -120,10 +122,11 @@ void run_bench(BenchArguments arguments) {
   engine.quick = arguments.lab.quick;
   engine.seed = arguments.lab.seed;
   engine.seconds = steady_seconds;
-  // What cannot be is refused before anything is measured.
+  // Unknown names and a file that cannot be written are refused before anything is measured; the file keeps
+  // what it has.
   engine_backends(engine);
-  if (!arguments.json.empty()) {
-    write_text(arguments.json, "[]\n");
+  if (!arguments.json.empty() && !std::ofstream(arguments.json, std::ios::app)) {
+    throw Error(ErrorKind::output, "cannot write " + arguments.json, "give --json a writable file");
   }
   nlohmann::json json = nlohmann::json::array();
   const auto show = [&](const Table& table) {

@@ -72,6 +72,7 @@ void search_landmarks(const FilterContext& context, Generation& generation) {
          },
          .evaluations = effort});
   }
+  // The others as they are, after those that are searched.
   made.erase(made.begin(), made.begin() + static_cast<std::ptrdiff_t>(searched));
   generation.evaluations += static_cast<int>(searched);
   generation.searches.push_back({.run = [made](Backend&) { return made; }});
