@@ -74,8 +74,9 @@ class AutoBackend final : public Backend {
  private:
   using Kind = std::tuple<int, int, int, Reduction>;
 
-  // Whether the device is to evaluate such batches: it is faster and agrees with the processor, whose counts
-  // are kept. The second run of each is measured: the first one allocates memory and may compile the kernel.
+  // Whether the device is to evaluate such batches: it is faster and agrees with the processor. Its counts are
+  // kept if so, so that all batches of a kind have those of one back end. The second run of each is measured:
+  // the first one allocates memory and may compile the kernel.
   bool measure(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
                std::span<Reductions> counts) {
     const auto seconds_of = [&](Backend& backend, std::span<Reductions> out) {
@@ -89,7 +90,11 @@ class AutoBackend final : public Backend {
     std::vector<Reductions> others(counts.size());
     try {
       const double device = seconds_of(*device_, others);
-      return agree(counts, others) && device < processor;
+      const bool better = agree(counts, others) && device < processor;
+      if (better) {
+        std::copy(others.begin(), others.end(), counts.begin());
+      }
+      return better;
     } catch (const Error&) {  // the processor evaluates what the device cannot
       return false;
     }
