@@ -169,7 +169,7 @@ void add_track_command(CLI::App& app) {
       ->required();
   command->add_option("--jobs", many->jobs, "Number of files to track at the same time [1].")
       ->check(CLI::Range(1, 256));
-  command->add_flag("--again", many->again, "Also track files whose results are there.");
+  command->add_flag("--again", many->again, "Also track files that have results already.");
   command->add_option("--out", options->request.out, "Folder of the results.")
       ->default_val("telemime-out")
       ->check([](const std::string& folder) { return folder.empty() ? "a folder has a name" : ""; });

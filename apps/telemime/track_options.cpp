@@ -60,7 +60,7 @@ void add_track_options(CLI::App& command, TrackOptions& o) {
   command
       .add_option(
           "--rate", r.input_options.rate,
-          "Images per second of a sequence [25], or frames per second of a video whose times are wrong.")
+          "Images per second of a sequence [25], or frames per second of a video with wrong time stamps.")
       ->check(CLI::Range(0.001, 1000.0));
   command.add_flag("--mirrored", r.input_options.mirrored, "The input shows a mirror image.");
   add_setting_options(command, o);

@@ -131,7 +131,7 @@ SettingTable settings_of(Config& c) {
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the search, and of what networks see of face and hands; 0: one for each processor."),
       text("cues", c.cue_names, {},
-           "What the image is compared by, separated by commas: " + cue_list() + "."),
+           "Cues that the image is compared by, separated by commas: " + cue_list() + "."),
       flag("hands", c.hands, "Track the fingers, where networks find the person."),
       text("backend", c.backend, back_end_choices(), "Implementation that evaluates poses."),
       text("limits", c.limits, {}, "Joint limits: anatomical, reference (of the thesis) or a JSON file."),

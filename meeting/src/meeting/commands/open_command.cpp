@@ -86,28 +86,29 @@ void add_meeting_command(CLI::App& app, OpenFiles open_files) {
   command->require_subcommand(0, 1);
   const auto arguments = std::make_shared<OpenArguments>();
   HostOptions& host = arguments->host;
-  command->add_option("--title", host.title, "title shown to the participants")->capture_default_str();
-  command->add_option("--name", host.name, "name in addresses and topics: a-z 0-9 _ -")
+  command->add_option("--title", host.title, "Title shown to the participants.")->capture_default_str();
+  command
+      ->add_option("--name", host.name, "Name in addresses and topics: lower-case letters, digits, _ and -.")
       ->capture_default_str();
-  command->add_option("--seats", host.seats, "number of chairs at the table")->capture_default_str();
-  command->add_option("--most", host.most, "maximum number of participants")->capture_default_str();
-  command->add_option("--port", host.port, "port of the page")->capture_default_str();
+  command->add_option("--seats", host.seats, "Number of chairs at the table.")->capture_default_str();
+  command->add_option("--most", host.most, "Maximum number of participants.")->capture_default_str();
+  command->add_option("--port", host.port, "Port of the page.")->capture_default_str();
   command->add_option("--address", host.address,
-                      "address to listen at [127.0.0.1: this computer only]; 0.0.0.0: all networks");
-  command->add_option("--host", host.host, "name of this computer in the links");
+                      "Address to listen at [127.0.0.1: this computer only]; 0.0.0.0: all networks.");
+  command->add_option("--host", host.host, "Name of this computer in the links.");
   command->add_option("--mqtt-port", host.broker.port,
-                      "port for trackers [1883, with TLS 8883, or a free one]");
-  command->add_option("--ws-port", host.broker.web_port, "port for browsers [9001, or a free one]");
+                      "Port for trackers [1883, with TLS 8883, or a free one].");
+  command->add_option("--ws-port", host.broker.web_port, "Port for browsers [9001, or a free one].");
   command->add_option("--certificate", host.certificate,
                       "PEM file of a certificate; encrypts everything (TLS)");
   command->add_option("--key", host.key, "PEM file of the certificate's key");
   command->add_option("--secrets", host.secrets,
-                      "file that keeps the links [~/.local/state/telemime/rooms/NAME.json]");
-  command->add_flag("--new-links", host.new_links, "create new links; all earlier ones stop working");
-  command->add_option("--avatars", arguments->avatars, "folder with more avatars, LOOK.vrm");
-  command->add_option("--mosquitto", host.broker.program, "path of the Mosquitto broker");
-  command->add_option("--seconds", arguments->seconds, "close after this many seconds [0: never]");
-  command->add_flag("--quiet", arguments->quiet, "print only links, warnings and errors");
+                      "File that keeps the links [~/.local/state/telemime/rooms/NAME.json].");
+  command->add_flag("--new-links", host.new_links, "Create new links; all earlier ones stop working.");
+  command->add_option("--avatars", arguments->avatars, "Folder with more avatars, LOOK.vrm.");
+  command->add_option("--mosquitto", host.broker.program, "Path of the Mosquitto broker.");
+  command->add_option("--seconds", arguments->seconds, "Close after this many seconds [0: never].");
+  command->add_flag("--quiet", arguments->quiet, "Print only links, warnings and errors.");
   add_recording_commands(*command);
   add_people_command(*command);
   command->callback([command, arguments, open_files = std::move(open_files)] {

@@ -116,11 +116,11 @@ void add_people_command(CLI::App& meeting) {
   command
       ->add_option(
           "outputs", arguments->outputs,
-          "one URL each, as for telemime live --send: mqtt://user:password@host/tenant/room?name=Ana")
+          "One URL each, as for telemime live --send: mqtt://user:password@host/tenant/room?name=Ana")
       ->required();
-  command->add_option("--rate", arguments->rate, "frames per second of each [30]")
+  command->add_option("--rate", arguments->rate, "Frames per second of each [30].")
       ->check(CLI::Range(1.0, 120.0));
-  command->add_option("--seconds", arguments->seconds, "end after this many seconds [0: never]")
+  command->add_option("--seconds", arguments->seconds, "End after this many seconds [0: never].")
       ->check(CLI::NonNegativeNumber);
   command->callback([arguments] { run_people(*arguments); });
 }

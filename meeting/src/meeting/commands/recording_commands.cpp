@@ -22,7 +22,7 @@ namespace telemime::meeting {
 namespace {
 
 constexpr const char* kMeetingHelp =
-    "link of the meeting, or its broker: mqtt://user:password@host/tenant/room";
+    "Link of the meeting, or its broker: mqtt://user:password@host/tenant/room";
 constexpr const char* kCaHelp = "PEM file of the certificates to trust with https and mqtts";
 
 void report(const std::string& text) {
@@ -116,20 +116,20 @@ void add_recording_commands(CLI::App& meeting) {
   CLI::App* command =
       meeting.add_subcommand("record", "Record the motion and messages of everyone to one file");
   command->add_option("meeting", record->where, kMeetingHelp)->required();
-  command->add_option("--out", record->out, "new file, NAME.troom")->required();
-  command->add_option("--seconds", record->seconds, "end after this many seconds [0: never]")
+  command->add_option("--out", record->out, "New file, NAME.troom.")->required();
+  command->add_option("--seconds", record->seconds, "End after this many seconds [0: never].")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--ca", record->ca, kCaHelp);
   command->callback([record] { run_record(*record); });
 
   const auto replay = std::make_shared<ReplayArguments>();
   command = meeting.add_subcommand("replay", "Replay a recording: everyone in it joins a meeting again");
-  command->add_option("file", replay->file, "file written by telemime meeting record")->required();
+  command->add_option("file", replay->file, "File written by telemime meeting record.")->required();
   command->add_option("--to", replay->options.to, kMeetingHelp)->required();
-  command->add_option("--speed", replay->options.speed, "playback speed [1]")
+  command->add_option("--speed", replay->options.speed, "Playback speed [1].")
       ->check(CLI::Range(kSlowestReplay, kFastestReplay));
-  command->add_flag("--loop", replay->options.loop, "start again at the end, until Ctrl-C");
-  command->add_option("--only", replay->only, "replay only this participant, by name; repeatable");
+  command->add_flag("--loop", replay->options.loop, "Start again at the end, until Ctrl-C.");
+  command->add_option("--only", replay->only, "Replay only this participant, by name; repeatable.");
   command->add_option("--ca", replay->ca, kCaHelp);
   command->callback([replay] { run_replay(*replay); });
 }
