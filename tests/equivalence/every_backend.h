@@ -100,8 +100,8 @@ struct Tolerance {
   int points;
 };
 
-/// A back end that cannot run here is skipped with the reason. The clock says that a GPU is the faster one, so
-/// that `auto` uses it for all batches: it has no scores of its own.
+/// A back end that cannot run here is skipped with the reason. The clock says that a GPU is the faster one,
+/// so that `auto` uses it for all batches: it has no scores of its own.
 class EveryBackend : public ::testing::TestWithParam<BackendKind> {
  protected:
   void SetUp() override {

@@ -74,9 +74,9 @@ class AutoBackend final : public Backend {
  private:
   using Kind = std::tuple<int, int, int, Reduction>;
 
-  // Whether the device is to evaluate such batches: it is faster and agrees with the processor. Its counts are
-  // kept if so, so that all batches of a kind have those of one back end. The second run of each is measured:
-  // the first one allocates memory and may compile the kernel.
+  // Whether the device is to evaluate such batches: it is faster and agrees with the processor. Its counts
+  // are kept if so, so that all batches of a kind have those of one back end. The second run of each is
+  // measured: the first one allocates memory and may compile the kernel.
   bool measure(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
                std::span<Reductions> counts) {
     const auto seconds_of = [&](Backend& backend, std::span<Reductions> out) {
