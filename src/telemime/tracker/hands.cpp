@@ -81,16 +81,21 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
   return as_seen && (!reversed || as_seen->cost <= reversed->cost) ? as_seen : reversed;
 }
 
-// How much a palm can be believed that is turned like this: less, the more it would have turned faster than
-// hands do since it was last seen.
-double trust_in_turn(const Eigen::Quaterniond& palm, double time,
-                     const std::optional<HandState::Last>& last) {
-  constexpr double kFastest = 25.0;  // rad/s
+// How much a hand can be believed that looks like this: less, the more its palm would have turned or a finger
+// bent faster than hands do since it was last seen.
+double trust_in_motion(const HandMotion& now, double time, const std::optional<HandState::Last>& last) {
+  constexpr double kFastestTurn = 25.0;    // rad/s
+  constexpr double kFastestFinger = 15.0;  // rad/s
   if (!last || !last->motion.seen || !(time > last->time)) {
     return 1.0;
   }
-  const double possible = kFastest * (time - last->time);
-  return std::min(1.0, possible / std::max(possible, last->motion.seen->angularDistance(palm)));
+  const double step = time - last->time;
+  const double turn = last->motion.seen->angularDistance(*now.seen) / (kFastestTurn * step);
+  double bend = 0.0;
+  for (std::size_t a = 0; a < now.angles.size(); ++a) {
+    bend = std::max(bend, std::abs(now.angles[a] - last->motion.angles[a]) / (kFastestFinger * step));
+  }
+  return 1.0 / std::max({1.0, turn, bend});
 }
 
 // The model on a finding; empty if it is not a hand.
@@ -113,7 +118,7 @@ std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const Han
   motion.sizes = *state.sizes;
   motion.angles = likely->angles;
   motion.seen = Eigen::Quaterniond(likely->frame_from_hand).normalized();
-  const double trust = trust_in_turn(*motion.seen, scene.time, state.last[static_cast<std::size_t>(side)]);
+  const double trust = trust_in_motion(motion, scene.time, state.last[static_cast<std::size_t>(side)]);
   motion.visibility = std::clamp(hand.presence * (1.0 - off * off) * trust, 0.0, 1.0);
   motion.spread = std::hypot(kNoise, error);
   return motion;

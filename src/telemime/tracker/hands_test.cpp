@@ -188,6 +188,16 @@ TEST_F(Hands, PalmThatTurnsTooFastIsDoubted) {
   EXPECT_GT(visibility(0.5), 0.8);
 }
 
+TEST_F(Hands, FingersThatBendTooFastAreDoubted) {
+  const auto visibility = [&](double time) {
+    HandState state;
+    observe_hands({seen(Side::left, some_angles(-0.4)), SeenHand{}}, scene(0.0), state);
+    return observe_hands({seen(Side::left, some_angles(0.6)), SeenHand{}}, scene(time), state)[0].visibility;
+  };
+  EXPECT_LT(visibility(0.04), 0.7);
+  EXPECT_GT(visibility(0.2), 0.8);
+}
+
 TEST_F(Hands, SizesAreLearnedAndThenStay) {
   HandState state;
   const HandAngles angles = some_angles(0.3);
