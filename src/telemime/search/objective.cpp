@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "telemime/body/arm_ik.h"
 #include "telemime/body/arm_prior.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/rotations.h"
@@ -28,9 +29,10 @@ constexpr double kMostDistance = 2.0;
 
 // Changes between two frames that cost 1: of an elbow or wrist, of the root, and of an angle of trunk or
 // neck.
-constexpr double kArmChange = 0.15;   // m
-constexpr double kRootChange = 0.03;  // m
-constexpr double kBendChange = 0.1;   // rad
+constexpr double kArmChange = 0.15;    // m
+constexpr double kRootChange = 0.03;   // m
+constexpr double kBendChange = 0.1;    // rad
+constexpr double kFastestAngle = 1.2;  // rad in 1/25 s, of shoulder and elbow
 // Depth of an elbow or wrist relative to its shoulder that costs 1 in the first frame.
 constexpr double kFrontoParallel = 0.1;  // m
 
@@ -120,10 +122,22 @@ double distance_from_predicted(const Kinematics& k, const JointPositions& predic
   return sum / static_cast<double>(kArms.size());
 }
 
-Pose predict_pose(const Pose& pose, const Pose& before, double velocity, const JointLimits& limits) {
+Pose predict_pose(const Pose& pose, const Pose& before, double velocity, double time_step,
+                  const JointLimits& limits) {
   PoseVector motion = pose.vector() - before.vector();
   motion.head<9>().setZero();
-  return limits.clamp(Pose::from_vector(pose.vector() + velocity * motion));
+  Pose predicted = Pose::from_vector(pose.vector() + velocity * motion);
+  for (const Side side : {Side::left, Side::right}) {
+    const ArmAngles now = arm_angles(pose, side);
+    const ArmAngles last = arm_angles(before, side);
+    const double change =
+        std::max({std::abs(now.flexion - last.flexion), std::abs(now.twisting - last.twisting),
+                  std::abs(now.abduct - last.abduct), std::abs(now.elbow - last.elbow)});
+    if (change > kFastestAngle * time_step) {
+      set_arm_angles(predicted, side, now);
+    }
+  }
+  return limits.clamp(predicted);
 }
 
 double share_of_motion(double velocity, double time_step, double time_step_before) {

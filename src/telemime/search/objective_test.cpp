@@ -5,6 +5,8 @@
 
 #include <span>
 
+#include "telemime/body/arm_ik.h"
+
 namespace telemime {
 namespace {
 
@@ -34,6 +36,22 @@ TEST(Objective, OnlyTrustedCuesAreCounted) {
   };
   EXPECT_EQ(counted(true), kCues[cue::kRegion].needs);
   EXPECT_EQ(counted(false), Reduction::none) << "without colours the regions say nothing";
+}
+
+TEST(PredictPose, AnArmThatWasFoundElsewhereStays) {
+  const JointLimits limits = anatomical_limits();
+  Pose before;
+  set_arm_angles(before, Side::left, {-0.3, 0.2, 0.8, -1.0});
+  set_arm_angles(before, Side::right, {-0.3, -0.2, -0.8, -1.0});
+  Pose now = before;
+  now[Angle::l_elbow_flexion] -= 0.4;
+  now[Angle::r_shoulder_flexion] -= 1.4;  // as a mirror image in depth
+  const Pose predicted = predict_pose(now, before, 0.5, 1.0, limits);
+  EXPECT_NEAR(predicted[Angle::l_elbow_flexion], now[Angle::l_elbow_flexion] - 0.2, 1e-12);
+  EXPECT_EQ(predicted[Angle::r_shoulder_flexion], now[Angle::r_shoulder_flexion]);
+  // In twice the time the same change is a motion.
+  const Pose slower = predict_pose(now, before, 0.25, 2.0, limits);
+  EXPECT_NEAR(slower[Angle::r_shoulder_flexion], now[Angle::r_shoulder_flexion] - 0.35, 1e-12);
 }
 
 TEST(ShareOfMotion, FollowsTheTimeBetweenFrames) {

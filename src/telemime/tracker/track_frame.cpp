@@ -180,7 +180,8 @@ Score follow_with_registration(const Tracker& tracker, double effort, TrackerSta
   RegistrationConfig search = for_time_step(tracker.config.registration, state.steps);
   search.iterations = std::max(1, static_cast<int>(std::lround(effort * search.iterations)));
   const double velocity = share_of_motion(tracker.config.tracking.velocity, state.steps, state.steps_before);
-  const Pose predicted = predict_pose(state.pose, state.previous, velocity, tracker.limits);
+  const Pose predicted =
+      predict_pose(state.pose, state.previous, velocity, state.steps_before, tracker.limits);
   // The start is chosen without a prior, and then becomes the prior of the search.
   Objective by_image(*tracker.backend, *result.prepared, state.model, tracker.limits);
   const bool moved = by_image(predicted, search.region) < by_image(state.pose, search.region);

@@ -59,7 +59,7 @@ void predict(const StepInput& input, double time_step_before, std::span<const Pa
              FilterContext& context) {
   const double share = share_of_motion(input.velocity, input.time_step, time_step_before);
   const auto after = [&](const Particle& parent) {
-    return predict_pose(parent.pose, parent.before, share, context.limits);
+    return predict_pose(parent.pose, parent.before, share, time_step_before, context.limits);
   };
   context.predicted = after(parents[heaviest(parents)]);
   if (context.config.temporal > 0.0) {
