@@ -81,8 +81,8 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
              ? c.config.natural * natural_cost(body, pose, k, c.heading, arm_prior_of(c.frame))
              : 0.0;
   if (c.config.temporal > 0.0) {
-    sum -=
-        c.config.temporal * distance_from_predicted(k, c.predicted_joints[static_cast<std::size_t>(parent)]);
+    sum -= c.config.temporal *
+           distance_from_predicted(k, c.predicted_joints.at(static_cast<std::size_t>(parent)));
   }
   return sum;
 }
