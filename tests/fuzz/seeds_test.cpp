@@ -2,11 +2,13 @@
 // Every fuzz target reads its seeds. What a target takes for a fault ends the program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 
 extern "C" {
@@ -49,7 +51,10 @@ TEST(FuzzTargets, ReadTheirSeeds) {
       ASSERT_FALSE(bytes.empty()) << seed.path();
       // Whole, and as a file that a full disk cut off.
       for (const std::size_t size : {bytes.size(), bytes.size() / 2, std::size_t{0}}) {
-        EXPECT_EQ(target.read(reinterpret_cast<const std::uint8_t*>(bytes.data()), size), 0);
+        // A copy of its own, so that the address sanitizer sees who reads beyond its end.
+        const auto cut = std::make_unique<std::uint8_t[]>(size);
+        std::copy_n(bytes.begin(), size, cut.get());
+        EXPECT_EQ(target.read(cut.get(), size), 0);
       }
       ++seeds;
     }
