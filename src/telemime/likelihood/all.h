@@ -42,9 +42,9 @@ std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOption
 
 /// Gives each batch to the faster of two back ends. Which one that is, is measured once for every image size
 /// and every batch size (in powers of two), with the first batch of its kind; all batches of a kind have the
-/// scores of one of the two. `seconds` is a clock. `device` evaluates no batches of a kind in which it counts
-/// otherwise than `processor` (except for rounding) or fails. The two agree up to rounding, so that results
-/// may differ from run to run where both are about equally fast.
+/// scores of one of the two, until the device fails. `seconds` is a clock. `device` evaluates no batches of a
+/// kind in which it counts otherwise than `processor` (except for rounding) or fails. The two agree up to
+/// rounding, so that results may differ from run to run where both are about equally fast.
 std::unique_ptr<Backend> make_auto_backend(std::unique_ptr<Backend> processor,
                                            std::unique_ptr<Backend> device, std::function<double()> seconds);
 

@@ -94,6 +94,7 @@ class AutoBackend final : public Backend {
       if (better) {
         std::copy(others.begin(), others.end(), counts.begin());
       }
+      on_device_ = better;
       return better;
     } catch (const Error&) {  // the processor evaluates what the device cannot
       return false;

@@ -74,6 +74,7 @@ class Auto : public ::testing::Test {
 
 TEST_F(Auto, GivesLargeBatchesToTheDevice) {
   EXPECT_EQ(evaluate(10000), kDevice) << "the first batch of a kind has the same scores as the others";
+  EXPECT_TRUE(backend_->device_times().has_value());
   EXPECT_EQ(evaluate(10000), kDevice);
   EXPECT_TRUE(backend_->device_times().has_value());
   EXPECT_EQ(evaluate(10), kProcessor);
@@ -106,7 +107,7 @@ TEST_F(Auto, GoesOnWithoutADeviceThatFails) {
   for (const int fails_at : {1, 2, 4}) {  // measured in batches 1 and 2
     clock_.device_batches = 0;
     backend_ = with_device(kDevice, fails_at);
-    evaluate(10000);
+    EXPECT_EQ(evaluate(10000), fails_at == 4 ? kDevice : kProcessor);
     EXPECT_EQ(evaluate(10000), fails_at == 4 ? kDevice : kProcessor);
     EXPECT_EQ(evaluate(10000), kProcessor);
     EXPECT_FALSE(backend_->device_times().has_value());
