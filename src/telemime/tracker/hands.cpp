@@ -82,14 +82,15 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
 }
 
 // How much a hand can be believed that looks like this: less, the more its palm would have turned or a finger
-// bent faster than hands do since it was last seen.
+// bent faster than hands usually do since it was last seen. Frames that follow each other closely differ
+// mostly by noise.
 double trust_in_motion(const HandMotion& now, double time, const std::optional<HandState::Last>& last) {
   constexpr double kFastestTurn = 25.0;    // rad/s
   constexpr double kFastestFinger = 15.0;  // rad/s
   if (!last || !last->motion.seen || !(time > last->time)) {
     return 1.0;
   }
-  const double step = time - last->time;
+  const double step = std::max(kTimeUnit, time - last->time);
   const double turn = last->motion.seen->angularDistance(*now.seen) / (kFastestTurn * step);
   double bend = 0.0;
   for (std::size_t a = 0; a < now.angles.size(); ++a) {
