@@ -100,14 +100,14 @@ void add_meeting_command(CLI::App& app, OpenFiles open_files) {
                       "Port for trackers [1883, with TLS 8883, or a free one].");
   command->add_option("--ws-port", host.broker.web_port, "Port for browsers [9001, or a free one].");
   command->add_option("--certificate", host.certificate,
-                      "PEM file of a certificate; encrypts everything (TLS)");
-  command->add_option("--key", host.key, "PEM file of the certificate's key");
+                      "PEM file of a certificate; encrypts everything (TLS).");
+  command->add_option("--key", host.key, "PEM file of the certificate's key.");
   command->add_option("--secrets", host.secrets,
                       "File that keeps the links [~/.local/state/telemime/rooms/NAME.json].");
   command->add_flag("--new-links", host.new_links, "Create new links; all earlier ones stop working.");
   command->add_option("--avatars", arguments->avatars, "Folder with more avatars, LOOK.vrm.");
   command->add_option("--mosquitto", host.broker.program, "Path of the Mosquitto broker.");
-  command->add_option("--seconds", arguments->seconds, "Close after this many seconds [0: never].");
+  command->add_option("--seconds", arguments->seconds, "Stop after this many seconds [0: never].");
   command->add_flag("--quiet", arguments->quiet, "Print only links, warnings and errors.");
   add_recording_commands(*command);
   add_people_command(*command);

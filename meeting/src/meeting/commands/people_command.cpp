@@ -120,7 +120,7 @@ void add_people_command(CLI::App& meeting) {
       ->required();
   command->add_option("--rate", arguments->rate, "Frames per second of each [30].")
       ->check(CLI::Range(1.0, 120.0));
-  command->add_option("--seconds", arguments->seconds, "End after this many seconds [0: never].")
+  command->add_option("--seconds", arguments->seconds, "Stop after this many seconds [0: never].")
       ->check(CLI::NonNegativeNumber);
   command->callback([arguments] { run_people(*arguments); });
 }

@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* kMeetingHelp =
     "Link of the meeting, or its broker: mqtt://user:password@host/tenant/room";
-constexpr const char* kCaHelp = "PEM file of the certificates to trust with https and mqtts";
+constexpr const char* kCaHelp = "PEM file of the certificates to trust with https and mqtts.";
 
 void report(const std::string& text) {
   std::cerr << text << std::endl;
@@ -117,7 +117,7 @@ void add_recording_commands(CLI::App& meeting) {
       meeting.add_subcommand("record", "Record the motion and messages of everyone to one file");
   command->add_option("meeting", record->where, kMeetingHelp)->required();
   command->add_option("--out", record->out, "New file, NAME.troom.")->required();
-  command->add_option("--seconds", record->seconds, "End after this many seconds [0: never].")
+  command->add_option("--seconds", record->seconds, "Stop after this many seconds [0: never].")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--ca", record->ca, kCaHelp);
   command->callback([record] { run_record(*record); });

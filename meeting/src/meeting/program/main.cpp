@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
   CLI::App app("Meetings: a shared 3-D space for people with avatars", "telemime-meeting");
   app.require_subcommand(1);
   std::filesystem::path page;
-  app.add_option("--page", page, "folder with the built files of the page")->check(CLI::ExistingDirectory);
+  app.add_option("--page", page, "Folder with the built files of the page.")->check(CLI::ExistingDirectory);
   add_meeting_command(app, [&page](const std::filesystem::path& avatars) {
     const AvatarFolder folder(avatars);
     return MeetingFiles{.looks = folder.looks(), .get = [&page, folder](const std::string& path) {
