@@ -62,8 +62,9 @@ double distance_from_predicted(const Kinematics& kinematics, const JointPosition
 
 /// Pose predicted for the frame after `pose`, which follows `before`: the arms continue with the share
 /// `velocity` (0 to 1) of their last motion, inside the limits. The trunk stays, because extrapolating its
-/// small motion would only add noise, and so does an arm of which an angle changed faster than people move
-/// (30 rad/s): it was not moved but found elsewhere. `time_step`: from `before` to `pose`, 1/25 s.
+/// small motion would only add noise. Shoulder and elbow stay, too, where one of their angles changed by more
+/// than 30 rad/s: such an arm was nearly always found elsewhere, not moved. `time_step`: from `before` to
+/// `pose`, 1/25 s.
 Pose predict_pose(const Pose& pose, const Pose& before, double velocity, double time_step,
                   const JointLimits& limits);
 
