@@ -264,6 +264,7 @@ FaceMotion mean_of_looks(const FaceMotion& first, const FaceMotion& second) {
   }
   FaceMotion face = first;
   face.confidence = 0.5 * (first.confidence + second.confidence);
+  face.head = first.head.slerp(0.5, second.head);
   face.gaze = 0.5 * (first.gaze + second.gaze);
   face.noise.gaze = (first.gaze - second.gaze).norm();
   for (std::size_t i = 0; i < kExpressionCount; ++i) {

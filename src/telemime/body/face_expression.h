@@ -19,8 +19,8 @@ FaceMotion expression_of(const FaceMeasures& seen, const FaceMeasures& neutral);
 FaceMotion face_motion(const FacePoints& points, double presence, const Camera& camera, double time,
                        NeutralFace& neutral);
 
-/// One face from two looks at the same picture: gaze and expressions are the mean of both, with their
-/// difference as noise; the head is that of the first. A look that shows no face does not count.
+/// One face from two looks at the same picture: head, gaze and expressions are the mean of both, with the
+/// difference of gaze and expressions as noise. A look that shows no face does not count.
 FaceMotion mean_of_looks(const FaceMotion& first, const FaceMotion& second);
 
 /// The face in a mirror, the plane x = 0 of the camera frame.

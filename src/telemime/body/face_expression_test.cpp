@@ -381,7 +381,8 @@ TEST(MeanOfLooks, IsTheMeanWithTheDifferenceAsNoise) {
   EXPECT_DOUBLE_EQ(face.noise.expressions[static_cast<std::size_t>(jaw_open)], 0.4);
   EXPECT_DOUBLE_EQ(face.gaze.x(), 0.05);
   EXPECT_NEAR(face.noise.gaze, 0.1, 1e-12);
-  EXPECT_NEAR(face.head.angularDistance(first.head), 0.0, 1e-12);
+  EXPECT_NEAR(face.head.angularDistance(first.head), 0.1, 1e-12) << "halfway";
+  EXPECT_NEAR(face.head.angularDistance(second.head), 0.1, 1e-12);
 }
 
 TEST(MeanOfLooks, OneWithoutAFaceDoesNotCount) {

@@ -46,7 +46,6 @@ std::optional<FaceLandmarks> landmarks_in(const cv::Mat& picture, const PictureR
   if (!(face.presence >= kLeastPresence)) {
     return std::nullopt;
   }
-  face.region = region;
   std::vector<Eigen::Vector2d> points(FaceLandmarks::kCount, Eigen::Vector2d::Zero());
   for (std::size_t i = 0; i < FaceLandmarks::kMeshCount; ++i) {
     const float* const values = outputs[0].data() + 3 * i;
@@ -83,13 +82,11 @@ FaceNetworks load_face_networks(const std::filesystem::path& models) {
 
 void look_again(const cv::Mat& picture, FaceNetworks& networks, FaceLandmarks& face) {
   constexpr double kAside = 0.03;  // of its width
-  constexpr double kLarger = 1.04;
-  constexpr double kTurned = 0.05;  // rad
-  PictureRegion region = face.region;
+  constexpr double kSmaller = 1.25 / kMargin;
+  PictureRegion region = face.next_region;  // which the first look has centred and levelled
+  region.width *= kSmaller;
+  region.height *= kSmaller;
   region.centre += kAside * region.width * Eigen::Vector2d(1.0, 1.0);
-  region.width *= kLarger;
-  region.height *= kLarger;
-  region.angle += kTurned;
   const std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks);
   face.again = found ? std::optional(found->points) : std::nullopt;
 }

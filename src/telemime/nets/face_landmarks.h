@@ -30,11 +30,10 @@ struct FaceLandmarks {
   static constexpr int kRightIris = 468;  ///< its middle
   static constexpr int kLeftIris = 473;
   std::array<FaceLandmark, kCount> points;
-  /// The same points, seen in a region a little beside it: how much they differ is how little the networks
-  /// know. Empty: the second look was not taken, or it showed no face.
+  /// The same points, seen again in a smaller region: the mean of both looks is nearer to the truth, and how
+  /// much they differ is how little the networks know. Empty: there was no second look, or it showed no face.
   std::optional<std::array<FaceLandmark, kCount>> again;
   double presence = 0.0;      ///< probability that there is a face in the region
-  PictureRegion region;       ///< in which the face was seen
   PictureRegion next_region;  ///< in which to look for the face in the next frame
 };
 
@@ -48,7 +47,8 @@ struct FaceNetworks {
 /// Points of the mesh, presence, and the features for the details: of face_landmark_with_attention.
 inline const std::vector<std::string> kFaceMeshOutputs = {"output_mesh", "conv_faceflag", "p_re_lu_3"};
 
-/// Looks at the same face again, in a region a little beside the first, and sets `again`.
+/// Looks at the same face again and sets `again`. The region is level by the first look, five sixths as wide
+/// as next_region, and a little aside.
 void look_again(const cv::Mat& picture, FaceNetworks& networks, FaceLandmarks& face);
 
 /// Reads face_detection_short_range and face_landmark_with_attention. Throws Error(config) if one is missing.
