@@ -106,7 +106,7 @@ std::string processor_name() {
   return "processor";
 }
 
-// The bundled clip, as fast as it goes.
+// How fast the bundled clip is tracked.
 Finding look_at_speed() {
   TrackRequest request;
   request.input = (data_folder() / "demo" / "video.mp4").string();

@@ -64,14 +64,14 @@ void print_report(const LiveReport& report) {
   const LiveRates& r = report.state.rates;
   std::cout << std::fixed << std::setprecision(1) << r.frames << " frames, " << r.dropped << " dropped, "
             << r.tracked << " per second\n"
-            << "ms: wait " << r.ms.wait << ", features " << r.ms.features << ", queue " << r.ms.queue
-            << ", search " << r.ms.search << "; camera to pose " << r.ms.total << " (95 %: " << r.ms.total_p95
-            << ")\n";
+            << "From camera to pose: " << r.ms.total << " ms (95 %: " << r.ms.total_p95 << "), of which wait "
+            << r.ms.wait << ", features " << r.ms.features << ", queue " << r.ms.queue << ", search "
+            << r.ms.search << '\n';
   if (report.latency) {
-    std::cout << "camera to avatar drawn, as the page measured it: " << report.latency->median
+    std::cout << "From camera to drawn avatar, measured by the page: " << report.latency->median
               << " ms (95 %: " << report.latency->p95 << ")\n";
   }
-  std::cout << std::setprecision(2) << "processor: " << report.cpu << " cores\n";
+  std::cout << std::setprecision(2) << "Processor load: " << report.cpu << " cores\n";
   for (const SenderStatus& s : report.outputs) {
     std::cout << s.url << ": " << s.sent << " frames sent, " << s.dropped << " dropped"
               << (s.words.empty() ? "" : "; " + s.words) << '\n';
@@ -167,7 +167,7 @@ void run(LiveCommand command, const LeftBehind& left_behind) {
   note_interrupts();
   LiveProgram program(command.live, std::move(source), say);
   const std::string url = page_url(command.live.web, program.port());
-  std::cout << "the page: " << url << "   Ctrl-C ends" << std::endl;
+  std::cout << "Live page: " << url << " (press Ctrl-C to stop)" << std::endl;
   if (command.open) {
     try {
       open_page(url);

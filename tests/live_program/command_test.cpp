@@ -73,8 +73,8 @@ class LiveCommand : public ::testing::Test {
 TEST_F(LiveCommand, ExitCodeIsZeroAtTimeoutAndInterrupt) {
   const e2e::Ended over = e2e::run(live({"--seconds", "1"}));
   EXPECT_EQ(over.code, 0) << over.words;
-  EXPECT_TRUE(has(over.output, "the page: http://localhost:")) << over.output;
-  EXPECT_TRUE(has(over.output, "processor: ")) << over.output;
+  EXPECT_TRUE(has(over.output, "Live page: http://localhost:")) << over.output;
+  EXPECT_TRUE(has(over.output, "Processor load: ")) << over.output;
 
   const std::uint16_t port = testing_receivers::free_port();
   e2e::Program program(live({}, port));
@@ -182,7 +182,7 @@ TEST_F(LiveCommand, OpensThePageWithoutAShell) {
   const e2e::Ended ended = e2e::run(live({"--seconds", "1", "--open"}));
   EXPECT_EQ(ended.code, 0) << ended.words;
   ASSERT_TRUE(comes_true([&] { return std::filesystem::exists(note); }));
-  const std::string start = "the page: ";
+  const std::string start = "Live page: ";
   const std::size_t at = ended.output.find(start) + start.size();
   EXPECT_EQ(e2e::bytes_of(note), "1 " + ended.output.substr(at, ended.output.find(' ', at) - at) + "\n");
 }

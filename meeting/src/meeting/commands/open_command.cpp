@@ -29,7 +29,7 @@ struct OpenArguments {
 void print_links(const MeetingHost& host, const std::string& title) {
   const std::string ca =
       host.page().starts_with("https://") ? "  (?ca=FILE before # names an authority)" : "";
-  std::cout << "Meeting \"" << title << "\" is open: " << host.page() << "   (Ctrl-C closes it)\n"
+  std::cout << "Meeting \"" << title << "\" is open: " << host.page() << " (press Ctrl-C to close it)\n"
             << "Anyone with a link can join. Share each link only with those it is meant for.\n"
             << "to speak: " << host.speak_link() << '\n'
             << "to watch: " << host.watch_link() << '\n'

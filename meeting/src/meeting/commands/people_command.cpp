@@ -81,7 +81,7 @@ void run_people(const PeopleArguments& arguments) {
     senders.back()->begin(header);
   }
   wait_until_connected(senders);
-  std::cout << senders.size() << " people take part   (Ctrl-C ends)" << std::endl;
+  std::cout << senders.size() << " people take part (press Ctrl-C to stop)" << std::endl;
   const auto start = Clock::now();
   const auto finished = [&](double time) {
     return interrupted() || (arguments.seconds > 0.0 && time >= arguments.seconds);

@@ -64,7 +64,8 @@ void run_record(const RecordArguments& arguments) {
   std::uint64_t end = 0;
   try {
     writing.emplace(std::move(file), RecordingStart{broker.meeting, utc_now()});
-    std::cout << "Recording " << login.shown() << " to " << arguments.out << "   (Ctrl-C ends)" << std::endl;
+    std::cout << "Recording " << login.shown() << " to " << arguments.out << " (press Ctrl-C to stop)"
+              << std::endl;
     end = recorder.record(*writing);
   } catch (...) {
     if (!writing || writing->messages() == 0) {
