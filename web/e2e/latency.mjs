@@ -35,6 +35,6 @@ await program.stop();
 const { ms, latency, fps, cpu, dropped } = status;
 const load = readFileSync("/proc/loadavg", "utf8").split(" ")[0];
 console.log(`frames: camera ${fps.input}, tracked ${fps.tracked}, drawn ${drawn.toFixed(1)} a second; ${dropped} dropped
-ms: wait ${ms.wait}, features ${ms.features}, queue ${ms.queue}, search ${ms.search}; camera to pose ${ms.total}
-camera to avatar drawn: median ${latency.median}, 95 % ${latency.p95} ms
-processor: ${cpu} cores of the program, ${cores.toFixed(2)} of the browser; load of the machine ${load}`);
+From camera to pose: ${ms.total} ms, of which wait ${ms.wait}, features ${ms.features}, queue ${ms.queue}, search ${ms.search}
+From camera to drawn avatar: median ${latency.median}, 95 % ${latency.p95} ms
+Processor load: ${cpu} cores of the program, ${cores.toFixed(2)} of the browser; load of the machine ${load}`);

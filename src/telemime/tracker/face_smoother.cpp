@@ -14,8 +14,8 @@ constexpr OneEuroOptions kSteady = {.minimum_cutoff = 1.0, .slope = 0.6, .speed_
 constexpr OneEuroOptions kHead = {.minimum_cutoff = 1.0, .slope = 3.0, .speed_cutoff = 1.0};
 constexpr OneEuroOptions kGaze = {.minimum_cutoff = 1.5, .slope = 3.0, .speed_cutoff = 2.0};
 // Noise of a face that is clearly seen: measured on a filmed one with pupils 104 pixels apart.
-constexpr double kClearGaze = 0.025;  // rad
-constexpr double kClearExpression = 0.025;
+constexpr double kClearGaze = 0.031;  // rad
+constexpr double kClearExpression = 0.036;
 constexpr double kNoise = 0.6;  // Hz, of the mean of the noise
 // Variances of what faces do: of coefficients and angles that are equally likely in their ranges.
 constexpr double kExpressionVariance = 1.0 / 12.0;
