@@ -13,7 +13,7 @@ constexpr OneEuroOptions kFast = {.minimum_cutoff = 3.0, .slope = 6.0, .speed_cu
 constexpr OneEuroOptions kSteady = {.minimum_cutoff = 1.0, .slope = 0.6, .speed_cutoff = 1.0};
 constexpr OneEuroOptions kHead = {.minimum_cutoff = 1.0, .slope = 3.0, .speed_cutoff = 1.0};
 constexpr OneEuroOptions kGaze = {.minimum_cutoff = 1.5, .slope = 3.0, .speed_cutoff = 2.0};
-// Noise of a face that is clearly seen: measured on a filmed one with pupils 104 pixels apart.
+// Noise of a face that is clearly seen (docs/face.md), from a filmed one with pupils 104 pixels apart.
 constexpr double kClearGaze = 0.031;  // rad
 constexpr double kClearExpression = 0.036;
 constexpr double kNoise = 0.6;  // Hz, of the mean of the noise
