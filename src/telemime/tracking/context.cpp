@@ -2,9 +2,11 @@
 #include "telemime/tracking/context.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <thread>
 
@@ -40,10 +42,23 @@ void Evaluators::each(std::size_t count, const std::function<void(std::size_t, B
   tbb::task_arena arena(threads_);
   const LoopOrder order;
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      const LoopOrder::Task task(order);
-      work(i, *singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
-    });
+    // Whichever thread is free takes the next ones. TBB alone would give each thread a share beforehand.
+    std::atomic<std::size_t> next = 0;
+    const std::size_t workers = std::min(count, static_cast<std::size_t>(threads_));
+    const std::size_t piece = std::max<std::size_t>(1, count / (16 * static_cast<std::size_t>(threads_)));
+    tbb::parallel_for(
+        std::size_t{0}, workers,
+        [&](std::size_t) {
+          const LoopOrder::Task task(order);
+          Backend& backend =
+              *singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+          for (std::size_t first = next.fetch_add(piece); first < count; first = next.fetch_add(piece)) {
+            for (std::size_t i = first; i < std::min(first + piece, count); ++i) {
+              work(i, backend);
+            }
+          }
+        },
+        tbb::simple_partitioner());
   });
 }
 

@@ -3,13 +3,21 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace telemime {
 
 void run_searches(const FilterContext& context, Generation& generation) {
   std::vector<std::vector<Particle>> made(generation.searches.size());
-  context.evaluators.each(
-      made.size(), [&](std::size_t i, Backend& backend) { made[i] = generation.searches[i].run(backend); });
+  // The longest begin first, so that no thread waits long for the last.
+  std::vector<std::size_t> order(made.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return generation.searches[a].evaluations > generation.searches[b].evaluations;
+  });
+  context.evaluators.each(order.size(), [&](std::size_t turn, Backend& backend) {
+    made[order[turn]] = generation.searches[order[turn]].run(backend);
+  });
   for (std::size_t i = 0; i < made.size(); ++i) {
     const Search& search = generation.searches[i];
     const int spent = search.evaluations > 0 ? search.evaluations : static_cast<int>(made[i].size());

@@ -44,6 +44,23 @@ TEST(Searches, AddWhatTheyFindInTheirOrder) {
   }
 }
 
+TEST(Searches, BeginWithTheLongest) {
+  Scene scene;
+  scene.evaluators = Evaluators("scalar", 1);
+  Generation generation;
+  std::vector<int> begun;
+  for (const int evaluations : {1, 40, 7, 40, 300}) {
+    Search search = finds({0.1}, evaluations);
+    search.run = [&begun, evaluations, inner = search.run](Backend& backend) {
+      begun.push_back(evaluations);
+      return inner(backend);
+    };
+    generation.searches.push_back(search);
+  }
+  run_searches(scene.context(), generation);
+  EXPECT_EQ(begun, (std::vector<int>{300, 40, 40, 7, 1}));
+}
+
 TEST(Searches, UseUpTheChildrenOfTheirFamily) {
   Scene scene;
   Generation generation;
