@@ -42,15 +42,21 @@ void search_landmarks(const FilterContext& context, Generation& generation) {
   }
   const Body& body = context.model.body;
   // Poses that continue the motion, and poses that the landmarks alone suggest.
-  std::vector<LandmarkFit> fits =
-      landmark_proposals(body, context.frame.camera, *landmarks,
-                         {.pose = context.predicted, .following = kFollowing * std::sqrt(context.time_step)},
-                         context.limits, kMostFollowed);
-  if (const auto alone = pose_from_landmarks(body, context.frame.camera, *landmarks, context.limits)) {
-    const auto others = landmark_proposals(body, context.frame.camera, *landmarks, {.pose = *alone},
-                                           context.limits, kMostNew);
-    fits.insert(fits.end(), others.begin(), others.end());
-  }
+  const auto proposals = [&](const LandmarkPrior& prior, std::size_t most) {
+    return landmark_proposals(body, context.frame.camera, *landmarks, prior, context.limits, most);
+  };
+  std::vector<LandmarkFit> fits;
+  std::vector<LandmarkFit> others;
+  context.evaluators.each(2, [&](std::size_t i, Backend&) {
+    if (i == 0) {
+      fits = proposals({.pose = context.predicted, .following = kFollowing * std::sqrt(context.time_step)},
+                       kMostFollowed);
+    } else if (const auto alone =
+                   pose_from_landmarks(body, context.frame.camera, *landmarks, context.limits)) {
+      others = proposals({.pose = *alone}, kMostNew);
+    }
+  });
+  fits.insert(fits.end(), others.begin(), others.end());
   std::vector<Particle> made(fits.size());
   for (std::size_t i = 0; i < fits.size(); ++i) {
     made[i].pose = fits[i].pose;
