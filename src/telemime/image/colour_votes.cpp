@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "telemime/core/in_parallel.h"
+
 namespace telemime {
 namespace {
 
@@ -19,11 +21,14 @@ void smooth(cv::Mat& energy, float limit) {
 ColourVotes vote(const LogColour& image, const PersonColours& colours, const std::optional<HeadRegion>& head,
                  const SegmentationConfig& config) {
   // Energies of all classes.
-  cv::Mat skin = energy(colours.skin, image);
-  cv::Mat clothes = energy(colours.clothes, image);
-  cv::Mat hair = energy(head ? colours.hair : ColourMixture{}, image);
-  cv::Mat known = energy(colours.other, image);
+  cv::Mat skin;
+  cv::Mat clothes;
+  cv::Mat hair;
+  cv::Mat known;
   cv::Mat other;
+  in_parallel([&] { skin = energy(colours.skin, image); }, [&] { clothes = energy(colours.clothes, image); },
+              [&] { hair = energy(head ? colours.hair : ColourMixture{}, image); },
+              [&] { known = energy(colours.other, image); });
   cv::min(known, config.unknown_cost, other);
   const float limit = config.unknown_cost + config.vote_limit;
   const cv::Size size = image.u.size();

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/in_parallel.h"
 #include "telemime/core/stopwatch.h"
 #include "telemime/core/time_base.h"
 #include "telemime/image/edges.h"
-#include "telemime/image/light_change.h"
 #include "telemime/image/person_shape.h"
 #include "telemime/nets/models/table.h"
 
@@ -63,14 +63,6 @@ Segmentation silhouette_of_mask(const cv::Mat& mask, Segmentation segmentation) 
       static_cast<unsigned char>(Label::ignore),
       (segmentation.labels != static_cast<unsigned char>(Label::head)) & segmentation.silhouette);
   return segmentation;
-}
-
-/// ln of how much brighter a grey surface of medium brightness is.
-double relative_light(const LightChange& light) {
-  constexpr double kMedium = 100.0;  // grey levels
-  const double offset = (light.offset[0] + light.offset[1] + light.offset[2]) / 3;
-  const double now = std::exp(cv::mean(light.gain.l)[0]) * kMedium + offset;
-  return std::log(std::max(now, 1.0) / kMedium);
 }
 
 /// Whether an arm is beside or in front of the head, so that the outline there is not the head's.
@@ -138,51 +130,13 @@ FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& fr
   return p;
 }
 
-BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
-                                                        const std::optional<HeadRegion>& head,
-                                                        const cv::Mat& mask) {
-  const BackgroundModel& model = calibration_.background;
-  const cv::Size size = images.grey.size();
-  // Compensate changes of light, exposure and white balance: all colours were learned in the light of the
-  // model.
-  if (!model.empty()) {
-    // In the first frame, the mask alone knows where the background is.
-    const cv::Mat background =
-        background_mask_.empty() && !mask.empty() ? ~person_area(mask, 3) : background_mask_;
-    const LightChange light = estimate_light(model, images.colour, background);
-    status_.light_change = relative_light(light);
-    compensate(model, light, images.colour);
+void FeatureExtractor::prepare(const Frame& frame) {
+  prepared_ = working_images(frame);
+  prepared_.gradient = deriche_gradient(prepared_.grey, config_.edges.alpha);
+  if (!calibration_.background.empty() && !background_mask_.empty()) {
+    prepared_.lit = in_light_of_background(prepared_.colour, background_mask_);
   }
-  // Energy of pixels whose background is unknown: colours of the surroundings, position relative to the
-  // head, and the previous silhouette.
-  cv::Mat unknown;
-  if (!background_complete_ || model.empty()) {
-    unknown = energy(calibration_.surroundings, images.colour);
-    cv::min(unknown, config_.segmentation.unknown_background_cost, unknown);
-    constexpr float kPositionWeight = 5.0F;
-    constexpr float kPreviousWeight = 4.0F;
-    if (head) {
-      unknown += kPositionWeight * body_prior(size, *head);
-    }
-    if (!silhouette_.empty()) {
-      cv::add(unknown, cv::Scalar(kPreviousWeight), unknown, silhouette_);
-    }
-  }
-  // What the network takes for the person.
-  const cv::Mat by_mask = mask.empty() ? cv::Mat() : mask_energy(mask, config_.mask_trust);
-  if (model.empty()) {
-    if (!by_mask.empty()) {
-      unknown += by_mask;
-    }
-    return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
-  }
-  // Compare with the model.
-  BackgroundEnergy out = background_energy(model, images.colour, config_.shadow, unknown);
-  out.doubtful = calibration_.doubtful;
-  if (!by_mask.empty()) {
-    out.energy += by_mask;
-  }
-  return out;
+  prepared_in_ = frame.index;
 }
 
 // A rate per 1/25 s over the time since the last frame, or less: one frame does not speak for a whole pause.
@@ -220,7 +174,6 @@ PersonReport FeatureExtractor::learn_person_in(const Frame& frame) {
                 : head_.detect(p.face, cv::Rect(0, 0, p.face.cols, p.face.rows), skin_test(p));
   if (!face && known_background_share() > kEnoughBackground) {
     WorkingImages copy = p;
-    copy.colour = {p.colour.u.clone(), p.colour.v.clone(), p.colour.l.clone()};
     const BackgroundEnergy scene = background_energy_of(copy, std::nullopt);
     follow_head_outline(
         p, segment(copy.colour, scene, PersonColours{}, std::nullopt, config_.segmentation).silhouette);
@@ -267,7 +220,11 @@ PersonReport FeatureExtractor::learn_person_in(const Frame& frame) {
 }
 
 FrameFeatures FeatureExtractor::extract(const Frame& frame) {
-  WorkingImages p = working_images(frame);
+  if (prepared_in_ != frame.index) {
+    prepare(frame);
+  }
+  prepared_in_ = -1;
+  WorkingImages p = std::move(prepared_);
   FrameFeatures out;
   // After a pause, the head and the silhouette may be anywhere.
   if (last_time_ && frame.time - *last_time_ > kPause) {
@@ -340,43 +297,25 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     shape_ = adapted(shape_, *out.head, out.silhouette, over_elapsed(config_.head_shape_rate));
   }
 
-  // Edges inside the silhouette, whose outline may peak one pixel outside it, and their distance map.
   const cv::Mat square = cv::getStructuringElement(cv::MORPH_RECT, cv::Size(3, 3));
-  cv::Mat grown;
-  cv::dilate(out.silhouette, grown, square);
-  out.edges =
-      find_edges(deriche_gradient(p.grey, config_.edges.alpha), grown, config_.edges.low, config_.edges.high);
-  out.distance =
-      distance_map(out.edges, config_.edges.distance_cap * reference_width(config_.width, config_.height) /
-                                  kReferenceWidth);
-
-  // Adapt the background model outside the person. A camera that was moved invalidates it.
-  cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);
-  cv::bitwise_not(grown, background_mask_);
-  if (out.landmarks) {
-    // Nothing that a network may take for the person becomes background.
-    background_mask_.setTo(0, person_area(out.landmarks->mask, 2));
-    if (calibration_.background.empty()) {
-      // The background is learned where it is seen, from the first frame on.
-      calibration_.background = learn_background_model(std::span(&p.bgr, 1));
-      calibration_.background.valid.setTo(0);
-      background_complete_ = false;
-    }
-  }
+  in_parallel(
+      [&] {
+        // Edges inside the silhouette, whose outline may peak one pixel outside it, and their distance map.
+        cv::Mat grown;
+        cv::dilate(out.silhouette, grown, square);
+        out.edges = find_edges(p.gradient, grown, config_.edges.low, config_.edges.high);
+        out.distance =
+            distance_map(out.edges, config_.edges.distance_cap *
+                                        reference_width(config_.width, config_.height) / kReferenceWidth);
+      },
+      [&] {
+        cv::Mat grown;
+        cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);
+        cv::bitwise_not(grown, background_mask_);
+        update_background(p, background, out.landmarks);
+        update_camera_motion(p.grey);
+      });
   silhouette_ = out.silhouette;
-  if (std::max(status_.camera_motion, camera_step_) > kBackgroundIsVoid && !calibration_.background.empty()) {
-    calibration_.background.valid.setTo(0);
-    calibration_.background.seen.setTo(0);
-  } else if (!calibration_.background.empty() && config_.background_rate > 0) {
-    cv::Mat where = background_mask_.clone();
-    where.setTo(0, background.shaded);
-    constexpr double kSteady = 12.0;  // images, and 1/25 s
-    adapt_background(calibration_.background, p.colour, where,
-                     static_cast<float>(over_elapsed(config_.background_rate)),
-                     static_cast<int>(std::clamp(std::ceil(kSteady / elapsed_ - 0.01), kSteady, 255.0)));
-  }
-
-  update_camera_motion(p.grey);
   update_status(p, out);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "telemime/core/frame.h"
+#include "telemime/image/deriche.h"
 #include "telemime/image/face_memory.h"
 #include "telemime/image/feature_config.h"
 #include "telemime/image/frame_features.h"
@@ -52,6 +53,10 @@ class FeatureExtractor {
   /// extract().
   std::optional<PoseLandmarks> find_landmarks(const Frame& frame, bool own_mask = false);
 
+  /// The part of extract() that needs no network, so that it can run beside find_landmarks(): extract() of
+  /// the same frame then starts from its results, which are the same otherwise. Throws as extract().
+  void prepare(const Frame& frame);
+
   /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
   /// Error(input) if the frame has no 8-bit BGR image.
   FrameFeatures extract(const Frame& frame);
@@ -66,14 +71,21 @@ class FeatureExtractor {
   cv::Size working_size() const { return {config_.width, config_.height}; }
 
  private:
+  /// An image in the light in which the background was learned.
+  struct LitImage {
+    LogColour colour;
+    double change = 0.0;  ///< ln of how much brighter it was before
+  };
   struct WorkingImages {
     cv::Mat bgr;       ///< working size
     cv::Mat grey;      ///< working size
     cv::Mat face;      ///< grey, at the size of the face detector
     LogColour colour;  ///< working size
-    cv::Size input;    ///< size of the frame
+    std::optional<LitImage> lit;
+    Gradient gradient;  ///< of `grey`; empty unless prepared
   };
   WorkingImages working_images(const Frame& frame) const;
+  LitImage in_light_of_background(const LogColour& colour, const cv::Mat& background) const;
   std::optional<HeadRegion> head_region_of(const std::optional<TrackedFace>& face,
                                            const WorkingImages& p) const;
   BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head,
@@ -87,8 +99,13 @@ class FeatureExtractor {
   double known_background_share() const;
   PersonReport learn_person_in(const Frame& frame);
   double over_elapsed(double rate) const;
+  void update_background(const WorkingImages& p, const BackgroundEnergy& energy,
+                         const std::optional<PoseLandmarks>& landmarks);
   void update_camera_motion(const cv::Mat& grey);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
+
+  WorkingImages prepared_;
+  std::int64_t prepared_in_ = -1;  ///< index of the frame that `prepared_` shows
 
   double networks_ms_ = 0.0;  ///< time of the networks in the last frame that they looked at
 

@@ -125,6 +125,7 @@ void FeatureExtractor::learn_background(std::span<const Frame> frames) {
 
 void FeatureExtractor::set_calibration(ImageCalibration calibration) {
   calibration_ = std::move(calibration);
+  prepared_in_ = -1;
   // The model adapts to the light, so it needs planes that it does not share with the caller.
   BackgroundModel& scene = calibration_.background;
   for (cv::Mat* plane : {&scene.mean.u, &scene.mean.v, &scene.mean.l, &scene.chroma_variance,

@@ -245,11 +245,13 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   const bool has_colours = learn_colours(frame, request, scene, learned);
   // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1); face and hands (docs/hands.md)
   // beside them, as they need the landmarks of the body alone.
-  const std::optional<PoseLandmarks> landmarks = scene.features.find_landmarks(frame);
+  std::optional<PoseLandmarks> landmarks;
   FrameFeatures features;
   Timed<std::optional<FaceLandmarks>> face;
   Timed<std::array<SeenHand, 2>> hands;
   on_threads(scene.threads, [&] {
+    in_parallel([&] { landmarks = scene.features.find_landmarks(frame); },
+                [&] { scene.features.prepare(frame); });
     in_parallel([&] { features = scene.features.extract(frame); },
                 [&] { face = find_face(frame, landmarks, scene); },
                 [&] { hands = find_hands(frame, landmarks, scene); });
