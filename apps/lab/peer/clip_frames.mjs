@@ -30,7 +30,8 @@ export async function* framesOf(file) {
   ended.catch(() => {}); // awaited at the end
   let bytes = Buffer.alloc(0);
   try {
-    for await (const chunk of decoder.stdout) {
+    // A pipe that is closed first makes ffmpeg complain.
+    for await (const chunk of decoder.stdout.iterator({ destroyOnReturn: false })) {
       bytes = Buffer.concat([bytes, chunk]);
       for (let frame = firstFrame(bytes); frame; frame = firstFrame(bytes)) {
         bytes = bytes.subarray(frame.end);
@@ -40,7 +41,8 @@ export async function* framesOf(file) {
     const status = await ended;
     if (status !== 0 || bytes.length > 0) throw new Error(`ffmpeg could not decode all of ${file}`);
   } finally {
-    decoder.kill("SIGKILL"); // who stops early does not want its complaints
+    decoder.kill("SIGKILL");
+    decoder.stdout.destroy();
   }
 }
 
