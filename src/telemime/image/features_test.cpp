@@ -166,6 +166,21 @@ TEST(FeatureExtractor, BlackImageGivesEmptyFeaturesOfRightSize) {
   EXPECT_THROW(features.extract(Frame{}), Error);
 }
 
+TEST(FeatureExtractor, PreparesAgainForAnotherBackground) {
+  cv::Mat dark(120, 160, CV_8UC3);
+  cv::randu(dark, cv::Scalar::all(40), cv::Scalar::all(120));
+  cv::Mat bright;
+  dark.convertTo(bright, -1, 1.8);
+  FeatureExtractor features(ImageConfig{});
+  features.learn_background(std::vector<Frame>(3, {bright, 0, 0.0}));
+  features.extract({bright, 0, 0.0});
+  // What is made as bright as the first background would differ from the second.
+  const Frame frame{dark, 1, 0.04};
+  features.prepare(frame);
+  features.learn_background(std::vector<Frame>(3, {dark, 0, 0.0}));
+  EXPECT_EQ(cv::countNonZero(features.extract(frame).silhouette), 0);
+}
+
 class OnClip : public testing::TestWithParam<const char*> {};
 
 TEST_P(OnClip, LabelsMatchTrueJointsAndRepeat) {
@@ -190,6 +205,7 @@ TEST_P(OnClip, LabelsMatchTrueJointsAndRepeat) {
   std::vector<FrameFeatures> seen;
   for (const Frame& frame : frames) {
     seen.push_back(features.extract(frame));
+    again.prepare(frame);  // beforehand or not: the same
     const FrameFeatures second = again.extract(frame);
     ASSERT_EQ(cv::countNonZero(seen.back().labels != second.labels), 0);
     ASSERT_EQ(cv::countNonZero(seen.back().edges != second.edges), 0);
