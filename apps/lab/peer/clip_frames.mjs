@@ -30,7 +30,7 @@ export async function* framesOf(file) {
   ended.catch(() => {}); // awaited at the end
   let bytes = Buffer.alloc(0);
   try {
-    // A pipe that is closed first makes ffmpeg complain.
+    // If the pipe closed before ffmpeg is killed, ffmpeg would complain.
     for await (const chunk of decoder.stdout.iterator({ destroyOnReturn: false })) {
       bytes = Buffer.concat([bytes, chunk]);
       for (let frame = firstFrame(bytes); frame; frame = firstFrame(bytes)) {

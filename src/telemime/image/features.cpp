@@ -131,6 +131,7 @@ FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& fr
 }
 
 void FeatureExtractor::prepare(const Frame& frame) {
+  prepared_in_ = -1;
   prepared_ = working_images(frame);
   prepared_.gradient = deriche_gradient(prepared_.grey, config_.edges.alpha);
   if (!calibration_.background.empty() && !background_mask_.empty()) {

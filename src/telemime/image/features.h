@@ -53,8 +53,9 @@ class FeatureExtractor {
   /// extract().
   std::optional<PoseLandmarks> find_landmarks(const Frame& frame, bool own_mask = false);
 
-  /// The part of extract() that needs no network, so that it can run beside find_landmarks(): extract() of
-  /// the same frame then starts from its results, which are the same otherwise. Throws as extract().
+  /// The part of extract() that needs no network, so that it can run beside find_landmarks() of the same
+  /// frame. extract() of the frame with this index then starts from what it computed; the features are the
+  /// same without it. Another background, learned or set, discards it. Throws as extract().
   void prepare(const Frame& frame);
 
   /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
@@ -74,15 +75,15 @@ class FeatureExtractor {
   /// An image in the light in which the background was learned.
   struct LitImage {
     LogColour colour;
-    double change = 0.0;  ///< ln of how much brighter it was before
+    double change = 0.0;  ///< ln of how much brighter the image was than in that light
   };
   struct WorkingImages {
     cv::Mat bgr;       ///< working size
     cv::Mat grey;      ///< working size
     cv::Mat face;      ///< grey, at the size of the face detector
-    LogColour colour;  ///< working size
+    LogColour colour;  ///< working size; that of `lit` once it was compared with the background
     std::optional<LitImage> lit;
-    Gradient gradient;  ///< of `grey`; empty unless prepared
+    Gradient gradient;  ///< of `grey`; empty where only working_images() was called
   };
   WorkingImages working_images(const Frame& frame) const;
   LitImage in_light_of_background(const LogColour& colour, const cv::Mat& background) const;
@@ -99,18 +100,17 @@ class FeatureExtractor {
   double known_background_share() const;
   PersonReport learn_person_in(const Frame& frame);
   double over_elapsed(double rate) const;
-  void update_background(const WorkingImages& p, const BackgroundEnergy& energy,
+  void update_background(const WorkingImages& p, const BackgroundEnergy& background,
                          const std::optional<PoseLandmarks>& landmarks);
   void update_camera_motion(const cv::Mat& grey);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
-
-  WorkingImages prepared_;
-  std::int64_t prepared_in_ = -1;  ///< index of the frame that `prepared_` shows
 
   double networks_ms_ = 0.0;  ///< time of the networks in the last frame that they looked at
 
   ImageConfig config_;
   PersonFinder finder_;
+  std::int64_t prepared_in_ = -1;  ///< index of the frame that `prepared_` shows; -1: none
+  WorkingImages prepared_;
   std::int64_t found_in_ = -1;          ///< index of the frame in which `found_` was found
   std::optional<PoseLandmarks> found_;  ///< in pixels of the working image
   HeadTracker head_;

@@ -36,7 +36,7 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
                                                         const cv::Mat& mask) {
   const BackgroundModel& model = calibration_.background;
   const cv::Size size = images.grey.size();
-  // All colours were learned in the light of the model.
+  // Compensate: all colours were learned in the light of the model.
   if (!model.empty()) {
     if (!images.lit) {
       // In the first frame, the mask alone knows where the background is.
@@ -80,7 +80,7 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
 }
 
 // Adapts the background model outside the person. A camera that was moved invalidates it.
-void FeatureExtractor::update_background(const WorkingImages& p, const BackgroundEnergy& energy,
+void FeatureExtractor::update_background(const WorkingImages& p, const BackgroundEnergy& background,
                                          const std::optional<PoseLandmarks>& landmarks) {
   BackgroundModel& model = calibration_.background;
   if (landmarks) {
@@ -101,7 +101,7 @@ void FeatureExtractor::update_background(const WorkingImages& p, const Backgroun
     model.seen.setTo(0);
   } else if (config_.background_rate > 0) {
     cv::Mat where = background_mask_.clone();
-    where.setTo(0, energy.shaded);
+    where.setTo(0, background.shaded);
     constexpr double kSteady = 12.0;  // images, and 1/25 s
     adapt_background(model, p.colour, where, static_cast<float>(over_elapsed(config_.background_rate)),
                      static_cast<int>(std::clamp(std::ceil(kSteady / elapsed_ - 0.01), kSteady, 255.0)));

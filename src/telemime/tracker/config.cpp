@@ -129,7 +129,7 @@ SettingTable settings_of(Config& c) {
            "with the methods heuristics and condensation."),
       flag("face", c.face, "Track head, eyes and expression, where networks find the person."),
       number("threads", &c.threads, {0, 1024}, "",
-             "Threads of the search, and of what networks see of face and hands; 0: one for each processor."),
+             "Threads of the search and of the image side; 0: one for each processor."),
       text("cues", c.cue_names, {},
            "Cues that the image is compared by, separated by commas: " + cue_list() + "."),
       flag("hands", c.hands, "Track the fingers, where networks find the person."),

@@ -240,16 +240,17 @@ ColourRequest colour_request(const TrackerState& state) {
 
 FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& scene) {
   Stopwatch watch;
-  // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
   FrameFeatures learned;
-  const bool has_colours = learn_colours(frame, request, scene, learned);
-  // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1); face and hands (docs/hands.md)
-  // beside them, as they need the landmarks of the body alone.
+  bool has_colours = false;
   std::optional<PoseLandmarks> landmarks;
   FrameFeatures features;
   Timed<std::optional<FaceLandmarks>> face;
   Timed<std::array<SeenHand, 2>> hands;
   on_threads(scene.threads, [&] {
+    // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
+    has_colours = learn_colours(frame, request, scene, learned);
+    // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1): what needs no network beside
+    // the landmarks of the body, then the rest beside face and hands (docs/hands.md), which need those alone.
     in_parallel([&] { landmarks = scene.features.find_landmarks(frame); },
                 [&] { scene.features.prepare(frame); });
     in_parallel([&] { features = scene.features.extract(frame); },

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "telemime/body/interpenetration.h"
+#include "telemime/core/in_parallel.h"
 #include "telemime/core/loop_order.h"
 #include "telemime/likelihood/all.h"
 
@@ -24,7 +24,7 @@ double squared(double x) {
 }  // namespace
 
 Evaluators::Evaluators(const std::string& backend, int threads, const CueTable& cues)
-    : threads_(threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))) {
+    : threads_(usable_threads(threads)) {
   batch_ = make_backend(backend, {.threads = threads_, .cues = cues});
   // Single poses are too few for a device.
   const std::string single = backend == "scalar" ? "scalar" : "simd";
@@ -39,23 +39,29 @@ void Evaluators::evaluate(const PreparedFrame& frame, const Model& model, std::s
 }
 
 void Evaluators::each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work) {
+  // Whichever thread is free takes the next few. TBB alone would divide them among the threads beforehand.
+  std::atomic<std::size_t> next = 0;
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(threads_));
+  const std::size_t piece = std::max<std::size_t>(1, count / (16 * static_cast<std::size_t>(threads_)));
+  const auto take = [&](Backend& backend) {
+    for (std::size_t first = next.fetch_add(piece); first < count; first = next.fetch_add(piece)) {
+      for (std::size_t i = first; i < std::min(first + piece, count); ++i) {
+        work(i, backend);
+      }
+    }
+  };
   tbb::task_arena arena(threads_);
   const LoopOrder order;
   arena.execute([&] {
-    // Whichever thread is free takes the next ones. TBB alone would give each thread a share beforehand.
-    std::atomic<std::size_t> next = 0;
-    const std::size_t workers = std::min(count, static_cast<std::size_t>(threads_));
-    const std::size_t piece = std::max<std::size_t>(1, count / (16 * static_cast<std::size_t>(threads_)));
     tbb::parallel_for(
         std::size_t{0}, workers,
         [&](std::size_t) {
           const LoopOrder::Task task(order);
-          Backend& backend =
-              *singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-          for (std::size_t first = next.fetch_add(piece); first < count; first = next.fetch_add(piece)) {
-            for (std::size_t i = first; i < std::min(first + piece, count); ++i) {
-              work(i, backend);
-            }
+          try {
+            take(*singles_[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())]);
+          } catch (...) {
+            next = count;  // the others stop, too
+            throw;
           }
         },
         tbb::simple_partitioner());

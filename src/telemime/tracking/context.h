@@ -38,8 +38,8 @@ class Evaluators {
   /// are those of the poses, where the caller has them.
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                 std::span<Score> scores, std::span<const Kinematics> kinematics = {});
-  /// Calls work(i, back end) for all i below `count`, on all threads, the smallest i first. Exceptions are
-  /// passed on.
+  /// Calls work(i, back end) for all i below `count`, on all threads, about in the order of i: each thread
+  /// takes a few at a time. An exception is passed on, and what has not begun by then is left out.
   void each(std::size_t count, const std::function<void(std::size_t, Backend&)>& work);
 
  private:

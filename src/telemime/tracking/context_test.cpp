@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "telemime/body/interpenetration.h"
 #include "telemime/tracking/testing_scene.h"
@@ -179,13 +181,18 @@ TEST(Evaluators, DoEachPieceOfWorkOnce) {
 
 TEST(Evaluators, LetExceptionsOut) {
   Evaluators evaluators("simd", 2);
-  EXPECT_THROW(evaluators.each(10,
-                               [](std::size_t i, Backend&) {
+  constexpr std::size_t kCount = 1000;
+  std::atomic<std::size_t> calls = 0;
+  EXPECT_THROW(evaluators.each(kCount,
+                               [&calls](std::size_t i, Backend&) {
+                                 ++calls;
                                  if (i == 7) {
                                    throw std::out_of_range("seven");
                                  }
+                                 std::this_thread::sleep_for(std::chrono::microseconds(100));
                                }),
                std::out_of_range);
+  EXPECT_LT(calls, kCount / 2);
   EXPECT_THROW(Evaluators("abacus", 1), std::runtime_error);
 }
 

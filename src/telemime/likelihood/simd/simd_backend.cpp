@@ -2,7 +2,6 @@
 #include "telemime/likelihood/simd/simd_backend.h"
 
 #include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
@@ -10,6 +9,7 @@
 #include <algorithm>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/in_parallel.h"
 #include "telemime/core/loop_order.h"
 #include "telemime/likelihood/simd/kernel.h"
 
@@ -43,8 +43,7 @@ int checked_threads(int threads) {
     throw Error(ErrorKind::usage, std::to_string(threads) + " threads are not possible",
                 "Give a number from 0 (as many as the machine has) to 1024.");
   }
-  const int most = tbb::info::default_concurrency();
-  return threads == 0 ? most : std::min(threads, most);
+  return usable_threads(threads);
 }
 
 class SimdBackend final : public Backend {

@@ -55,8 +55,9 @@ struct Heuristic {
   void (*run)(const FilterContext& context, Generation& generation);
 };
 
-/// Runs the searches of a generation on all threads, the longest first, and adds what they find to its
-/// particles in the order in which they were asked for. The result does not depend on the number of threads.
+/// Runs the searches of a generation on all threads, those with the most `evaluations` first, and adds what
+/// they find to its particles in the order in which they were asked for. The result does not depend on the
+/// number of threads.
 void run_searches(const FilterContext& context, Generation& generation);
 
 }  // namespace telemime
