@@ -33,7 +33,7 @@ TEST(InParallel, RunsAllAndPassesAnExceptionOn) {
   }
 }
 
-TEST(InParallel, MoreThreadsThanProcessorsAreNoMatter) {
+TEST(InParallel, UsesNoMoreThreadsThanProcessors) {
   constexpr int kMany = 500;
   EXPECT_EQ(usable_threads(1), 1);
   EXPECT_EQ(usable_threads(kMany), usable_threads(0));

@@ -249,8 +249,9 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   on_threads(scene.threads, [&] {
     // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
     has_colours = learn_colours(frame, request, scene, learned);
-    // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1): what needs no network beside
-    // the landmarks of the body, then the rest beside face and hands (docs/hands.md), which need those alone.
+    // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1). What needs no network runs
+    // beside the landmarks of the body; the rest runs beside face and hands (docs/hands.md), which need only
+    // the landmarks.
     in_parallel([&] { landmarks = scene.features.find_landmarks(frame); },
                 [&] { scene.features.prepare(frame); });
     in_parallel([&] { features = scene.features.extract(frame); },

@@ -183,13 +183,19 @@ TEST(Evaluators, LetExceptionsOut) {
   Evaluators evaluators("simd", 2);
   constexpr std::size_t kCount = 1000;
   std::atomic<std::size_t> calls = 0;
+  std::atomic<bool> thrown = false;
   EXPECT_THROW(evaluators.each(kCount,
-                               [&calls](std::size_t i, Backend&) {
+                               [&](std::size_t i, Backend&) {
                                  ++calls;
-                                 if (i == 7) {
-                                   throw std::out_of_range("seven");
+                                 if (i == 0) {
+                                   thrown = true;
+                                   throw std::out_of_range("the first");
                                  }
-                                 std::this_thread::sleep_for(std::chrono::microseconds(100));
+                                 // The other thread goes on slowly once the exception is on its way.
+                                 while (!thrown) {
+                                   std::this_thread::yield();
+                                 }
+                                 std::this_thread::sleep_for(std::chrono::milliseconds(2));
                                }),
                std::out_of_range);
   EXPECT_LT(calls, kCount / 2);
