@@ -60,6 +60,9 @@ SettingTable settings_of(FilterConfig& c) {
              "Poses fitted to the landmarks that are searched further by all cues."),
       number("filter.landmark_evaluations", &c.landmark_evaluations, {0, 1000000}, "evaluations",
              "Effort of each of these searches; 0: none."),
+      number("filter.second_evaluations", &c.second_evaluations, {0, 1000000}, "evaluations",
+             "Effort of the second search of the best mode in a frame with landmarks, without proposals; 0: "
+             "none."),
       number("filter.landmark_share", &c.landmark_share, {0.001, 1}, "",
              "Share of the particles that a frame with landmarks needs: its proposals are nearer."),
   };
@@ -70,7 +73,7 @@ SettingTable settings_of(FilterConfig& c) {
 
 FilterConfig with_effort(FilterConfig config, double share) {
   for (int* number : {&config.particles, &config.mode_least, &config.mode_most, &config.turn_evaluations,
-                      &config.walk_evaluations, &config.landmark_evaluations}) {
+                      &config.walk_evaluations, &config.landmark_evaluations, &config.second_evaluations}) {
     *number = std::max(1, static_cast<int>(std::lround(share * *number)));
   }
   return config;

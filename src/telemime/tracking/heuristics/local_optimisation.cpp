@@ -14,6 +14,7 @@ struct Job {
   int parent = 0;
   int evaluations = 0;
   int number = 0;  // among the jobs of the same parent
+  bool proposes = false;
 };
 
 // Weights of a metre of interpenetration beside F and beside D_C (pixels).
@@ -89,7 +90,7 @@ std::vector<Particle> search_blocks(const FilterContext& context, const Generati
       purpose::kSimplex, 2 * static_cast<std::uint64_t>(job.parent) + static_cast<std::uint64_t>(job.number));
   RegistrationConfig search = context.search;
   search.iterations = job.evaluations;
-  if (!best) {
+  if (!job.proposes) {
     search.proposals = no_proposals();
   }
   // The best mode starts once from its prediction and once from where it was, the better of the two first.
@@ -123,9 +124,12 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
       if (generation.parents.size() <= static_cast<std::size_t>(context.config.modes) ||
           count >= context.config.mode_least) {
         const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
+        jobs.push_back({static_cast<int>(i), evaluations, 0, i == best});
         // The best mode is searched from its prediction and from where it was: the nearest minima may differ.
-        for (int number = 0; number < (i == best ? 2 : 1); ++number) {
-          jobs.push_back({static_cast<int>(i), evaluations, number});
+        const bool brief = context.frame.landmarks.has_value();
+        const int second = brief ? std::min(evaluations, context.config.second_evaluations) : evaluations;
+        if (i == best && second > 1) {
+          jobs.push_back({static_cast<int>(i), second, 1, !brief});
         }
       }
     } else if (dimensions > 0 && count > dimensions) {
