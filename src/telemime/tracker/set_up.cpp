@@ -93,8 +93,8 @@ Config with_budget(const Config& config, const Camera& camera) {
   constexpr std::int64_t kMost = 1000000;  // that a configuration may ask for
   const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
   fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
-  // The best mode has two searches, side by side where there are two threads, and up to three trunks are
-  // turned, two of them with a long search: together no more than the total on each thread.
+  // The best mode has at most two searches in full, side by side where there are two threads, and up to three
+  // trunks are turned, two of them with a long search: together no more than the total on each thread.
   const std::int64_t threads =
       config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
   const auto at_most = [](int number, std::int64_t most) {

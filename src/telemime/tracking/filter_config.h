@@ -35,7 +35,8 @@ struct FilterConfig {
   int flip_candidates = 2;
   int landmark_searches = 2;
   int landmark_evaluations = 300;
-  /// From its prediction and from where it was, the best mode nearly always ends at the same pose.
+  /// Few: the searches of the best mode from its prediction and from its last pose nearly always end at the
+  /// same pose.
   int second_evaluations = 300;
   double landmark_share = 0.5;
 };

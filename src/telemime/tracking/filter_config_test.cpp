@@ -52,6 +52,7 @@ TEST(FilterConfig, WholeNumbersOutOfRangeAreRefusedByName) {
   expect_refused(&FilterConfig::mode_most, "mode_most", {99, -1, 1000001});
   expect_refused(&FilterConfig::turn_evaluations, "turn_evaluations", {9, -1, 1000001});
   expect_refused(&FilterConfig::walk_evaluations, "walk_evaluations", {9, -1, 1000001});
+  expect_refused(&FilterConfig::second_evaluations, "second_evaluations", {-1, 1000001});
   expect_refused(&FilterConfig::flip_candidates, "flip_candidates", {-1, 1001});
   expect_taken(&FilterConfig::particles, {1, 1000000});
   expect_taken(&FilterConfig::modes, {1, 1000});
@@ -59,6 +60,7 @@ TEST(FilterConfig, WholeNumbersOutOfRangeAreRefusedByName) {
   expect_taken(&FilterConfig::mode_most, {100, 1000000});
   expect_taken(&FilterConfig::turn_evaluations, {10, 1000000});
   expect_taken(&FilterConfig::walk_evaluations, {10, 1000000});
+  expect_taken(&FilterConfig::second_evaluations, {0, 1000000});
   expect_taken(&FilterConfig::flip_candidates, {0, 1000});
 }
 

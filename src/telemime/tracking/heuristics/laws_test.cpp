@@ -40,6 +40,7 @@ std::vector<Case> cases() {
     ours.heuristics = list;
     ours.particles = kParticles;
     ours.mode_least = 50;
+    ours.second_evaluations = 30;
     ours.turn_evaluations = 30;
     ours.walk_evaluations = 60;
     ours.landmark_share = 1.0;

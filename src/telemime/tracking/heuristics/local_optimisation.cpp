@@ -15,6 +15,7 @@ struct Job {
   int evaluations = 0;
   int number = 0;  // among the jobs of the same parent
   bool proposes = false;
+  int saved = 0;  // evaluations that a brief second search of this parent leaves out
 };
 
 // Weights of a metre of interpenetration beside F and beside D_C (pixels).
@@ -124,10 +125,11 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
       if (generation.parents.size() <= static_cast<std::size_t>(context.config.modes) ||
           count >= context.config.mode_least) {
         const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
-        jobs.push_back({static_cast<int>(i), evaluations, 0, i == best});
         // The best mode is searched from its prediction and from where it was: the nearest minima may differ.
         const bool brief = context.frame.landmarks.has_value();
         const int second = brief ? std::min(evaluations, context.config.second_evaluations) : evaluations;
+        jobs.push_back(
+            {static_cast<int>(i), evaluations, 0, i == best, i == best ? evaluations - second : 0});
         if (i == best && second > 1) {
           jobs.push_back({static_cast<int>(i), second, 1, !brief});
         }
@@ -145,6 +147,9 @@ void optimise_families(const FilterContext& context, Generation& generation) {
   const std::vector<Job> jobs = jobs_of(context, generation);
   const auto best = static_cast<int>(heaviest(generation.parents));
   for (const Job& job : jobs) {
+    // What is saved is not diffused instead.
+    int& left = generation.counts[static_cast<std::size_t>(job.parent)];
+    left = std::max(0, left - job.saved);
     const bool blocks = context.config.blocks;
     generation.searches.push_back({.run =
                                        [=, &context, &generation](Backend& backend) {
