@@ -126,6 +126,7 @@ std::vector<Job> jobs_of(const FilterContext& context, const Generation& generat
           count >= context.config.mode_least) {
         const int evaluations = std::clamp(count, context.config.mode_least, context.config.mode_most);
         // The best mode is searched from its prediction and from where it was: the nearest minima may differ.
+        // With landmarks they rarely do.
         const bool brief = context.frame.landmarks.has_value();
         const int second = brief ? std::min(evaluations, context.config.second_evaluations) : evaluations;
         jobs.push_back(
@@ -147,7 +148,7 @@ void optimise_families(const FilterContext& context, Generation& generation) {
   const std::vector<Job> jobs = jobs_of(context, generation);
   const auto best = static_cast<int>(heaviest(generation.parents));
   for (const Job& job : jobs) {
-    // What is saved is not diffused instead.
+    // The evaluations that the brief search saves are not spent on diffused children instead.
     int& left = generation.counts[static_cast<std::size_t>(job.parent)];
     left = std::max(0, left - job.saved);
     const bool blocks = context.config.blocks;
