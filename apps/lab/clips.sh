@@ -16,17 +16,36 @@ clips=(
   "close_webcam talking --seed 39 --distance 0.75 --background-frames 0"
 )
 
+
+# With PEOPLE, the folder that people.sh prints, clips of people of meshes instead.
+common=(--size 320x240 --no-small --quiet)
+if [[ -n "${PEOPLE:-}" ]]; then
+  common=(--people "$PEOPLE" --fingers --frames 100 --background-frames 0 --no-small --quiet)
+  clips=(
+    "person_1 raising_arms --seed 6001 --long-sleeves"
+    "person_2 joy --seed 6002"
+    "person_3 exclaiming --seed 6003 --distance 1.0"
+    "person_4 asking --seed 6004 --long-sleeves"
+    "person_5 talking --seed 6005 --distance 0.8"
+    "person_6 raising_arms --seed 6006 --distance 1.6"
+    "person_7 joy --seed 6007 --long-sleeves --distance 1.5"
+    "person_8 exclaiming --seed 6008 --long-sleeves"
+    "person_9 asking --seed 6009 --distance 1.6"
+    "person_10 talking --seed 6010 --long-sleeves --look-around --distance 1.0"
+  )
+fi
+
 # make_clip "NAME SYNTH_OPTIONS..." FOLDER: makes the clip of a line of `clips` unless it is there, made with the same options.
 # Sets `clip`, its folder.
 make_clip() {
-  local words
+  local words made_with="$1 ${common[*]}"
   read -ra words <<< "$1"
   clip="$2/${words[0]}/clip/${words[1]}"
-  if [[ "$(cat "$clip/made_with" 2> /dev/null)" != "$1" ]]; then
+  if [[ "$(cat "$clip/made_with" 2> /dev/null)" != "$made_with" ]]; then
     echo "making ${words[0]}" >&2
     rm -f "$clip/made_with"
-    "$build/telemime-lab" synth "${words[@]:1}" --size 320x240 --no-small --quiet --out "$2/${words[0]}/clip"
-    echo "$1" > "$clip/made_with"
+    "$build/telemime-lab" synth "${words[@]:1}" "${common[@]}" --out "$2/${words[0]}/clip"
+    echo "$made_with" > "$clip/made_with"
   fi
 }
 

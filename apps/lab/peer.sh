@@ -4,7 +4,8 @@
 # of a frame. Usage, with everything in brackets optional:
 #   [BUILD=build/release] [SEED=1] [OPTIONS="--quality best"] [CLIPS="joy asking"] [FOLDERS="DIR DIR"] [ROUNDS=5] \
 #   apps/lab/peer.sh [FOLDER]
-# CLIPS are names of clips.sh, all by default; the clips are made in out/accuracy. Each of FOLDERS has a clip (video.* or
+# CLIPS are names of clips.sh, all by default; the clips are made in out/accuracy. With PEOPLE, the folder that
+# apps/lab/people.sh prints, they are clips of people of meshes. Each of FOLDERS has a clip (video.* or
 # clip.*), truth.json and perhaps background.* and camera.*; by default they are those of TELEMIME_DATA, if there are such.
 # ROUNDS is how often the time is measured, on the clip of the demo and without OPTIONS; 0 leaves it out.
 set -euo pipefail

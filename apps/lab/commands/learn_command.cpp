@@ -44,22 +44,24 @@ void run_learn_filter(const FilterArguments& arguments) {
 
 struct LandmarkArguments {
   std::string models;
+  std::string people;
   std::uint64_t seed = 101;
   int clips = 15;
 };
 
 // Clips of all gestures, near and far, half of them with a head that turns.
-std::vector<SceneOptions> learning_scenes(std::uint64_t seed, int clips) {
+std::vector<SceneOptions> learning_scenes(const LandmarkArguments& arguments) {
   constexpr std::array kDistances = {0.0, 1.0, 0.75, 1.7};
-  std::vector<SceneOptions> scenes(static_cast<std::size_t>(clips));
+  std::vector<SceneOptions> scenes(static_cast<std::size_t>(arguments.clips));
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scenes[i] = {.gesture = gesture_named(kGestureNames[i % kGestureCount]),
                  .width = 320,
                  .height = 240,
-                 .seed = seed + i,
+                 .seed = arguments.seed + i,
                  .sensor = {},
                  .long_sleeves = i % 3 == 0,
                  .distance = kDistances[i % kDistances.size()],
+                 .people = arguments.people,
                  .look_around = i % 2 == 0 ? 0.61 : 0.0};
   }
   return scenes;
@@ -73,7 +75,7 @@ void run_learn_landmarks(const LandmarkArguments& arguments) {
   }
   PersonFinder finder(models);
   std::vector<LearningFrame> frames;
-  for (const SceneOptions& options : learning_scenes(arguments.seed, arguments.clips)) {
+  for (const SceneOptions& options : learning_scenes(arguments)) {
     std::cerr << "seed " << options.seed << ": " << kGestureNames[static_cast<std::size_t>(options.gesture)]
               << '\n';
     constexpr int kStep = 3;
@@ -117,6 +119,8 @@ void add_landmarks_command_of(CLI::App& learn) {
   CLI::App* const command = learn.add_subcommand(
       "landmarks", "Where networks see the landmarks of the model, and how well, from synthetic clips");
   command->add_option("--models", arguments->models, "folder of the networks [those of the program]");
+  command->add_option("--people", arguments->people,
+                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh fetched");
   command->add_option("--seed", arguments->seed, "of the first clip")->capture_default_str();
   command->add_option("--clips", arguments->clips, "number of clips, each of another person")
       ->capture_default_str()

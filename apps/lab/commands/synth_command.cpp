@@ -94,6 +94,8 @@ void add_synth_command(CLI::App& app) {
       "the head turns by 60 degrees to either side and nods; truth.json has its rotation, as that of every "
       "clip");
   command->add_flag("--fingers", scene.fingers, "the fingers move; truth.json has their joints");
+  command->add_option("--people", scene.people,
+                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh fetched");
   command->add_flag("--walk-in", scene.walk_in,
                     "the person walks in and out of an empty scene (120 frames or more)");
   command->add_flag("--no-small{false}", sequence.small_videos, "without the lossless 160-pixel copies");

@@ -126,7 +126,7 @@ std::vector<LearningFrame> learning_frames(const Scene& scene, int step, PersonF
     const auto seen = finder.find(render_frame(scene, t).image, t / kGestureFps);
     if (seen && person_is_visible(scene, t)) {
       frames.push_back(
-          {scene.camera, observe(*seen, scene.camera), actor_places(scene_kinematics(scene, t))});
+          {scene.camera, observe(*seen, scene.camera), actor_places(scene_truth(scene, t).bones)});
     }
   }
   return frames;

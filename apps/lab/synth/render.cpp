@@ -96,46 +96,10 @@ struct Shader {
   Vector3f shade(const BodyHit& hit, const Vector3f& direction, const PartSelection& parts) const {
     const Vector3f n = normal_at(hit, parts);
     const Vector3f colour = surface_colour(avatar, *hit.part, hit.at);
-    const bool skin = hit.part->surface == Surface::head || hit.part->surface == Surface::arm;
-    const float facing = n.dot(to_key);
-    const float shadow = facing > -0.25f ? lit(hit.at + 0.004f * n, 0.012f, 9.0f, 0.02f) : 0.0f;
-    // Skin lets light through: the terminator wraps round, most in red.
-    const Vector3f wrap = skin ? Vector3f(0.26f, 0.13f, 0.09f) : Vector3f(0.06f, 0.06f, 0.06f);
-    const Vector3f diffuse =
-        ((Vector3f::Constant(facing) + wrap).cwiseQuotient(Vector3f::Ones() + wrap)).cwiseMax(0.0f);
-    const float sky = 0.60f - 0.40f * n.y();
-    const float from_room = std::max(-n.dot(direction), 0.0f);
-    Vector3f light = lights.key * shadow * diffuse;
-    light += Vector3f::Constant(lights.ambient * open_sky(hit.at, n) * (0.70f * sky + 0.42f * from_room));
-    if (lights.lamp > 0.0f) {
-      const Vector3f to = lights.lamp_at - hit.at;
-      const float near =
-          lights.lamp * (0.30f + 0.70f * std::max(n.dot(to.normalized()), 0.0f)) / (0.4f + to.squaredNorm());
-      light += near * Vector3f(0.92f, 0.76f, 0.50f);
-    }
-    const Vector3f half = (to_key - direction).normalized();
-    const float shine = hit.part->surface == Surface::hair ? 0.10f : skin ? 0.045f : 0.006f;
-    const float gloss = shine * shadow * std::pow(std::max(n.dot(half), 0.0f), 26.0f);
-    return colour.cwiseProduct(light) + Vector3f::Constant(gloss);
+    const float shadow = n.dot(to_key) > -0.25f ? lit(hit.at + 0.004f * n, 0.012f, 9.0f, 0.02f) : 0.0f;
+    return light_of(lights, {hit.at, n, direction, colour, shadow, open_sky(hit.at, n)}, hit.part->surface);
   }
 };
-
-Vector3f wall_light(const Lighting& lights, const Vector3f& p, float lit) {
-  // The key light comes from the left: the wall is a little brighter there.
-  const float falloff = 1.0f - 0.10f * p.x() - 0.05f * p.y();
-  Vector3f light =
-      Vector3f::Constant(lights.ambient * 0.78f + lights.key * 0.68f * falloff * (0.30f + 0.70f * lit));
-  if (lights.lamp > 0.0f) {
-    const float distance2 = (lights.lamp_at - p).squaredNorm();
-    light += lights.lamp * (1.0f / (0.9f + 0.8f * distance2)) * Vector3f(1.26f, 1.04f, 0.68f);
-  }
-  return light;
-}
-
-Vector3f ray_of(const Camera& camera, float u, float v) {
-  return Vector3f(static_cast<float>((u - camera.cx) / camera.fx),
-                  static_cast<float>((v - camera.cy) / camera.fy), 1.0f);
-}
 
 template <typename Row>
 void rows(int count, const Row& row) {
@@ -169,13 +133,58 @@ cv::Mat wall_shadow(const Camera& camera, float wall, const Shader* shader) {
 
 }  // namespace
 
-RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const Avatar* avatar,
-                           const Lighting& lighting) {
-  const cv::Size size(camera.width, camera.height);
-  if (backdrop.albedo.size() != size) {
+Vector3f light_of(const Lighting& lights, const SurfacePoint& point, Surface surface) {
+  const Vector3f& n = point.normal;
+  const Vector3f to_key = lights.to_key.normalized();
+  const bool skin = surface == Surface::head || surface == Surface::arm;
+  // Skin lets light through: the terminator wraps round, most in red.
+  const Vector3f wrap = skin ? Vector3f(0.26f, 0.13f, 0.09f) : Vector3f(0.06f, 0.06f, 0.06f);
+  const Vector3f diffuse =
+      ((Vector3f::Constant(n.dot(to_key)) + wrap).cwiseQuotient(Vector3f::Ones() + wrap)).cwiseMax(0.0f);
+  const float sky = 0.60f - 0.40f * n.y();
+  const float from_room = std::max(-n.dot(point.direction), 0.0f);
+  Vector3f light = lights.key * point.lit * diffuse;
+  light += Vector3f::Constant(lights.ambient * point.open * (0.70f * sky + 0.42f * from_room));
+  if (lights.lamp > 0.0f) {
+    const Vector3f to = lights.lamp_at - point.at;
+    const float near =
+        lights.lamp * (0.30f + 0.70f * std::max(n.dot(to.normalized()), 0.0f)) / (0.4f + to.squaredNorm());
+    light += near * Vector3f(0.92f, 0.76f, 0.50f);
+  }
+  const Vector3f half = (to_key - point.direction).normalized();
+  const float shine = surface == Surface::hair ? 0.10f : skin ? 0.045f : 0.006f;
+  const float gloss = shine * point.lit * std::pow(std::max(n.dot(half), 0.0f), 26.0f);
+  return point.colour.cwiseProduct(light) + Vector3f::Constant(gloss);
+}
+
+Vector3f light_on_wall(const Lighting& lights, const Vector3f& at, float lit) {
+  // The key light comes from the left: the wall is a little brighter there.
+  const float falloff = 1.0f - 0.10f * at.x() - 0.05f * at.y();
+  Vector3f light =
+      Vector3f::Constant(lights.ambient * 0.78f + lights.key * 0.68f * falloff * (0.30f + 0.70f * lit));
+  if (lights.lamp > 0.0f) {
+    const float distance2 = (lights.lamp_at - at).squaredNorm();
+    light += lights.lamp * (1.0f / (0.9f + 0.8f * distance2)) * Vector3f(1.26f, 1.04f, 0.68f);
+  }
+  return light;
+}
+
+Vector3f ray_of(const Camera& camera, float u, float v) {
+  return Vector3f(static_cast<float>((u - camera.cx) / camera.fx),
+                  static_cast<float>((v - camera.cy) / camera.fy), 1.0f);
+}
+
+void check_size(const Camera& camera, const Backdrop& backdrop) {
+  if (backdrop.albedo.size() != cv::Size(camera.width, camera.height)) {
     throw Error(ErrorKind::usage, "the backdrop was drawn for another image size",
                 "call make_backdrop with this camera");
   }
+}
+
+RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const Avatar* avatar,
+                           const Lighting& lighting) {
+  const cv::Size size(camera.width, camera.height);
+  check_size(camera, backdrop);
   const Avatar nobody;
   const Shader shader{avatar != nullptr ? *avatar : nobody, lighting, lighting.to_key.normalized()};
   const auto wall = static_cast<float>(backdrop.distance);
@@ -186,8 +195,8 @@ RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const
   result.surfaces = cv::Mat(size, CV_8U);
   const auto wall_colour = [&](int x, int y) {
     const Vector3f light =
-        wall_light(lighting, wall * ray_of(camera, static_cast<float>(x), static_cast<float>(y)),
-                   shadow.at<float>(y, x));
+        light_on_wall(lighting, wall * ray_of(camera, static_cast<float>(x), static_cast<float>(y)),
+                      shadow.at<float>(y, x));
     const auto& a = backdrop.albedo.at<cv::Vec3f>(y, x);
     return Vector3f(a[2] * light.x(), a[1] * light.y(), a[0] * light.z());
   };

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "lab/synth/avatar.h"
+#include "lab/synth/mesh_person.h"
 #include "telemime/core/camera.h"
 #include "telemime/core/random.h"
 
@@ -29,6 +30,29 @@ struct Lighting {
   Eigen::Vector3f lamp_at{1.1f, -0.7f, 0.7f};  ///< camera frame, m
 };
 
+/// A point of a surface that the camera sees. Camera frame, m; vectors of length 1.
+struct SurfacePoint {
+  Eigen::Vector3f at;
+  Eigen::Vector3f normal;
+  Eigen::Vector3f direction;  ///< from the camera to the point
+  Eigen::Vector3f colour;     ///< of the surface, linear light
+  float lit = 1.0f;           ///< share of the key light that arrives
+  float open = 1.0f;          ///< share of the room's light that arrives
+};
+
+/// The light that the point sends to the camera, linear light.
+Eigen::Vector3f light_of(const Lighting& lights, const SurfacePoint& point, Surface surface);
+
+/// The light that falls on the wall at a point (camera frame, m) at which this share of the key light
+/// arrives.
+Eigen::Vector3f light_on_wall(const Lighting& lights, const Eigen::Vector3f& at, float lit);
+
+/// The ray of a pixel, z = 1.
+Eigen::Vector3f ray_of(const Camera& camera, float u, float v);
+
+/// Error(usage) unless the backdrop was drawn for the size of the camera.
+void check_size(const Camera& camera, const Backdrop& backdrop);
+
 /// A picture without sensor noise.
 struct RenderedImage {
   cv::Mat light;     ///< (height x width) CV_32FC3, linear light, BGR, 1 is white
@@ -41,5 +65,9 @@ struct RenderedImage {
 /// depend on its size.
 RenderedImage render_scene(const Camera& camera, const Backdrop& backdrop, const Avatar* avatar,
                            const Lighting& lighting);
+
+/// The same for a person of meshes, by a depth buffer with nine samples a pixel and a shadow map.
+RenderedImage render_mesh_scene(const Camera& camera, const Backdrop& backdrop, const MeshPerson& person,
+                                const PosedMesh& posed, const Lighting& lighting);
 
 }  // namespace telemime

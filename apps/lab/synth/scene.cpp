@@ -17,6 +17,7 @@ namespace {
 constexpr std::uint64_t kLookStream = 1;
 constexpr std::uint64_t kBackdropStream = 2;
 constexpr std::uint64_t kFingerStream = 3;
+constexpr std::uint64_t kMeshStream = 4;
 // The background clip's noise must not repeat that of the frames.
 constexpr std::uint64_t kBackgroundFrames = 1'000'000;
 
@@ -144,6 +145,11 @@ Scene make_scene(const SceneOptions& options) {
   if (options.long_sleeves) {
     scene.look.sleeve = 1.97;
   }
+  if (!options.people.empty()) {
+    Random mesh_random(options.seed, kMeshStream);
+    scene.mesh = std::make_shared<const MeshPerson>(
+        read_mesh_person(options.people, random_mesh_look(options.long_sleeves, mesh_random)));
+  }
   Random backdrop_random(options.seed, kBackdropStream);
   scene.backdrop = make_backdrop(scene.camera, scene.look.shirt_index, backdrop_random);
   return scene;
@@ -164,16 +170,13 @@ void move_fingers(double time, std::uint64_t seed, ActorPose& pose) {
 }
 
 // The joints of both hands in every frame, mm.
-nlohmann::ordered_json hands_truth(const Scene& scene) {
+nlohmann::ordered_json hands_truth(const std::vector<PersonTruth>& truths) {
   nlohmann::ordered_json hands{{"joints", kHandJointNames}};
-  const double scale = scene.look.build.hand / kHandKnuckle;
-  for (int frame = 0; frame < scene.options.frames; ++frame) {
-    const ActorKinematics k = scene_kinematics(scene, frame);
+  for (const PersonTruth& truth : truths) {
     for (std::size_t side = 0; side < 2; ++side) {
       nlohmann::ordered_json points;
-      for (const Eigen::Vector3f& joint : hand_joints(hand_shape(k.curl[side]))) {
-        const Eigen::Vector3d mm = 1000.0 * (k.joints[side == 0 ? Joint::l_wrist : Joint::r_wrist] +
-                                             k.camera_from_hand[side] * joint.cast<double>() * scale);
+      for (const Eigen::Vector3d& joint : truth.hands[side]) {
+        const Eigen::Vector3d mm = 1000.0 * joint;
         points.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
       }
       hands[side == 0 ? "left" : "right"].push_back(std::move(points));
@@ -183,10 +186,9 @@ nlohmann::ordered_json hands_truth(const Scene& scene) {
 }
 
 // Camera from head as FaceMotion has it: x to the person's left, y to the chin, z to the back; x, y, z, w.
-nlohmann::ordered_json head_truth(const Scene& scene, int frame) {
+nlohmann::ordered_json head_truth(const PersonTruth& truth) {
   const Eigen::Vector3d head_axes(1.0, -1.0, -1.0);
-  const Eigen::Quaterniond q(
-      Eigen::Matrix3d(scene_kinematics(scene, frame).camera_from_head.linear() * head_axes.asDiagonal()));
+  const Eigen::Quaterniond q(Eigen::Matrix3d(truth.bones.camera_from_head.linear() * head_axes.asDiagonal()));
   nlohmann::ordered_json out;
   for (const double c : {q.x(), q.y(), q.z(), q.w()}) {
     out.push_back(std::round(1e4 * c) / 1e4);
@@ -222,19 +224,42 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
   return actor_kinematics(scene.look.build, pose);
 }
 
+PersonTruth scene_truth(const Scene& scene, int frame) {
+  const ActorKinematics k = scene_kinematics(scene, frame);
+  if (scene.mesh != nullptr) {
+    return pose_mesh(*scene.mesh, k).truth;
+  }
+  PersonTruth truth{k, {points_at_origin(), points_at_origin()}};
+  const double scale = scene.look.build.hand / kHandKnuckle;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto joints = hand_joints(hand_shape(k.curl[side]));
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      truth.hands[side][j] = k.joints[side == 0 ? Joint::l_wrist : Joint::r_wrist] +
+                             k.camera_from_hand[side] * joints[j].cast<double>() * scale;
+    }
+  }
+  return truth;
+}
+
 bool person_is_visible(const Scene& scene, int frame) {
-  const double u = scene.camera.project(scene_kinematics(scene, frame).joints[Joint::neck]).x();
+  const double u = scene.camera.project(scene_truth(scene, frame).bones.joints[Joint::neck]).x();
   return is_present(scene.options, frame) && u >= 0.0 && u < scene.camera.width;
 }
 
 SynthFrame render_frame(const Scene& scene, int frame) {
   const ActorKinematics kinematics = scene_kinematics(scene, frame);
-  const Avatar avatar = make_avatar(scene.look, kinematics);
-  const RenderedImage picture =
-      render_scene(scene.camera, scene.backdrop, is_present(scene.options, frame) ? &avatar : nullptr,
-                   lighting_at(scene.options, frame));
+  const Lighting lighting = lighting_at(scene.options, frame);
+  const bool present = is_present(scene.options, frame);
+  RenderedImage picture;
+  if (scene.mesh != nullptr && present) {
+    picture = render_mesh_scene(scene.camera, scene.backdrop, *scene.mesh, pose_mesh(*scene.mesh, kinematics),
+                                lighting);
+  } else {
+    const Avatar avatar = make_avatar(scene.look, kinematics);
+    picture = render_scene(scene.camera, scene.backdrop, present ? &avatar : nullptr, lighting);
+  }
   return {develop(picture.light, scene.options.sensor, scene.options.seed, static_cast<std::uint64_t>(frame)),
-          picture.surfaces, kinematics.joints};
+          picture.surfaces, scene_truth(scene, frame).bones.joints};
 }
 
 cv::Mat render_background(const Scene& scene, int index) {
@@ -265,7 +290,11 @@ std::string truth_json(const Scene& scene) {
   for (const Joint joint : kTruthOrder) {
     truth["joints"].push_back(name_of(joint));
   }
-  const JointPositions first = scene_kinematics(scene, 0).joints;
+  std::vector<PersonTruth> truths;
+  for (int frame = 0; frame < scene.options.frames; ++frame) {
+    truths.push_back(scene_truth(scene, frame));
+  }
+  const JointPositions& first = truths.front().bones.joints;
   for (const auto& [a, b] : kTruthBones) {
     truth["bone_lengths"][name_of(a) + "-" + name_of(b)] = hundredths((first[a] - first[b]).norm() * 1000.0);
   }
@@ -273,20 +302,20 @@ std::string truth_json(const Scene& scene) {
   truth["note"] = gesture_note(scene.options.gesture);
   truth["positions"] = Json::array();
   for (int frame = 0; frame < scene.options.frames; ++frame) {
-    const JointPositions joints = scene_kinematics(scene, frame).joints;
+    const PersonTruth& person = truths[static_cast<std::size_t>(frame)];
     Json row = Json::array();
     for (const Joint joint : kTruthOrder) {
-      const Eigen::Vector3d mm = joints[joint] * 1000.0;
+      const Eigen::Vector3d mm = person.bones.joints[joint] * 1000.0;
       row.push_back({hundredths(mm.x()), hundredths(mm.y()), hundredths(mm.z())});
     }
     truth["positions"].push_back(std::move(row));
-    truth["head"].push_back(head_truth(scene, frame));
+    truth["head"].push_back(head_truth(person));
     if (scene.options.walk_in) {
       truth["visible"].push_back(person_is_visible(scene, frame));
     }
   }
   if (scene.options.fingers) {
-    truth["hands"] = hands_truth(scene);
+    truth["hands"] = hands_truth(truths);
   }
   return truth.dump();
 }

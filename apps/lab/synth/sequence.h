@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct SceneOptions {
   bool long_sleeves = false;
   bool striped_shirt = false;
   double distance = 0.0;  ///< of the person from the camera, m; 0: as the gesture is staged, about 1.4
+  /// Folder of the meshes of people (read_mesh_person); empty: the person is drawn from smooth solids.
+  std::filesystem::path people;
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
   /// again.
   bool walk_in = false;
@@ -45,17 +48,23 @@ struct Scene {
   Camera camera;
   Look look;
   Backdrop backdrop;
+  std::shared_ptr<const MeshPerson> mesh;  ///< nullptr: the drawn person, `look`
 };
 
 /// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame (fewer than
-/// 120 with walk_in), negative noise, or a distance outside 0.6 to 1.8 m.
+/// 120 with walk_in), negative noise, or a distance outside 0.6 to 1.8 m. Throws Error(input) for people that
+/// cannot be read.
 Scene make_scene(const SceneOptions& options);
 
 /// Whether the neck of the person is inside the image at a frame (0-based).
 bool person_is_visible(const Scene& scene, int frame);
 
-/// The bones at a frame (0-based), camera frame, m.
+/// The bones of the actor at a frame (0-based), camera frame, m.
 ActorKinematics scene_kinematics(const Scene& scene, int frame);
+
+/// Where the joints of the person in the picture are, at a frame: those of the actor, or of the meshes, whose
+/// bones have the actor's directions.
+PersonTruth scene_truth(const Scene& scene, int frame);
 
 /// One frame as the camera would give it, with what each pixel shows and the true joints.
 struct SynthFrame {

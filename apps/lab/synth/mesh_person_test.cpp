@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/synth/mesh_person.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <set>
+
+#include "lab/synth/sequence.h"
+#include "lab/synth/testing_mesh_person.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
+
+namespace telemime {
+namespace {
+
+using Eigen::Vector3d;
+using testing_errors::message_of;
+using testing_errors::names;
+
+struct MeshPersonTest : ::testing::Test {
+  ScratchFolder scratch;
+  TinyPeople people{scratch.path()};
+  MeshPerson person = read_mesh_person(scratch.path(), TinyPeople::look());
+
+  const MeshBone& bone(const std::string& name) const {
+    for (const MeshBone& b : person.bones) {
+      if (b.name == name) {
+        return b;
+      }
+    }
+    throw std::out_of_range(name);
+  }
+  std::string refusal() const {
+    return message_of(ErrorKind::input, [&] { read_mesh_person(scratch.path(), TinyPeople::look()); });
+  }
+};
+
+// Frames of all gestures, by another seed each.
+std::vector<ActorKinematics> poses() {
+  std::vector<ActorKinematics> all;
+  for (std::size_t g = 0; g < kGestureCount; ++g) {
+    for (const int frame : {0, 30, 43, 60, 90, 130}) {
+      all.push_back(actor_kinematics(
+          {}, gesture_pose(static_cast<Gesture>(g), frame, static_cast<std::uint64_t>(frame) + g)));
+    }
+  }
+  return all;
+}
+
+Vector3d between(const JointPositions& joints, Joint from, Joint to) {
+  return joints[to] - joints[from];
+}
+
+constexpr std::array<std::pair<Joint, Joint>, 4> kArmBones = {{{Joint::l_shoulder, Joint::l_elbow},
+                                                               {Joint::l_elbow, Joint::l_wrist},
+                                                               {Joint::r_shoulder, Joint::r_elbow},
+                                                               {Joint::r_elbow, Joint::r_wrist}}};
+
+TEST_F(MeshPersonTest, HasTheLengthsOfItsLook) {
+  const MeshLook look = TinyPeople::look();
+  for (const std::string side : {".L", ".R"}) {
+    const auto length = [&](const std::string& from, const std::string& to) {
+      return (bone(to + side).head - bone(from + side).head).norm();
+    };
+    EXPECT_NEAR(length("upperarm01", "lowerarm01"), look.upper_arm, 2e-3f) << side;
+    EXPECT_NEAR(length("lowerarm01", "wrist"), look.forearm, 4e-3f) << side;
+    EXPECT_NEAR(length("wrist", "finger3-1"), look.hand, 2e-3f) << side;
+  }
+  float low = 0.0f;
+  float high = 0.0f;
+  for (const Eigen::Vector3f& v : person.parts[0].vertices) {
+    low = std::min(low, v.y());
+    high = std::max(high, v.y());
+  }
+  EXPECT_NEAR(high - low, look.stature, 1e-3f);
+}
+
+TEST_F(MeshPersonTest, HidesSkinUnderItsClothes) {
+  const auto shown = [&](const std::string& name) {
+    const auto i = static_cast<std::size_t>(&bone(name) - person.bones.data());
+    std::size_t count = 0;
+    for (const MeshPart::Triangle& t : person.parts[0].triangles) {
+      count += static_cast<std::size_t>(t.vertex[0]) / 4 == i ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(shown("spine04"), 0U);
+  // A triangle and the two of a square; the helper's triangle is not drawn.
+  EXPECT_EQ(shown("neck01"), 3U);
+  EXPECT_EQ(shown("head"), 3U);
+}
+
+TEST_F(MeshPersonTest, SurfacesAreThoseOfHeadAndArms) {
+  for (const MeshPart::Triangle& t : person.parts[0].triangles) {
+    const std::string& name = person.bones[static_cast<std::size_t>(t.vertex[0]) / 4].name;
+    const bool head = name == "head" || name == "jaw" || name == "special03" || name.starts_with("eye") ||
+                      name.starts_with("levator");
+    EXPECT_EQ(t.surface, head ? Surface::head : Surface::arm) << name;
+  }
+}
+
+TEST_F(MeshPersonTest, WeightsOfAVertexSumUpToOne) {
+  for (const MeshPart& part : person.parts) {
+    for (const Eigen::Vector4f& weights : part.weights) {
+      EXPECT_NEAR(weights.sum(), 1.0f, 1e-5f);
+      EXPECT_GE(weights.minCoeff(), 0.0f);
+    }
+  }
+}
+
+TEST_F(MeshPersonTest, BonesHaveTheActorsDirections) {
+  for (const ActorKinematics& actor : poses()) {
+    const PersonTruth truth = pose_mesh(person, actor).truth;
+    for (const auto& [from, to] : kArmBones) {
+      const Vector3d wanted = between(actor.joints, from, to).normalized();
+      EXPECT_LT((between(truth.bones.joints, from, to).normalized() - wanted).norm(), 0.02);
+    }
+    EXPECT_LT((mid_shoulders(truth.bones.joints) - mid_shoulders(actor.joints)).norm(), 1e-6);
+  }
+}
+
+TEST_F(MeshPersonTest, FingersHaveTheActorsDirections) {
+  for (const ActorKinematics& actor : poses()) {
+    const PersonTruth truth = pose_mesh(person, actor).truth;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto shape = hand_joints(hand_shape(actor.curl[side]));
+      const auto along = [&](std::size_t j) -> Vector3d {
+        return actor.camera_from_hand[side] * (shape[j + 1] - shape[j]).cast<double>();
+      };
+      for (std::size_t j = hand_joint(1, 0); j + 1 < kHandJointCount; ++j) {
+        if (j % 4 != 0) {
+          const Vector3d is = truth.hands[side][j + 1] - truth.hands[side][j];
+          EXPECT_LT((is.normalized() - along(j).normalized()).norm(), 1e-4) << kHandJointNames[j];
+        }
+      }
+      // The palm, too, on either side.
+      const Vector3d middle = truth.hands[side][hand_joint(2, 0)] - truth.hands[side][0];
+      const Vector3d wanted = actor.camera_from_hand[side] * shape[hand_joint(2, 0)].cast<double>();
+      EXPECT_GT(middle.normalized().dot(wanted.normalized()), 0.99);
+      const Vector3d across = truth.hands[side][hand_joint(1, 0)] - truth.hands[side][hand_joint(4, 0)];
+      EXPECT_GT(across.normalized().dot(actor.camera_from_hand[side].col(0)), 0.9);
+    }
+  }
+}
+
+TEST_F(MeshPersonTest, BonesKeepTheirLengths) {
+  const PersonTruth first = pose_mesh(person, poses().front()).truth;
+  for (const ActorKinematics& actor : poses()) {
+    const PersonTruth truth = pose_mesh(person, actor).truth;
+    for (const auto& [from, to] : kArmBones) {
+      EXPECT_NEAR(between(truth.bones.joints, from, to).norm(), between(first.bones.joints, from, to).norm(),
+                  5e-3);
+    }
+    for (std::size_t j = hand_joint(1, 1); j + 1 < kHandJointCount; ++j) {
+      if (j % 4 != 0) {
+        EXPECT_NEAR((truth.hands[1][j + 1] - truth.hands[1][j]).norm(),
+                    (first.hands[1][j + 1] - first.hands[1][j]).norm(), 1e-4);
+      }
+    }
+  }
+}
+
+TEST_F(MeshPersonTest, SkinGoesWithItsBone) {
+  for (const ActorKinematics& actor : poses()) {
+    const PosedMesh posed = pose_mesh(person, actor);
+    const auto i = static_cast<std::size_t>(&bone("wrist.R") - person.bones.data());
+    const Eigen::Vector3f at_rest = person.parts[0].vertices[4 * i + 2] - bone("wrist.R").head;
+    const Vector3d now = posed.vertices[0][4 * i + 2].cast<double>() - posed.truth.hands[1][0];
+    EXPECT_NEAR(now.norm(), at_rest.norm(), 1e-4);
+    // A vertex at the joint is there in every pose.
+    EXPECT_LT((posed.vertices[0][4 * i].cast<double>() - posed.truth.hands[1][0]).norm(), 1e-4);
+  }
+}
+
+TEST_F(MeshPersonTest, HeadTurnsWithTheActors) {
+  ActorPose pose;
+  pose.look = 0.8;
+  const ActorKinematics actor = actor_kinematics({}, pose);
+  const PosedMesh posed = pose_mesh(person, actor);
+  const auto i = static_cast<std::size_t>(&bone("jaw") - person.bones.data());
+  const Vector3d chin = posed.vertices[0][4 * i + 1].cast<double>() - posed.truth.bones.joints[Joint::head];
+  const Vector3d at_rest = (bone("jaw").tail - bone("head").head).cast<double>();
+  EXPECT_LT((chin - actor.camera_from_head.linear() * at_rest).norm(), 1e-4);
+}
+
+TEST_F(MeshPersonTest, TheTurnOfTheHeadIsThatOfItsFace) {
+  // A face that is turned at rest has the same place on the head, and the truth another turn.
+  const ActorKinematics actor = actor_kinematics({}, {});
+  const Eigen::Matrix3d straight = pose_mesh(person, actor).truth.bones.camera_from_head.linear();
+  EXPECT_NEAR(straight.determinant(), 1.0, 1e-5);
+  MeshLook look = TinyPeople::look();
+  look.targets.emplace_back("turned", 1.0f);
+  const MeshPerson turned = read_mesh_person(scratch.path(), look);
+  const Eigen::AngleAxisd turn(
+      Eigen::Matrix3d(straight.transpose() * pose_mesh(turned, actor).truth.bones.camera_from_head.linear()));
+  EXPECT_NEAR(turn.angle(), 0.2, 0.02);
+  EXPECT_LT(turn.axis().dot(Eigen::Vector3d::UnitX()), -0.99);
+}
+
+struct MeshSceneTest : MeshPersonTest {
+  SceneOptions options = [this] {
+    SceneOptions o;
+    o.width = 160;
+    o.height = 120;
+    o.seed = 3;
+    return o;
+  }();
+  Scene scene() const {
+    Scene made = make_scene(options);
+    made.mesh = std::make_shared<const MeshPerson>(person);
+    return made;
+  }
+};
+
+TEST_F(MeshSceneTest, ThePictureIsTheSameForAnyNumberOfThreads) {
+  const Scene made = scene();
+  SynthFrame one, many;
+  tbb::task_arena(1).execute([&] { one = render_frame(made, 43); });
+  tbb::task_arena(2).execute([&] { many = render_frame(made, 43); });
+  EXPECT_EQ(cv::norm(one.image, many.image, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(one.surfaces, many.surfaces, cv::NORM_INF), 0.0);
+}
+
+TEST_F(MeshSceneTest, JointsAreWhereThePictureShowsThem) {
+  const Scene made = scene();
+  const SynthFrame frame = render_frame(made, 43);
+  // Each bone has a tetrahedron: near the middle of a forearm there is skin, above the head there is none.
+  const JointPositions& joints = frame.joints;
+  const auto surface = [&](const Vector3d& at) {
+    const Eigen::Vector2d pixel = made.camera.project(at);
+    return static_cast<Surface>(frame.surfaces.at<std::uint8_t>(cvRound(pixel.y()), cvRound(pixel.x())));
+  };
+  const auto i = static_cast<std::size_t>(&bone("lowerarm01.L") - person.bones.data());
+  const PosedMesh posed = pose_mesh(person, scene_kinematics(made, 43));
+  const Eigen::Vector3f middle =
+      (posed.vertices[0][4 * i] + posed.vertices[0][4 * i + 1] + posed.vertices[0][4 * i + 2]) / 3.0f;
+  EXPECT_EQ(surface(middle.cast<double>()), Surface::arm);
+  EXPECT_EQ(surface(joints[Joint::head_top] - Vector3d(0.0, 0.1, 0.0)), Surface::background);
+  EXPECT_NE(joints[Joint::l_wrist], scene_kinematics(made, 43).joints[Joint::l_wrist]);
+}
+
+TEST_F(MeshSceneTest, TheNearerSurfaceIsSeen) {
+  // Something before the chest hides the clothes.
+  Scene made = scene();
+  const auto shirt_pixels = [&] {
+    return cv::countNonZero(render_frame(made, 0).surfaces == static_cast<int>(Surface::shirt));
+  };
+  const int with = shirt_pixels();
+  EXPECT_GT(with, 10);
+  MeshPerson nearer = person;
+  MeshPart wall = nearer.parts[1];
+  for (Eigen::Vector3f& v : wall.vertices) {
+    v.z() += 0.2f;
+    v.x() *= 3.0f;
+  }
+  for (MeshPart::Triangle& t : wall.triangles) {
+    t.surface = Surface::trousers;
+  }
+  nearer.parts.push_back(wall);
+  made.mesh = std::make_shared<const MeshPerson>(nearer);
+  EXPECT_LT(shirt_pixels(), with / 2);
+}
+
+TEST_F(MeshSceneTest, ClearHairShowsWhatIsBehindIt) {
+  Scene made = scene();
+  const cv::Mat with = render_frame(made, 0).image;
+  MeshPerson bald = person;
+  bald.parts.pop_back();
+  MeshPerson clear = person;
+  ASSERT_TRUE(clear.parts.back().transparent);
+  clear.parts.back().texture = clear.parts.back().texture.clone();
+  clear.parts.back().texture.forEach<cv::Vec4f>([](cv::Vec4f& c, const int*) { c[3] = 0.0f; });
+  made.mesh = std::make_shared<const MeshPerson>(bald);
+  const SynthFrame without = render_frame(made, 0);
+  made.mesh = std::make_shared<const MeshPerson>(clear);
+  const SynthFrame through = render_frame(made, 0);
+  EXPECT_EQ(cv::norm(without.surfaces, through.surfaces, cv::NORM_INF), 0.0);
+  EXPECT_GT(cv::norm(with, through.image, cv::NORM_INF), 20.0);
+}
+
+TEST_F(MeshSceneTest, TheTruthIsThatOfThePicture) {
+  const Scene made = scene();
+  Scene short_clip = made;
+  short_clip.options.frames = 2;
+  short_clip.options.fingers = true;
+  const auto truth = nlohmann::json::parse(truth_json(short_clip));
+  const PersonTruth person_truth = scene_truth(short_clip, 1);
+  for (std::size_t j = 0; j < truth["joints"].size(); ++j) {
+    if (truth["joints"][j] == "r_wrist") {
+      EXPECT_NEAR(truth["positions"][1][j][0].get<double>(),
+                  1000.0 * person_truth.bones.joints[Joint::r_wrist].x(), 0.01);
+    }
+  }
+  EXPECT_NEAR(truth["hands"]["left"][1][20][2].get<double>(), 1000.0 * person_truth.hands[0][20].z(), 0.01);
+}
+
+TEST(MeshLook, DiffersByTheSeed) {
+  std::set<std::string> worn;
+  std::set<std::string> skins;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    const MeshLook look = random_mesh_look(seed % 2 == 0, random);
+    worn.insert(look.clothes);
+    skins.insert(look.skin);
+    EXPECT_GT(look.stature, 1.35f);
+    EXPECT_LT(look.stature, 2.0f);
+    EXPECT_NEAR(look.upper_arm / look.stature, 0.16f, 0.02f);
+  }
+  EXPECT_GE(worn.size(), 8U);
+  EXPECT_GE(skins.size(), 8U);
+}
+
+TEST_F(MeshPersonTest, AMissingOrDamagedFileIsNamed) {
+  const std::string base = "public/data/models/human_full_size.json";
+  const auto whole = people.read_json(base);
+  const auto spoilt = [&](const std::string& file, const nlohmann::json& json) {
+    const nlohmann::json kept = people.read_json(file);
+    people.write_json(file, json);
+    const std::string message = refusal();
+    people.write_json(file, kept);
+    return message;
+  };
+  auto changed = whole;
+  changed["faces"][1] = 100000;
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  changed = whole;
+  changed["faces"][0] = 64;
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  changed = whole;
+  changed["skinIndices"][0] = 9999;
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  changed = whole;
+  changed["skinWeights"].erase(changed["skinWeights"].size() - 1);
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  changed = whole;
+  changed["bones"][0]["parent"] = 77;
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  EXPECT_TRUE(names(spoilt(base, {{"vertices", "none"}}), "human_full_size.json"));
+  EXPECT_TRUE(names(spoilt("public/data/proxies/hair/wig/wig.json", nlohmann::json::array()), "wig.json"));
+  EXPECT_TRUE(names(spoilt("src/json/targets/target-list.json", {{"targets", {{"other", {}}}}}), "slim"));
+
+  const std::filesystem::path targets = scratch.path() / "public/data/targets/targets.bin";
+  std::filesystem::resize_file(targets, 100);
+  EXPECT_TRUE(names(refusal(), "targets.bin"));
+  std::filesystem::remove(scratch.path() / "public/data/skins/pale/pale.png");
+  EXPECT_TRUE(names(message_of(ErrorKind::input,
+                               [&] {
+                                 const TinyPeople again(scratch.path() / "again");
+                                 std::filesystem::remove(scratch.path() /
+                                                         "again/public/data/skins/pale/pale.png");
+                                 read_mesh_person(scratch.path() / "again", TinyPeople::look());
+                               }),
+                    "pale.png"));
+  EXPECT_TRUE(names(message_of(ErrorKind::input, [&] { read_mesh_person("/nowhere", TinyPeople::look()); }),
+                    "people.sh"));
+}
+
+}  // namespace
+}  // namespace telemime
