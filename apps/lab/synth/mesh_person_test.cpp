@@ -320,7 +320,7 @@ TEST_F(MeshPersonTest, AMissingOrDamagedFileIsNamed) {
   const auto spoilt = [&](const std::string& file, const nlohmann::json& json) {
     const nlohmann::json kept = people.read_json(file);
     people.write_json(file, json);
-    const std::string message = refusal();
+    std::string message = refusal();
     people.write_json(file, kept);
     return message;
   };

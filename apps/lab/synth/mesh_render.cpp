@@ -80,7 +80,7 @@ class ShadowMap {
           depth[static_cast<Eigen::Index>(k)] = at.z();
         }
         each_sample(corners, kSize, 0, kSize, [&](int x, int y, const Vector3f& shares) {
-          float& nearest = first_.at<float>(y, x);
+          auto& nearest = first_.at<float>(y, x);
           nearest = std::min(nearest, shares.dot(depth));
         });
       }

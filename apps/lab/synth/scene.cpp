@@ -291,6 +291,7 @@ std::string truth_json(const Scene& scene) {
     truth["joints"].push_back(name_of(joint));
   }
   std::vector<PersonTruth> truths;
+  truths.reserve(static_cast<std::size_t>(scene.options.frames));
   for (int frame = 0; frame < scene.options.frames; ++frame) {
     truths.push_back(scene_truth(scene, frame));
   }
