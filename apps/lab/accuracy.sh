@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes the clips of docs/accuracy.md, tracks each with several seeds, and prints
 # the table. Usage: [BUILD=build/release] [SEEDS="1 2 3"] [OPTIONS="--cues regions,contours"] apps/lab/accuracy.sh [FOLDER]
+# With PEOPLE, the folder that apps/lab/people.sh prints, the clips are of people of meshes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build="${BUILD:-build/release}"

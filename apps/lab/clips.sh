@@ -16,7 +16,6 @@ clips=(
   "close_webcam talking --seed 39 --distance 0.75 --background-frames 0"
 )
 
-
 # With PEOPLE, the folder that people.sh prints, clips of people of meshes instead.
 common=(--size 320x240 --no-small --quiet)
 if [[ -n "${PEOPLE:-}" ]]; then

@@ -120,7 +120,7 @@ void add_landmarks_command_of(CLI::App& learn) {
       "landmarks", "Where networks see the landmarks of the model, and how well, from synthetic clips");
   command->add_option("--models", arguments->models, "folder of the networks [those of the program]");
   command->add_option("--people", arguments->people,
-                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh fetched");
+                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh prints");
   command->add_option("--seed", arguments->seed, "of the first clip")->capture_default_str();
   command->add_option("--clips", arguments->clips, "number of clips, each of another person")
       ->capture_default_str()

@@ -95,7 +95,7 @@ void add_synth_command(CLI::App& app) {
       "clip");
   command->add_flag("--fingers", scene.fingers, "the fingers move; truth.json has their joints");
   command->add_option("--people", scene.people,
-                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh fetched");
+                      "people of meshes instead of drawn ones; the folder that apps/lab/people.sh prints");
   command->add_flag("--walk-in", scene.walk_in,
                     "the person walks in and out of an empty scene (120 frames or more)");
   command->add_flag("--no-small{false}", sequence.small_videos, "without the lossless 160-pixel copies");

@@ -45,7 +45,6 @@ MeshLook random_mesh_look(bool long_sleeves, Random& random) {
                               share * std::abs(build));
   }
   look.tall = joined({"macrodetails/height/", sex, "-young-", muscle, "-averageweight-maxheight"});
-  // Means and spreads of statures: NCD-RisC, eLife 5, e13410, 2016, adults born in 1996, rounded.
   look.stature = static_cast<float>(woman ? random.normal(1.62, 0.06) : random.normal(1.74, 0.07));
   const auto share_of_stature = [&](double share) {
     return look.stature * static_cast<float>(share * random.normal(1.0, 0.03));

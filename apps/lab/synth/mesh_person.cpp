@@ -2,6 +2,7 @@
 #include "lab/synth/mesh_person.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -17,7 +18,7 @@ namespace mesh_files {
 
 void refuse(const std::filesystem::path& file, const std::string& reason) {
   throw Error(ErrorKind::input, file.string() + " cannot be used: " + reason,
-              "Fetch the people again: apps/lab/people.sh DIR.");
+              "Give the folder that apps/lab/people.sh prints; delete it first to fetch it again.");
 }
 
 nlohmann::json read_json(const std::filesystem::path& file) {
@@ -42,6 +43,8 @@ using mesh_files::kUnit;
 using mesh_files::refuse;
 using mesh_files::with_file;
 
+constexpr float kMostTexel = 100.0f;
+
 // The triangles of a mesh in the format of three.js version 3, whose faces have a bit field each: 1 four
 // corners, 2 a material, 8 texels. Faces of other materials than `material` are left out; -1: none is.
 std::vector<MeshPart::Triangle> read_triangles(const Json& mesh, int material) {
@@ -63,7 +66,7 @@ std::vector<MeshPart::Triangle> read_triangles(const Json& mesh, int material) {
       four(t);
     }
     if ((kind & ~11) != 0) {
-      throw std::out_of_range("kind of face");
+      throw std::out_of_range("a face is of an unknown kind");
     }
     if (material >= 0 && of != material) {
       continue;
@@ -81,6 +84,9 @@ MeshPart read_part(const Json& mesh, int material, std::size_t vertices, std::si
   part.triangles = read_triangles(mesh, material);
   const std::vector<float> uv = mesh.at("uvs").at(0).get<std::vector<float>>();
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) {
+    if (!(std::abs(uv[i]) < kMostTexel && std::abs(uv[i + 1]) < kMostTexel)) {
+      throw std::out_of_range("a texel lies far outside its picture");
+    }
     part.texels.emplace_back(uv[i], uv[i + 1]);
   }
   const std::size_t most = mesh.at("influencesPerVertex").get<std::size_t>();
@@ -92,19 +98,20 @@ MeshPart read_part(const Json& mesh, int material, std::size_t vertices, std::si
     for (std::size_t k = 0; k < std::min<std::size_t>(most, 4); ++k) {
       part.weights[v][static_cast<Eigen::Index>(k)] = weights.at(v * most + k);
       // Every bone is two nodes there: its head, which moves the vertices, and its tail.
-      part.bones[v][k] = indices.at(v * most + k) / 2;
+      const int node = indices.at(v * most + k);
+      if (node < 0 || node / 2 >= static_cast<int>(bones) || !(weights[v * most + k] >= 0.0f)) {
+        throw std::out_of_range("a vertex follows a bone that there is not");
+      }
+      part.bones[v][k] = node / 2;
     }
     const float sum = part.weights[v].sum();
     part.weights[v] = sum > 0.0f ? Eigen::Vector4f(part.weights[v] / sum) : Eigen::Vector4f::UnitX();
-    if (*std::max_element(part.bones[v].begin(), part.bones[v].end()) >= static_cast<int>(bones)) {
-      throw std::out_of_range("bone");
-    }
   }
   for (const MeshPart::Triangle& t : part.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (t.vertex[k] < 0 || t.texel[k] < 0 || static_cast<std::size_t>(t.vertex[k]) >= vertices ||
           static_cast<std::size_t>(t.texel[k]) >= part.texels.size()) {
-        throw std::out_of_range("corner");
+        throw std::out_of_range("a triangle has a corner that there is not");
       }
     }
   }
@@ -112,7 +119,12 @@ MeshPart read_part(const Json& mesh, int material, std::size_t vertices, std::si
 }
 // Linear light with the gamma of 2 that the renderer uses.
 cv::Mat read_texture(const fs::path& file) {
-  cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  cv::Mat image;
+  try {
+    image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {
+    refuse(file, error.err);
+  }
   if (image.empty() || image.depth() != CV_8U) {
     refuse(file, "it is not a picture of 8 bits");
   }
@@ -166,6 +178,16 @@ Surface surface_of(const MeshPart& part, const MeshPart::Triangle& triangle,
 
 }  // namespace
 
+std::vector<bool> bones_of_head(const std::vector<MeshBone>& bones) {
+  std::vector<bool> of_head;
+  of_head.reserve(bones.size());
+  for (const MeshBone& bone : bones) {
+    of_head.push_back(bone.name == "head" ||
+                      (bone.parent >= 0 && of_head[static_cast<std::size_t>(bone.parent)]));
+  }
+  return of_head;
+}
+
 MeshPerson read_mesh_person(const fs::path& folder, const MeshLook& look) {
   const fs::path data = folder / "public/data";
   MeshPerson person;
@@ -177,6 +199,9 @@ MeshPerson read_mesh_person(const fs::path& folder, const MeshLook& look) {
     const auto material = std::find_if(materials.begin(), materials.end(), [](const Json& each) {
       return each.at("DbgName").get<std::string>() == "body";
     });
+    if (material == materials.end()) {
+      throw std::out_of_range("it has no material called body");
+    }
     const auto of_body = static_cast<int>(std::distance(materials.begin(), material));
     std::vector<Vector3f> vertices = mesh_files::shaped(folder, look, mesh, read_triangles(mesh, of_body));
     person.bones = mesh_files::read_bones(mesh, vertices);
@@ -184,18 +209,13 @@ MeshPerson read_mesh_person(const fs::path& folder, const MeshLook& look) {
     body.vertices = std::move(vertices);
     mesh_files::move_knuckles(body, person.bones);
     person.rest_from_face = mesh_files::turn_of_face(person.bones);
-    return 0;
   });
 
   const fs::path skin = data / "skins" / look.skin;
   body.texture = with_file(skin / (look.skin + ".json"), [&](const Json& json) {
     return read_texture(skin / json.at("mapDiffuse").get<std::string>());
   });
-  std::vector<bool> of_head;
-  for (const MeshBone& bone : person.bones) {
-    of_head.push_back(bone.name == "head" ||
-                      (bone.parent >= 0 && of_head[static_cast<std::size_t>(bone.parent)]));
-  }
+  const std::vector<bool> of_head = bones_of_head(person.bones);
   for (MeshPart::Triangle& triangle : body.triangles) {
     triangle.surface = surface_of(body, triangle, of_head);
   }
@@ -211,7 +231,7 @@ MeshPerson read_mesh_person(const fs::path& folder, const MeshLook& look) {
   for (const Worn& worn :
        {Worn{"clothes", look.clothes, "", Surface::shirt, false},
         Worn{"eyes", "Low-Poly", "textures/" + look.eyes + "_eye.png", Surface::head, false},
-        Worn{"eyebrows", "Eyebrows_01", "", Surface::head, true},
+        Worn{"eyebrows", "eyebrow001", "", Surface::head, true},
         Worn{"hair", look.hair, "", Surface::hair, true}}) {
     MeshPart part = read_worn(data / "proxies" / worn.kind / worn.name, worn.name, worn.texture,
                               body.vertices, person.bones.size(), hidden);

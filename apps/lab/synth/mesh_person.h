@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lab/synth/actor.h"
@@ -36,11 +37,12 @@ struct MeshLook {
 
 /// Draws a look: woman or man, of one of three origins, young to old, slim to heavy, small to tall, with
 /// hair and clothes. The lengths of the arms are shares of the stature (de Leva, J. Biomechanics 29, 1996,
-/// table 4; 3 % spread), because those of the meshes are up to a tenth shorter. `long_sleeves` chooses
+/// table 4; 3 % spread), because those of the meshes are up to 13 % shorter. `long_sleeves` chooses
 /// clothes with sleeves to the wrist, else to the upper arm.
 MeshLook random_mesh_look(bool long_sleeves, Random& random);
 
-/// A bone at rest. Metres, body axes: x to the person's own left, y up, z forward.
+/// A bone at rest. Metres, body axes: x to the person's own left, y up, z forward; the origin is where the
+/// meshes have it, in the middle of the body.
 struct MeshBone {
   std::string name;  ///< for instance upperarm01.L
   int parent = -1;   ///< index of a bone before this one; -1: none
@@ -61,7 +63,7 @@ struct MeshPart {
   std::vector<Eigen::Vector2f> texels;   ///< x to the right, y up, [0, 1]
   std::vector<Triangle> triangles;
   cv::Mat texture;           ///< CV_32FC4: linear light, BGR, and opacity
-  bool transparent = false;  ///< hair: drawn last and blended
+  bool transparent = false;  ///< hair and brows: drawn last and blended
 };
 
 /// A person of meshes at rest; a constant value.
@@ -88,6 +90,12 @@ struct PosedMesh {
   std::vector<std::vector<Eigen::Vector3f>> vertices;  ///< of each part, camera frame, m
   PersonTruth truth;
 };
+
+/// The bones that belong to the head: it and all that hang on it.
+std::vector<bool> bones_of_head(const std::vector<MeshBone>& bones);
+
+/// The truth of pose_mesh() alone, in less time.
+PersonTruth mesh_truth(const MeshPerson& person, const ActorKinematics& actor);
 
 /// Gives the person the directions of the actor's bones; the lengths stay those of the person. The middle of
 /// the shoulders is where the actor's is.

@@ -240,7 +240,7 @@ TEST_F(MeshSceneTest, JointsAreWhereThePictureShowsThem) {
       (posed.vertices[0][4 * i] + posed.vertices[0][4 * i + 1] + posed.vertices[0][4 * i + 2]) / 3.0f;
   EXPECT_EQ(surface(middle.cast<double>()), Surface::arm);
   EXPECT_EQ(surface(joints[Joint::head_top] - Vector3d(0.0, 0.1, 0.0)), Surface::background);
-  EXPECT_NE(joints[Joint::l_wrist], scene_kinematics(made, 43).joints[Joint::l_wrist]);
+  EXPECT_EQ(joints[Joint::l_wrist], scene_truth(made, 43).bones.joints[Joint::l_wrist]);
 }
 
 TEST_F(MeshSceneTest, TheNearerSurfaceIsSeen) {
@@ -279,23 +279,92 @@ TEST_F(MeshSceneTest, ClearHairShowsWhatIsBehindIt) {
   made.mesh = std::make_shared<const MeshPerson>(clear);
   const SynthFrame through = render_frame(made, 0);
   EXPECT_EQ(cv::norm(without.surfaces, through.surfaces, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(without.image, through.image, cv::NORM_INF), 0.0) << "clear hair casts a shadow";
   EXPECT_GT(cv::norm(with, through.image, cv::NORM_INF), 20.0);
 }
 
-TEST_F(MeshSceneTest, TheTruthIsThatOfThePicture) {
+TEST_F(MeshSceneTest, TheFileHasTheTruthOfTheMeshes) {
   const Scene made = scene();
   Scene short_clip = made;
   short_clip.options.frames = 2;
   short_clip.options.fingers = true;
   const auto truth = nlohmann::json::parse(truth_json(short_clip));
   const PersonTruth person_truth = scene_truth(short_clip, 1);
+  int found = 0;
   for (std::size_t j = 0; j < truth["joints"].size(); ++j) {
     if (truth["joints"][j] == "r_wrist") {
+      ++found;
       EXPECT_NEAR(truth["positions"][1][j][0].get<double>(),
                   1000.0 * person_truth.bones.joints[Joint::r_wrist].x(), 0.01);
     }
   }
+  EXPECT_EQ(found, 1);
   EXPECT_NEAR(truth["hands"]["left"][1][20][2].get<double>(), 1000.0 * person_truth.hands[0][20].z(), 0.01);
+}
+
+TEST_F(MeshSceneTest, HalfClearHairIsMixedWithWhatIsBehindIt) {
+  Scene made = scene();
+  const auto drawn = [&](float opacity) {
+    MeshPerson changed = person;
+    cv::Mat& texture = changed.parts.back().texture;
+    texture = texture.clone();
+    texture.forEach<cv::Vec4f>([&](cv::Vec4f& c, const int*) { c = {1.0f, 1.0f, 1.0f, opacity}; });
+    made.mesh = std::make_shared<const MeshPerson>(changed);
+    made.options.sensor = {.noise = 0.0, .flicker = 0.0};
+    return cv::sum(render_frame(made, 0).image)[0];
+  };
+  // White hair brightens the picture the more, the more it hides.
+  EXPECT_GT(drawn(0.5f), drawn(0.0f) + 100.0);
+  EXPECT_GT(drawn(1.0f), drawn(0.5f) + 100.0);
+}
+
+TEST_F(MeshPersonTest, SkinBetweenTwoBonesLiesBetweenThem) {
+  // A vertex that moves with the upper arm and the forearm is the mean of where each would take it.
+  const auto elbow = static_cast<std::size_t>(&bone("lowerarm01.R") - person.bones.data());
+  const auto upper = static_cast<std::size_t>(&bone("upperarm02.R") - person.bones.data());
+  const std::size_t v = 4 * elbow + 2;
+  const ActorKinematics actor = poses()[2];
+  const auto moved = [&](const Eigen::Vector4f& weights) {
+    person.parts[0].bones[v] = {static_cast<int>(elbow), static_cast<int>(upper), 0, 0};
+    person.parts[0].weights[v] = weights;
+    return pose_mesh(person, actor).vertices[0][v];
+  };
+  const Eigen::Vector3f one = moved(Eigen::Vector4f::UnitX());
+  const Eigen::Vector3f other = moved(Eigen::Vector4f::UnitY());
+  EXPECT_GT((one - other).norm(), 0.001f);
+  EXPECT_LT((moved({0.25f, 0.75f, 0.0f, 0.0f}) - (0.25f * one + 0.75f * other)).norm(), 1e-5f);
+}
+
+TEST_F(MeshPersonTest, SkinBehindTheKnuckleMovesWithTheFinger) {
+  // What the meshes give to the palm, but lies beyond the knuckle of people, belongs to the finger.
+  const auto palm = static_cast<std::size_t>(&bone("metacarpal2.L") - person.bones.data());
+  const auto finger = static_cast<int>(&bone("finger3-1.L") - person.bones.data());
+  const auto share_of_finger = [&](std::size_t v) {
+    float share = 0.0f;
+    for (std::size_t k = 0; k < 4; ++k) {
+      share += person.parts[0].bones[v][k] == finger
+                   ? person.parts[0].weights[v][static_cast<Eigen::Index>(k)]
+                   : 0.0f;
+    }
+    return share;
+  };
+  EXPECT_EQ(share_of_finger(4 * palm), 0.0f) << "at the wrist";
+  EXPECT_GT(share_of_finger(4 * palm + 1), 0.9f) << "at the knuckle of the meshes";
+}
+
+TEST(MeshLook, LongSleevesAreOtherClothes) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random one(seed);
+    Random other(seed);
+    EXPECT_NE(random_mesh_look(true, one).clothes, random_mesh_look(false, other).clothes);
+  }
+}
+
+TEST(MeshScene, StripesAreRefused) {
+  SceneOptions options;
+  options.people = "people";
+  options.striped_shirt = true;
+  EXPECT_TRUE(names(message_of(ErrorKind::usage, [&] { make_scene(options); }), "--striped"));
 }
 
 TEST(MeshLook, DiffersByTheSeed) {
@@ -334,6 +403,20 @@ TEST_F(MeshPersonTest, AMissingOrDamagedFileIsNamed) {
   changed["skinIndices"][0] = 9999;
   EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
   changed = whole;
+  changed["skinIndices"][0] = -2;
+  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  changed = whole;
+  changed["materials"][1]["DbgName"] = "skin";
+  EXPECT_TRUE(names(spoilt(base, changed), "called body"));
+  changed = whole;
+  changed["bones"][1]["name"] = "finger7-1.L";
+  changed["metadata"]["joint_pos_idxs"]["finger7-1.L____head"] = {0};
+  changed["metadata"]["joint_pos_idxs"]["finger7-1.L____tail"] = {1};
+  EXPECT_TRUE(names(spoilt(base, changed), "number of bones"));
+  changed = whole;
+  changed["metadata"]["joint_pos_idxs"]["wrist.L____head"] = nlohmann::json::array();
+  EXPECT_TRUE(names(spoilt(base, changed), "wrist.L____head is nowhere"));
+  changed = whole;
   changed["skinWeights"].erase(changed["skinWeights"].size() - 1);
   EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
   changed = whole;
@@ -341,12 +424,20 @@ TEST_F(MeshPersonTest, AMissingOrDamagedFileIsNamed) {
   EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
   EXPECT_TRUE(names(spoilt(base, {{"vertices", "none"}}), "human_full_size.json"));
   EXPECT_TRUE(names(spoilt("public/data/proxies/hair/wig/wig.json", nlohmann::json::array()), "wig.json"));
-  EXPECT_TRUE(names(spoilt("src/json/targets/target-list.json", {{"targets", {{"other", {}}}}}), "slim"));
+  const std::string shapes = "src/json/targets/target-list.json";
+  auto listed = people.read_json(shapes);
+  listed["targets"]["data/targets/slimmer.target"] = listed["targets"]["data/targets/slim.target"];
+  listed["targets"].erase("data/targets/slim.target");
+  EXPECT_TRUE(names(spoilt(shapes, listed), "slim"));
+  listed["targets"].erase("data/targets/slimmer.target");
+  EXPECT_TRUE(names(spoilt(shapes, listed), "targets.bin"));
+  MeshLook giant = TinyPeople::look();
+  giant.tall = "slim";
+  EXPECT_TRUE(names(message_of(ErrorKind::input, [&] { read_mesh_person(scratch.path(), giant); }), "slim"));
 
   const std::filesystem::path targets = scratch.path() / "public/data/targets/targets.bin";
   std::filesystem::resize_file(targets, 100);
   EXPECT_TRUE(names(refusal(), "targets.bin"));
-  std::filesystem::remove(scratch.path() / "public/data/skins/pale/pale.png");
   EXPECT_TRUE(names(message_of(ErrorKind::input,
                                [&] {
                                  const TinyPeople again(scratch.path() / "again");

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "lab/synth/mesh_person.h"
-#include "telemime/core/errors.h"
 
 namespace telemime {
 namespace {
@@ -53,45 +52,50 @@ class Poser {
     }
   }
 
+  PersonTruth truth() const {
+    const Bones bones = turned();
+    return truth(bones);
+  }
+
   PosedMesh pose() const {
-    // Every bone carries those that hang on it.
-    const std::size_t count = person_.bones.size();
-    std::vector<Quaterniond> turns(count);
-    std::vector<Vector3d> heads(count);
-    std::vector<bool> of_head(count, false);
-    for (std::size_t i = 0; i < count; ++i) {
-      const MeshBone& bone = person_.bones[i];
-      const auto parent = static_cast<std::size_t>(std::max(bone.parent, 0));
-      of_head[i] = bone.name == "head" || (bone.parent >= 0 && of_head[parent]);
-      turns[i] = of_head[i] ? head_ : turn_of(bone.name);
-      const Vector3d head = bone.head.cast<double>();
-      heads[i] =
-          bone.parent < 0
-              ? head
-              : Vector3d(heads[parent] + turns[parent] * (head - person_.bones[parent].head.cast<double>()));
-    }
-    const auto at = [&](const std::string& name) { return heads[bone(name)]; };
-    const Vector3d shift = mid_shoulders(actor_.joints) - 0.5 * (at("upperarm01.L") + at("upperarm01.R"));
-    for (Vector3d& head : heads) {
-      head += shift;
-    }
-    PosedMesh posed;
-    posed.truth = truth(turns, heads);
+    const Bones bones = turned();
+    PosedMesh posed{.vertices = {}, .truth = truth(bones)};
     for (const MeshPart& part : person_.parts) {
-      posed.vertices.push_back(skin(part, turns, heads));
+      posed.vertices.push_back(skin(part, bones));
     }
     return posed;
   }
 
  private:
-  std::size_t bone(const std::string& name) const {
-    const auto found = index_.find(name);
-    if (found == index_.end()) {
-      throw Error(ErrorKind::input, "the mesh person has no bone " + name,
-                  "Fetch the people again: apps/lab/people.sh DIR.");
+  // Turn and head of each bone.
+  struct Bones {
+    std::vector<Quaterniond> turns;
+    std::vector<Vector3d> heads;
+  };
+
+  // Every bone carries those that hang on it.
+  Bones turned() const {
+    const std::size_t count = person_.bones.size();
+    Bones bones{std::vector<Quaterniond>(count), std::vector<Vector3d>(count)};
+    const std::vector<bool> head = bones_of_head(person_.bones);
+    for (std::size_t i = 0; i < count; ++i) {
+      const MeshBone& bone = person_.bones[i];
+      const auto parent = static_cast<std::size_t>(std::max(bone.parent, 0));
+      bones.turns[i] = head[i] ? head_ : turn_of(bone.name);
+      const Vector3d at_rest = bone.head.cast<double>();
+      const Vector3d from_parent = at_rest - person_.bones[parent].head.cast<double>();
+      bones.heads[i] =
+          bone.parent < 0 ? at_rest : Vector3d(bones.heads[parent] + bones.turns[parent] * from_parent);
     }
-    return found->second;
+    const Vector3d shoulders = 0.5 * (bones.heads[bone("upperarm01.L")] + bones.heads[bone("upperarm01.R")]);
+    const Vector3d shift = mid_shoulders(actor_.joints) - shoulders;
+    for (Vector3d& place : bones.heads) {
+      place += shift;
+    }
+    return bones;
   }
+
+  std::size_t bone(const std::string& name) const { return index_.at(name); }
   Vector3d rest(const std::string& name) const { return person_.bones[bone(name)].head.cast<double>(); }
   Vector3d rest_tail(const std::string& name) const { return person_.bones[bone(name)].tail.cast<double>(); }
   static std::string sided(const std::string& name, std::size_t side) {
@@ -194,11 +198,11 @@ class Poser {
     return chest_;
   }
 
-  PersonTruth truth(const std::vector<Quaterniond>& turns, const std::vector<Vector3d>& heads) const {
-    const auto head_of = [&](const std::string& name) { return heads[bone(name)]; };
+  PersonTruth truth(const Bones& bones) const {
+    const auto head_of = [&](const std::string& name) { return bones.heads[bone(name)]; };
     const auto tail_of = [&](const std::string& name) {
       const std::size_t i = bone(name);
-      return Vector3d(heads[i] + turns[i] * (rest_tail(name) - rest(name)));
+      return Vector3d(bones.heads[i] + bones.turns[i] * (rest_tail(name) - rest(name)));
     };
     PersonTruth truth{actor_, {points_at_origin(), points_at_origin()}};
     JointPositions& joints = truth.bones.joints;
@@ -216,7 +220,7 @@ class Poser {
       for (std::size_t j = 0; j < kHandJointCount; ++j) {
         truth.hands[side][j] = is_tip(j) ? tail_of(hand_bone(j, side)) : head_of(hand_bone(j, side));
       }
-      // The thumb of the meshes starts farther from the wrist than that of people.
+      // The thumb of the meshes starts farther from the wrist than that of people (docs/synth.md).
       constexpr double kThumbToWrist = 0.35;
       Vector3d& thumb = truth.hands[side][hand_joint(0, 0)];
       thumb += kThumbToWrist * (truth.hands[side][0] - thumb);
@@ -229,20 +233,19 @@ class Poser {
     return truth;
   }
 
-  std::vector<Eigen::Vector3f> skin(const MeshPart& part, const std::vector<Quaterniond>& turns,
-                                    const std::vector<Vector3d>& heads) const {
-    std::vector<Eigen::Matrix<float, 3, 4>> bones(turns.size());
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      const Matrix3d turn = turns[i].toRotationMatrix();
-      bones[i].leftCols<3>() = turn.cast<float>();
-      bones[i].col(3) = (heads[i] - turn * person_.bones[i].head.cast<double>()).cast<float>();
+  std::vector<Eigen::Vector3f> skin(const MeshPart& part, const Bones& bones) const {
+    std::vector<Eigen::Matrix<float, 3, 4>> motions(bones.turns.size());
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const Matrix3d turn = bones.turns[i].toRotationMatrix();
+      motions[i].leftCols<3>() = turn.cast<float>();
+      motions[i].col(3) = (bones.heads[i] - turn * person_.bones[i].head.cast<double>()).cast<float>();
     }
     std::vector<Eigen::Vector3f> moved(part.vertices.size());
     for (std::size_t v = 0; v < moved.size(); ++v) {
       Eigen::Matrix<float, 3, 4> blend = Eigen::Matrix<float, 3, 4>::Zero();
       for (std::size_t k = 0; k < 4; ++k) {
-        blend +=
-            part.weights[v][static_cast<Eigen::Index>(k)] * bones[static_cast<std::size_t>(part.bones[v][k])];
+        blend += part.weights[v][static_cast<Eigen::Index>(k)] *
+                 motions[static_cast<std::size_t>(part.bones[v][k])];
       }
       moved[v] = blend * part.vertices[v].homogeneous();
     }
@@ -257,6 +260,10 @@ class Poser {
 };
 
 }  // namespace
+
+PersonTruth mesh_truth(const MeshPerson& person, const ActorKinematics& actor) {
+  return Poser(person, actor).truth();
+}
 
 PosedMesh pose_mesh(const MeshPerson& person, const ActorKinematics& actor) {
   return Poser(person, actor).pose();

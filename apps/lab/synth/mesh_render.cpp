@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 #include "lab/synth/render.h"
 
@@ -19,6 +17,7 @@ using Eigen::Vector3f;
 constexpr int kSide = 3;           // samples of a pixel along each side
 constexpr int kBand = 8;           // rows of pixels that one task draws
 constexpr float kNearest = 0.05f;  // m: triangles nearer to the camera are left out
+constexpr float kSolid = 0.6f;     // opacity from which on hair hides what is behind it
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // The samples that a triangle covers, with the shares of its corners.
@@ -52,6 +51,35 @@ void each_sample(const std::array<Vector2f, 3>& corners, int width, int first_ro
   }
 }
 
+// Colour and opacity at a place of a texture, which repeats.
+cv::Vec4f texture_at(const cv::Mat& texture, const Vector2f& uv) {
+  const float x = uv.x() * static_cast<float>(texture.cols) - 0.5f;
+  const float y = (1.0f - uv.y()) * static_cast<float>(texture.rows) - 0.5f;
+  const float left = std::floor(x);
+  const float top = std::floor(y);
+  const auto texel = [&](float column, float row) {
+    const auto wrapped = [](float at, int size) {
+      const int i = static_cast<int>(at) % size;
+      return i < 0 ? i + size : i;
+    };
+    return texture.at<cv::Vec4f>(wrapped(row, texture.rows), wrapped(column, texture.cols));
+  };
+  const float right_share = x - left;
+  const float low_share = y - top;
+  return (texel(left, top) * (1.0f - right_share) + texel(left + 1.0f, top) * right_share) *
+             (1.0f - low_share) +
+         (texel(left, top + 1.0f) * (1.0f - right_share) + texel(left + 1.0f, top + 1.0f) * right_share) *
+             low_share;
+}
+
+Vector2f texel_of(const MeshPart& part, const MeshPart::Triangle& t, const Vector3f& shares) {
+  Vector2f uv = Vector2f::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    uv += shares[static_cast<Eigen::Index>(k)] * part.texels[static_cast<std::size_t>(t.texel[k])];
+  }
+  return uv;
+}
+
 // What the key light sees: the distance along it of the first surface, on a square around the person.
 class ShadowMap {
  public:
@@ -79,9 +107,12 @@ class ShadowMap {
           corners[k] = at.head<2>();
           depth[static_cast<Eigen::Index>(k)] = at.z();
         }
+        const MeshPart& part = person.parts[p];
         each_sample(corners, kSize, 0, kSize, [&](int x, int y, const Vector3f& shares) {
-          auto& nearest = first_.at<float>(y, x);
-          nearest = std::min(nearest, shares.dot(depth));
+          if (!part.transparent || texture_at(part.texture, texel_of(part, t, shares))[3] > kSolid) {
+            auto& nearest = first_.at<float>(y, x);
+            nearest = std::min(nearest, shares.dot(depth));
+          }
         });
       }
     }
@@ -131,27 +162,6 @@ std::vector<Vector3f> normals_of(const MeshPart& part, const std::vector<Vector3
   return normals;
 }
 
-// Colour and opacity at a place of a texture, which repeats.
-cv::Vec4f texture_at(const cv::Mat& texture, const Vector2f& uv) {
-  const float x = uv.x() * static_cast<float>(texture.cols) - 0.5f;
-  const float y = (1.0f - uv.y()) * static_cast<float>(texture.rows) - 0.5f;
-  const float left = std::floor(x);
-  const float top = std::floor(y);
-  const auto texel = [&](float column, float row) {
-    const auto wrapped = [](float at, int size) {
-      const int i = static_cast<int>(at) % size;
-      return i < 0 ? i + size : i;
-    };
-    return texture.at<cv::Vec4f>(wrapped(row, texture.rows), wrapped(column, texture.cols));
-  };
-  const float right_share = x - left;
-  const float low_share = y - top;
-  return (texel(left, top) * (1.0f - right_share) + texel(left + 1.0f, top) * right_share) *
-             (1.0f - low_share) +
-         (texel(left, top + 1.0f) * (1.0f - right_share) + texel(left + 1.0f, top + 1.0f) * right_share) *
-             low_share;
-}
-
 // Some rows of pixels, at kSide x kSide samples a pixel.
 struct Band {
   int first_row;  // of samples, in the whole image
@@ -168,8 +178,6 @@ struct Band {
 };
 
 struct Scenery {
-  const Camera& camera;
-  const MeshPerson& person;
   const PosedMesh& posed;
   const Lighting& lighting;
   const ShadowMap& shadows;
@@ -204,15 +212,13 @@ struct Scenery {
   void add(const MeshPart& part, const MeshPart::Triangle& t, std::size_t p,
            const std::array<std::size_t, 3>& v, const Vector3f& shares, float z, std::size_t here,
            Band& band) const {
-    Vector2f uv = Vector2f::Zero();
     SurfacePoint point{Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero(), Vector3f::Zero()};
     for (std::size_t k = 0; k < 3; ++k) {
       const float share = shares[static_cast<Eigen::Index>(k)];
-      uv += share * part.texels[static_cast<std::size_t>(t.texel[k])];
       point.normal += share * normals[p][v[k]];
       point.at += share * posed.vertices[p][v[k]];
     }
-    const cv::Vec4f colour = texture_at(part.texture, uv);
+    const cv::Vec4f colour = texture_at(part.texture, texel_of(part, t, shares));
     const float opacity = part.transparent ? colour[3] : 1.0f;
     if (opacity < 0.1f) {
       return;
@@ -227,7 +233,7 @@ struct Scenery {
     point.lit = shadows.lit(point.at + 0.006f * point.normal, 0.008f);
     const Vector3f light = light_of(lighting, point, t.surface);
     band.light[here] = (1.0f - opacity) * band.light[here] + opacity * light;
-    if (opacity > 0.6f) {
+    if (opacity > kSolid) {
       band.depth[here] = z;
       band.surface[here] = t.surface;
     }
@@ -240,7 +246,7 @@ RenderedImage render_mesh_scene(const Camera& camera, const Backdrop& backdrop, 
                                 const PosedMesh& posed, const Lighting& lighting) {
   check_size(camera, backdrop);
   const ShadowMap shadows(person, posed, lighting.to_key.normalized());
-  Scenery scenery{camera, person, posed, lighting, shadows, {}, {}};
+  Scenery scenery{posed, lighting, shadows, {}, {}};
   for (std::size_t p = 0; p < person.parts.size(); ++p) {
     scenery.normals.push_back(normals_of(person.parts[p], posed.vertices[p]));
     std::vector<Vector3f>& projected = scenery.projected.emplace_back();

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <limits>
@@ -22,6 +23,7 @@ using Json = nlohmann::json;
 // In the meshes a finger bends where it leaves the palm. The joint of people lies farther back, by this share
 // of its distance from the wrist (after Buchholz, Armstrong & Goldstein, Ergonomics 35, 1992).
 constexpr float kKnuckleBack = 0.15f;
+constexpr float kMostOfTarget = 3.0f;  // a shape that is needed that often does something else
 constexpr std::string_view kHead = "____head";
 constexpr std::string_view kTail = "____tail";
 
@@ -37,18 +39,26 @@ std::vector<Vector3f> triples(const std::vector<float>& numbers) {
 // their names.
 class Targets {
  public:
-  explicit Targets(const fs::path& folder)
+  Targets(const fs::path& folder, std::size_t vertices)
       : list_(folder / "src/json/targets/target-list.json"),
         data_(folder / "public/data/targets/targets.bin") {
     with_file(list_, [&](const Json& json) {
       for (const auto& [name, groups] : json.at("targets").items()) {
         places_.emplace(name, 0);
       }
-      return 0;
     });
     std::size_t place = 0;
     for (auto& [name, at] : places_) {
       at = place++;
+    }
+    // A list of other shapes than those of the file would give another person.
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(data_, error);
+    if (error) {
+      refuse(data_, error.message());
+    }
+    if (size != places_.size() * vertices * 3 * sizeof(std::int16_t)) {
+      refuse(data_, "it does not have the shapes that " + list_.string() + " lists");
     }
   }
 
@@ -63,7 +73,7 @@ class Targets {
     std::ifstream in(data_, std::ios::binary);
     in.seekg(static_cast<std::streamoff>(found->second * size));
     if (!in.read(reinterpret_cast<char*>(differences.data()), static_cast<std::streamsize>(size))) {
-      refuse(data_, "it is too short");
+      refuse(data_, "it cannot be read");
     }
     for (std::size_t v = 0; v < vertices.size(); ++v) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -82,9 +92,31 @@ const MeshBone& bone_named(const std::vector<MeshBone>& bones, const std::string
   const auto found =
       std::find_if(bones.begin(), bones.end(), [&](const MeshBone& b) { return b.name == name; });
   if (found == bones.end()) {
-    throw std::out_of_range(name);
+    throw std::out_of_range("it has no bone " + name);
   }
   return *found;
+}
+
+// Those that pose_mesh() needs are there, and fingers have no other bones.
+void check_names(const std::vector<MeshBone>& bones) {
+  for (const char* name : {"spine04", "neck01", "head", "jaw", "special03"}) {
+    bone_named(bones, name);
+  }
+  std::ptrdiff_t phalanges = 0;
+  for (const std::string side : {".L", ".R"}) {
+    for (const char* name : {"upperarm01", "lowerarm01", "wrist", "eye", "levator05"}) {
+      bone_named(bones, name + side);
+    }
+    for (int finger = 1; finger <= 5; ++finger) {
+      for (int k = 1; k <= 3; ++k, ++phalanges) {
+        bone_named(bones, "finger" + std::to_string(finger) + "-" + std::to_string(k) + side);
+      }
+    }
+  }
+  const auto of_finger = [](const MeshBone& bone) { return bone.name.starts_with("finger"); };
+  if (std::count_if(bones.begin(), bones.end(), of_finger) != phalanges) {
+    throw std::out_of_range("a finger has another number of bones than three");
+  }
 }
 
 }  // namespace
@@ -97,7 +129,10 @@ std::vector<MeshBone> read_bones(const Json& mesh, const std::vector<Vector3f>& 
     for (const std::size_t v : around) {
       sum += vertices.at(v);
     }
-    return Vector3f(sum / static_cast<float>(std::max<std::size_t>(around.size(), 1)));
+    if (around.empty()) {
+      throw std::out_of_range(joint + " is nowhere");
+    }
+    return Vector3f(sum / static_cast<float>(around.size()));
   };
   std::vector<MeshBone> bones;
   const Json& nodes = mesh.at("bones");
@@ -107,19 +142,20 @@ std::vector<MeshBone> read_bones(const Json& mesh, const std::vector<Vector3f>& 
     const int parent = nodes[i].at("parent").get<int>();
     bone.parent = parent < 0 ? -1 : parent / 2;
     if (bone.parent >= static_cast<int>(bones.size())) {
-      throw std::out_of_range("parent");
+      throw std::out_of_range("a bone comes before its parent");
     }
     bone.head = middle(bone.name + std::string(kHead));
     bone.tail = middle(bone.name + std::string(kTail));
     bones.push_back(std::move(bone));
   }
+  check_names(bones);
   return bones;
 }
 
 std::vector<Vector3f> shaped(const fs::path& folder, const MeshLook& look, const Json& mesh,
                              const std::vector<MeshPart::Triangle>& skin) {
   std::vector<Vector3f> vertices = triples(mesh.at("vertices").get<std::vector<float>>());
-  const Targets targets(folder);
+  const Targets targets(folder, vertices.size());
   for (const auto& [name, share] : look.targets) {
     targets.add(name, share, vertices);
   }
@@ -130,6 +166,9 @@ std::vector<Vector3f> shaped(const fs::path& folder, const MeshLook& look, const
     std::vector<Vector3f> changed = vertices;
     targets.add(target, 1.0f, changed);
     const float share = (wanted - now) / (kUnit * length(changed) - now);
+    if (!(std::abs(share) < kMostOfTarget)) {
+      throw std::out_of_range(target + " does not lead to the length of the person");
+    }
     targets.add(target, share, vertices);
   };
   const auto height = [&](const std::vector<Vector3f>& of) {

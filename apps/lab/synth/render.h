@@ -30,11 +30,11 @@ struct Lighting {
   Eigen::Vector3f lamp_at{1.1f, -0.7f, 0.7f};  ///< camera frame, m
 };
 
-/// A point of a surface that the camera sees. Camera frame, m; vectors of length 1.
+/// A point of a surface that the camera sees, in the camera's frame.
 struct SurfacePoint {
-  Eigen::Vector3f at;
-  Eigen::Vector3f normal;
-  Eigen::Vector3f direction;  ///< from the camera to the point
+  Eigen::Vector3f at;         ///< m
+  Eigen::Vector3f normal;     ///< length 1
+  Eigen::Vector3f direction;  ///< from the camera to the point, length 1
   Eigen::Vector3f colour;     ///< of the surface, linear light
   float lit = 1.0f;           ///< share of the key light that arrives
   float open = 1.0f;          ///< share of the room's light that arrives
@@ -47,7 +47,7 @@ Eigen::Vector3f light_of(const Lighting& lights, const SurfacePoint& point, Surf
 /// arrives.
 Eigen::Vector3f light_on_wall(const Lighting& lights, const Eigen::Vector3f& at, float lit);
 
-/// The ray of a pixel, z = 1.
+/// The ray of a place in the image (px), camera frame, z = 1.
 Eigen::Vector3f ray_of(const Camera& camera, float u, float v);
 
 /// Error(usage) unless the backdrop was drawn for the size of the camera.

@@ -132,6 +132,9 @@ Scene make_scene(const SceneOptions& options) {
     throw Error(ErrorKind::usage, "the person cannot be that near or far",
                 "choose a distance of 0.6 to 1.8 m");
   }
+  if (options.striped_shirt && !options.people.empty()) {
+    throw Error(ErrorKind::usage, "people of meshes wear their own clothes", "leave --striped out");
+  }
   if (options.walk_in && options.frames < kShortestWalkIn) {
     throw Error(ErrorKind::usage, "walking in and out takes longer than the clip",
                 "choose 120 frames or more");
@@ -196,6 +199,11 @@ nlohmann::ordered_json head_truth(const PersonTruth& truth) {
   return out;
 }
 
+bool is_visible(const Scene& scene, int frame, const PersonTruth& truth) {
+  const double u = scene.camera.project(truth.bones.joints[Joint::neck]).x();
+  return is_present(scene.options, frame) && u >= 0.0 && u < scene.camera.width;
+}
+
 }  // namespace
 
 ActorKinematics scene_kinematics(const Scene& scene, int frame) {
@@ -227,7 +235,7 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
 PersonTruth scene_truth(const Scene& scene, int frame) {
   const ActorKinematics k = scene_kinematics(scene, frame);
   if (scene.mesh != nullptr) {
-    return pose_mesh(*scene.mesh, k).truth;
+    return mesh_truth(*scene.mesh, k);
   }
   PersonTruth truth{k, {points_at_origin(), points_at_origin()}};
   const double scale = scene.look.build.hand / kHandKnuckle;
@@ -242,24 +250,27 @@ PersonTruth scene_truth(const Scene& scene, int frame) {
 }
 
 bool person_is_visible(const Scene& scene, int frame) {
-  const double u = scene.camera.project(scene_truth(scene, frame).bones.joints[Joint::neck]).x();
-  return is_present(scene.options, frame) && u >= 0.0 && u < scene.camera.width;
+  return is_visible(scene, frame, scene_truth(scene, frame));
 }
 
 SynthFrame render_frame(const Scene& scene, int frame) {
   const ActorKinematics kinematics = scene_kinematics(scene, frame);
   const Lighting lighting = lighting_at(scene.options, frame);
-  const bool present = is_present(scene.options, frame);
   RenderedImage picture;
-  if (scene.mesh != nullptr && present) {
-    picture = render_mesh_scene(scene.camera, scene.backdrop, *scene.mesh, pose_mesh(*scene.mesh, kinematics),
-                                lighting);
+  JointPositions joints = kinematics.joints;
+  if (scene.mesh != nullptr) {
+    const PosedMesh posed = pose_mesh(*scene.mesh, kinematics);
+    joints = posed.truth.bones.joints;
+    picture = is_present(scene.options, frame)
+                  ? render_mesh_scene(scene.camera, scene.backdrop, *scene.mesh, posed, lighting)
+                  : render_scene(scene.camera, scene.backdrop, nullptr, lighting);
   } else {
     const Avatar avatar = make_avatar(scene.look, kinematics);
-    picture = render_scene(scene.camera, scene.backdrop, present ? &avatar : nullptr, lighting);
+    picture = render_scene(scene.camera, scene.backdrop, is_present(scene.options, frame) ? &avatar : nullptr,
+                           lighting);
   }
   return {develop(picture.light, scene.options.sensor, scene.options.seed, static_cast<std::uint64_t>(frame)),
-          picture.surfaces, scene_truth(scene, frame).bones.joints};
+          picture.surfaces, joints};
 }
 
 cv::Mat render_background(const Scene& scene, int index) {
@@ -312,7 +323,7 @@ std::string truth_json(const Scene& scene) {
     truth["positions"].push_back(std::move(row));
     truth["head"].push_back(head_truth(person));
     if (scene.options.walk_in) {
-      truth["visible"].push_back(person_is_visible(scene, frame));
+      truth["visible"].push_back(is_visible(scene, frame, person));
     }
   }
   if (scene.options.fingers) {

@@ -52,8 +52,8 @@ struct Scene {
 };
 
 /// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame (fewer than
-/// 120 with walk_in), negative noise, or a distance outside 0.6 to 1.8 m. Throws Error(input) for people that
-/// cannot be read.
+/// 120 with walk_in), negative noise, a distance outside 0.6 to 1.8 m, or stripes on people of meshes. Throws
+/// Error(input) for people that cannot be read.
 Scene make_scene(const SceneOptions& options);
 
 /// Whether the neck of the person is inside the image at a frame (0-based).
@@ -62,8 +62,8 @@ bool person_is_visible(const Scene& scene, int frame);
 /// The bones of the actor at a frame (0-based), camera frame, m.
 ActorKinematics scene_kinematics(const Scene& scene, int frame);
 
-/// Where the joints of the person in the picture are, at a frame: those of the actor, or of the meshes, whose
-/// bones have the actor's directions.
+/// Where the joints of the person in the picture are at a frame (0-based), camera frame, m: those of the
+/// actor, or of the meshes, whose bones have the actor's directions.
 PersonTruth scene_truth(const Scene& scene, int frame);
 
 /// One frame as the camera would give it, with what each pixel shows and the true joints.

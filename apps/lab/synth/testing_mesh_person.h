@@ -29,7 +29,7 @@ class TinyPeople {
     const auto at = [&](const char* bone) { return index_of(bone) * kCorners; };
     write_worn("clothes/shirt", "shirt", at("spine04"));
     write_worn("eyes/Low-Poly", "Low-Poly", at("head"));
-    write_worn("eyebrows/Eyebrows_01", "Eyebrows_01", at("head"));
+    write_worn("eyebrows/eyebrow001", "eyebrow001", at("head"));
     write_worn("hair/wig", "wig", at("neck02"));
     write_picture(folder_ / "public/data/proxies/eyes/Low-Poly/textures/brown_eye.png", {20, 40, 60});
     write_picture(folder_ / "public/data/skins/pale/pale.png", {120, 150, 200});
