@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,11 +11,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "lab/synth/mesh_person.h"
+#include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 
 namespace telemime {
 
@@ -256,6 +261,26 @@ class TinyPeople {
 
   std::filesystem::path folder_;
   std::vector<Bone> bones_;
+};
+
+/// Tests of that person.
+struct MeshPersonTest : ::testing::Test {
+  ScratchFolder scratch;
+  TinyPeople people{scratch.path()};
+  MeshPerson person = read_mesh_person(scratch.path(), TinyPeople::look());
+
+  const MeshBone& bone(const std::string& name) const {
+    for (const MeshBone& b : person.bones) {
+      if (b.name == name) {
+        return b;
+      }
+    }
+    throw std::out_of_range(name);
+  }
+  std::string refusal() const {
+    return testing_errors::message_of(ErrorKind::input,
+                                      [&] { read_mesh_person(scratch.path(), TinyPeople::look()); });
+  }
 };
 
 }  // namespace telemime
