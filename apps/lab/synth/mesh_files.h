@@ -19,6 +19,7 @@ inline constexpr float kUnit = 0.1f;  ///< m; MakeHuman counts in decimetres
 /// Throws Error(input) with the file and how to get it again.
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason);
 
+/// The content of a JSON file. Throws Error(input) that names the file.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 /// What `read` makes of a file; its Error(input) names the file if a field is missing or of another type.

@@ -30,7 +30,7 @@ MeshLook random_mesh_look(bool long_sleeves, Random& random) {
   const std::string origin = pick(random, std::array{"african", "asian", "caucasian"});
   const std::string age = pick(random, std::array{"young", "young", "middleage", "old"});
   MeshLook look;
-  // Between two ages, two builds and two heights.
+  // Between two ages and two builds.
   const float old = age == "old" ? 0.8f : age == "middleage" ? 0.5f : 0.0f;
   const auto build = static_cast<float>(random.uniform(-0.5, 0.6));
   const std::string muscle = pick(random, std::array{"minmuscle", "averagemuscle", "maxmuscle"});

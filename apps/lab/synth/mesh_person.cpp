@@ -13,7 +13,6 @@
 #include "telemime/core/errors.h"
 
 namespace telemime {
-
 namespace mesh_files {
 
 void refuse(const std::filesystem::path& file, const std::string& reason) {
@@ -32,6 +31,7 @@ nlohmann::json read_json(const std::filesystem::path& file) {
   }
   return json;
 }
+
 }  // namespace mesh_files
 
 namespace {
@@ -43,7 +43,7 @@ using mesh_files::kUnit;
 using mesh_files::refuse;
 using mesh_files::with_file;
 
-constexpr float kMostTexel = 100.0f;
+constexpr float kMostTexel = 100.0f;  // widths of a picture, which repeats
 
 // The triangles of a mesh in the format of three.js version 3, whose faces have a bit field each: 1 four
 // corners, 2 a material, 8 texels. Faces of other materials than `material` are left out; -1: none is.
@@ -100,7 +100,7 @@ MeshPart read_part(const Json& mesh, int material, std::size_t vertices, std::si
       // Every bone is two nodes there: its head, which moves the vertices, and its tail.
       const int node = indices.at(v * most + k);
       if (node < 0 || node / 2 >= static_cast<int>(bones) || !(weights[v * most + k] >= 0.0f)) {
-        throw std::out_of_range("a vertex follows a bone that there is not");
+        throw std::out_of_range("a vertex follows a bone that does not exist");
       }
       part.bones[v][k] = node / 2;
     }
@@ -111,12 +111,13 @@ MeshPart read_part(const Json& mesh, int material, std::size_t vertices, std::si
     for (std::size_t k = 0; k < 3; ++k) {
       if (t.vertex[k] < 0 || t.texel[k] < 0 || static_cast<std::size_t>(t.vertex[k]) >= vertices ||
           static_cast<std::size_t>(t.texel[k]) >= part.texels.size()) {
-        throw std::out_of_range("a triangle has a corner that there is not");
+        throw std::out_of_range("a triangle has a corner that does not exist");
       }
     }
   }
   return part;
 }
+
 // Linear light with the gamma of 2 that the renderer uses.
 cv::Mat read_texture(const fs::path& file) {
   cv::Mat image;
@@ -140,6 +141,7 @@ cv::Mat read_texture(const fs::path& file) {
   });
   return texture;
 }
+
 // Something that is worn: each of its vertices is given by three of the body's and a distance from them.
 // `hidden` is set at the vertices of the body that it covers.
 MeshPart read_worn(const fs::path& folder, const std::string& name, const std::string& texture,
@@ -167,6 +169,7 @@ MeshPart read_worn(const fs::path& folder, const std::string& name, const std::s
     return part;
   });
 }
+
 Surface surface_of(const MeshPart& part, const MeshPart::Triangle& triangle,
                    const std::vector<bool>& of_head) {
   const auto v = static_cast<std::size_t>(triangle.vertex[0]);

@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 // In the meshes a finger bends where it leaves the palm. The joint of people lies farther back, by this share
 // of its distance from the wrist (after Buchholz, Armstrong & Goldstein, Ergonomics 35, 1992).
 constexpr float kKnuckleBack = 0.15f;
-constexpr float kMostOfTarget = 3.0f;  // a shape that is needed that often does something else
+constexpr float kMostOfTarget = 3.0f;  // shares of one target; a larger share would distort the person
 constexpr std::string_view kHead = "____head";
 constexpr std::string_view kTail = "____tail";
 
