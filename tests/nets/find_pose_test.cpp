@@ -132,7 +132,7 @@ TEST_F(FindPose, SameFrameSameLandmarks) {
 
 TEST_F(FindPose, MaskCoversThePersonAlone) {
   const cv::Mat frame = frames_of(kDemo / "video.mp4", 1)[0];
-  PoseNetworks networks = load_pose_networks(kModels, PoseModel::full, true);
+  PoseNetworks networks = load_pose_networks(kModels);
   const auto found = find_pose(frame, networks);
   ASSERT_TRUE(found);
   const auto& points = found->points;

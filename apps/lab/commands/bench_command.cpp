@@ -67,7 +67,8 @@ Table network_time_table(const std::filesystem::path& models) {
   for (const ModelFile& model : model_table()) {
     // The details of a face are other networks in the same file.
     const bool face = model.name == "face_landmark_with_attention";
-    Network network = load_network(models, model.name, face ? kFaceMeshOutputs : std::vector<std::string>());
+    Network network = load_network(
+        models, model.name, {.inputs = {}, .outputs = face ? kFaceMeshOutputs : std::vector<std::string>()});
     const std::vector<float> input(element_count(network.input_shape()), 0.5F);
     std::vector<double> times;
     for (int i = 0; i < kRuns; ++i) {

@@ -71,7 +71,7 @@ cv::Mat drawn(const cv::Mat& image, const PoseLandmarks& landmarks) {
 }
 
 void run_landmarks(const LandmarkArguments& arguments) {
-  PoseNetworks networks = load_pose_networks(find_models(arguments.models), arguments.model, true);
+  PoseNetworks networks = load_pose_networks(find_models(arguments.models), arguments.model);
   const std::unique_ptr<Source> source = open_source(arguments.clip);
   const std::int64_t step = std::max<std::int64_t>(1, source->info().frames / arguments.pictures);
   std::filesystem::create_directories(arguments.out);

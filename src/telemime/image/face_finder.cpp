@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/image/face_finder.h"
 
-#include <utility>
 
 #include "telemime/image/person_finder.h"
 
@@ -15,9 +14,7 @@ std::optional<FaceLandmarks> FaceFinder::find(const cv::Mat& picture, const Pose
   if (!networks_) {
     return std::nullopt;
   }
-  PoseLandmarks points = person;
-  points.mask.release();  // the face does not need it
-  const PictureRegion head = head_region(scaled_to(std::move(points), working, picture.size()));
+  const PictureRegion head = head_region(scaled_to(person, working, picture.size()));
   // Another person's face, or what was taken for one, is not followed away from the head.
   constexpr double kAside = 0.3;  // of the head's region, which is some 0.6 m wide
   const auto is_near = [&](const PictureRegion& face) {

@@ -86,7 +86,7 @@ FeatureExtractor::FeatureExtractor(const ImageConfig& config)
   }
 }
 
-std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame, bool own_mask) {
+std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame) {
   if (!finder_.has_networks() || found_in_ == frame.index) {
     return found_;
   }
@@ -99,15 +99,25 @@ std::optional<PoseLandmarks> FeatureExtractor::find_landmarks(const Frame& frame
     cv::resize(frame.image, picture, {kWidest, std::max(1, frame.image.rows * kWidest / frame.image.cols)}, 0,
                0, cv::INTER_AREA);
   }
-  // Where colours are not known, the mask is the silhouette.
-  const bool keeps_mask = !own_mask && calibration_.colours.known() && has_colour(status_);
-  found_ = finder_.find(picture, frame.time, keeps_mask);
+  found_ = finder_.find(picture, frame.time);
   if (found_) {
     found_ = scaled_to(std::move(*found_), picture.size(), working_size());
   }
   found_in_ = frame.index;
   networks_ms_ = watch.lap();
   return found_;
+}
+
+std::optional<PoseLandmarks> FeatureExtractor::find_person(const Frame& frame, bool own_mask) {
+  std::optional<PoseLandmarks> found = find_landmarks(frame);
+  if (found) {
+    Stopwatch watch;
+    // Where colours are not known, the mask is the silhouette.
+    const bool keeps = !own_mask && calibration_.colours.known() && has_colour(status_);
+    cv::resize(finder_.mask(keeps), found->mask, working_size(), 0.0, 0.0, cv::INTER_AREA);
+    networks_ms_ += watch.lap();
+  }
+  return found;
 }
 
 FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& frame) const {
@@ -167,7 +177,7 @@ PersonReport FeatureExtractor::learn_person_in(const Frame& frame) {
     return {false, "the image has no colour: colours are learned as soon as it has some"};
   }
   shape_ = HeadShape{};
-  const std::optional<PoseLandmarks> landmarks = find_landmarks(frame, true);
+  const std::optional<PoseLandmarks> landmarks = find_person(frame, true);
   const cv::Mat mask = landmarks ? landmarks->mask : cv::Mat();
   head_.reset();
   std::optional<TrackedFace> face =
@@ -238,7 +248,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   // Head: track the face; a head that the background explains is rejected. A covered lens shows none.
   status_.brightness = cv::mean(p.grey)[0];
   status_.detail = detail_of(p.grey);
-  out.landmarks = find_landmarks(frame);
+  out.landmarks = find_person(frame);
   out.networks_ms = networks_ms_;
   std::optional<TrackedFace> face;
   if (shows_something(status_)) {

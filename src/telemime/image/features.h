@@ -47,11 +47,10 @@ class FeatureExtractor {
   /// extract() labels the person `ignore` outside the head.
   PersonReport learn_person(const Frame& frame);
 
-  /// What networks see of the person in a frame, in pixels of the working image; they look at a frame once,
-  /// whichever function asks first. Empty without networks or if nobody is found. The mask may be that of a
-  /// picture up to 45 ms before, where colours are known, unless it must be this frame's own. Throws as
-  /// extract().
-  std::optional<PoseLandmarks> find_landmarks(const Frame& frame, bool own_mask = false);
+  /// The landmarks that networks see of the person in a frame, in pixels of the working image, without the
+  /// mask; they look at a frame once, whichever function asks first. Empty without networks or if nobody is
+  /// found. Throws as extract().
+  std::optional<PoseLandmarks> find_landmarks(const Frame& frame);
 
   /// The part of extract() that needs no network, so that it can run beside find_landmarks() of the same
   /// frame. extract() of the frame with this index then starts from what it computed; the features are the
@@ -91,6 +90,9 @@ class FeatureExtractor {
                                            const WorkingImages& p) const;
   BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head,
                                         const cv::Mat& mask = {});
+  /// find_landmarks() with the mask. Where colours are known, it may be that of a picture up to 45 ms before,
+  /// unless it must be this frame's own.
+  std::optional<PoseLandmarks> find_person(const Frame& frame, bool own_mask = false);
   std::optional<TrackedFace> face_of(const std::optional<PoseLandmarks>& landmarks, const WorkingImages& p);
   bool differs_from_background(const BackgroundEnergy& background, const HeadRegion& head) const;
   cv::Rect face_search_area(const WorkingImages& p) const;

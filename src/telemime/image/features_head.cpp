@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "telemime/image/features.h"
 
@@ -13,9 +12,7 @@ std::optional<TrackedFace> FeatureExtractor::face_of(const std::optional<PoseLan
                                                      const WorkingImages& p) {
   std::optional<cv::Rect2d> square;
   if (landmarks) {
-    PoseLandmarks points = *landmarks;
-    points.mask.release();  // the face does not need it
-    square = face_square(scaled_to(std::move(points), p.grey.size(), p.face.size()));
+    square = face_square(scaled_to(*landmarks, p.grey.size(), p.face.size()));
   }
   return square ? head_.take_over(p.face, *square, elapsed_)
                 : head_.update(p.face, face_search_area(p), skin_test(p), elapsed_);

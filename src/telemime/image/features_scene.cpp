@@ -156,7 +156,8 @@ std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> 
     if (finder_.has_networks()) {
       // The samples are too far apart for a person to be followed from one to the next.
       finder_.reset();
-      const std::optional<PoseLandmarks> landmarks = find_landmarks(frame);
+      found_in_ = -1;
+      const std::optional<PoseLandmarks> landmarks = find_person(frame);
       head_.reset();
       samples.push_back({p.bgr, landmarks ? head_region_of(face_of(landmarks, p), p) : std::nullopt,
                          landmarks ? landmarks->mask : cv::Mat::zeros(p.grey.size(), CV_8UC1)});

@@ -80,9 +80,7 @@ std::array<SeenHand, 2> HandFinder::find(const cv::Mat& picture, const PoseLandm
   if (!has_networks()) {
     return hands;
   }
-  PoseLandmarks unmasked = pose;
-  unmasked.mask = cv::Mat();
-  const PoseLandmarks in_picture = scaled_to(std::move(unmasked), working, picture.size());
+  const PoseLandmarks in_picture = scaled_to(pose, working, picture.size());
   turn_ = 1 - turn_;
   const auto look_for = [&](HandSide side) {
     const auto i = static_cast<std::size_t>(side);

@@ -18,8 +18,7 @@ constexpr double kBodyRadius = 0.95;  // m, PersonPlace::size
 }  // namespace
 
 PersonFinder::PersonFinder(const std::filesystem::path& models)
-    : networks_(std::make_shared<PoseNetworks>(load_pose_networks(models, PoseModel::full, true))),
-      without_mask_(std::make_shared<Network>(load_pose_landmarker(models, PoseModel::full, false))) {}
+    : networks_(std::make_shared<PoseNetworks>(load_pose_networks(models))) {}
 
 PersonPlace place_of(const PoseLandmarks& landmarks) {
   constexpr double kWidthOverRadius = 2.5;  // of a region: region_of_axis()
@@ -63,7 +62,7 @@ bool PersonFinder::is_followed(const PoseLandmarks& landmarks, double time) cons
   return !followed_ || may_be_same(followed_->place, place_of(landmarks), time - followed_->time, kError);
 }
 
-std::optional<PoseLandmarks> PersonFinder::detected(const cv::Mat& picture, double time) {
+std::optional<SeenPerson> PersonFinder::detected(const cv::Mat& picture, double time) {
   constexpr double kError = 0.3;
   const std::vector<Detection> people = detect_poses(picture, networks_->detector);
   std::vector<PersonPlace> places;
@@ -77,16 +76,16 @@ std::optional<PoseLandmarks> PersonFinder::detected(const cv::Mat& picture, doub
       continue;
     }
     auto found = find_landmarks(picture, region_of_person(people[i]), networks_->landmarker);
-    if (found && is_followed(*found, time)) {
+    if (found && is_followed(found->landmarks, time)) {
       return found;
     }
   }
   return std::nullopt;
 }
 
-std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time, bool keep_mask) {
+std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time) {
   constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
-  constexpr double kMaskAge = 0.045;   // s: every second picture at 25 or 30 a second
+  found_ = false;
   if (!networks_) {
     return std::nullopt;
   }
@@ -94,39 +93,55 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
     followed_.reset();
   }
   // Where the person was; otherwise wherever the detector sees somebody who may be them.
-  std::optional<PoseLandmarks> found;
+  std::optional<SeenPerson> found;
+  cv::Mat mask;
   double mask_time = time;
   if (followed_) {
-    const bool keeps =
-        keep_mask && followed_->mask.size() == picture.size() && time - followed_->mask_time <= kMaskAge;
-    found = find_landmarks(picture, followed_->region, keeps ? *without_mask_ : networks_->landmarker);
-    if (found && !is_followed(*found, time)) {
+    found = find_landmarks(picture, followed_->region, networks_->landmarker);
+    if (found && !is_followed(found->landmarks, time)) {
       found.reset();
     }
-    if (found && keeps) {
-      found->mask = followed_->mask;
+    if (found) {
+      mask = followed_->mask;
       mask_time = followed_->mask_time;
     }
   }
   if (!found) {
     found = detected(picture, time);
   }
-  if (found) {
-    std::optional<TrunkFacing> facing = followed_ ? followed_->facing : std::nullopt;
-    found = with_steady_sides(std::move(*found), time, facing);
-    followed_ = {.region = found->next_region,
-                 .place = place_of(*found),
-                 .time = time,
-                 .mask = found->mask,
-                 .mask_time = mask_time,
-                 .facing = facing};
-    if (count(picture, followed_->place, time)) {
-      // Somebody sits in front of the person who is followed: from now on, they are the person.
-      reset();
-      return find(picture, time);
-    }
+  found_ = found.has_value();
+  if (!found) {
+    return std::nullopt;
   }
-  return found;
+  std::optional<TrunkFacing> facing = followed_ ? followed_->facing : std::nullopt;
+  PoseLandmarks landmarks = with_steady_sides(std::move(found->landmarks), time, facing);
+  followed_ = {.region = landmarks.next_region,
+               .place = place_of(landmarks),
+               .time = time,
+               .picture = picture.size(),
+               .mask_input = found->mask,
+               .mask = mask,
+               .mask_time = mask_time,
+               .facing = facing};
+  if (count(picture, followed_->place, time)) {
+    // Somebody sits in front of the person who is followed: from now on, they are the person.
+    reset();
+    return find(picture, time);
+  }
+  return landmarks;
+}
+
+cv::Mat PersonFinder::mask(bool keep) {
+  constexpr double kMaskAge = 0.045;  // s: every second picture at 25 or 30 a second
+  if (!found_) {
+    return {};
+  }
+  const double age = followed_->time - followed_->mask_time;
+  if (followed_->mask.size() != followed_->picture || age > (keep ? kMaskAge : 0.0)) {
+    followed_->mask = person_mask(followed_->mask_input, followed_->picture, networks_->mask);
+    followed_->mask_time = followed_->time;
+  }
+  return followed_->mask;
 }
 
 bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, double time) {
@@ -144,8 +159,11 @@ bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, doub
   for (const Detection& other : detect_poses(picture, networks_->detector)) {
     const PersonPlace place = place_of(other);
     const double apart = (place.shoulders - person.shoulders).norm() / person.size * kBodyRadius;
-    if (place.size > kSmallest * person.size && apart > kApart &&
-        find_landmarks(picture, region_of_person(other), *without_mask_)) {
+    if (place.size <= kSmallest * person.size || apart <= kApart) {
+      continue;
+    }
+    mask(false);  // what it is computed from is lost when the network looks at somebody else
+    if (find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
       ++people_;
       much_nearer = much_nearer || place.size > kMuchNearer * person.size;
     }
@@ -174,9 +192,7 @@ PoseLandmarks scaled_to(PoseLandmarks landmarks, cv::Size from, cv::Size to) {
     region->width *= scale.x();
     region->height *= scale.y();
   }
-  if (!landmarks.mask.empty()) {
-    cv::resize(landmarks.mask, landmarks.mask, to, 0.0, 0.0, cv::INTER_AREA);
-  }
+  landmarks.mask.release();
   return landmarks;
 }
 

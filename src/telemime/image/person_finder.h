@@ -45,10 +45,14 @@ class PersonFinder {
 
   bool has_networks() const { return networks_ != nullptr; }
 
-  /// The landmarks and the mask of the person in the next picture (CV_8UC3, BGR), in its pixels. `time` is
-  /// that of the picture, s. With `keep_mask` the mask may be that of a picture up to 45 ms before: computing
-  /// one takes a third of the network's time. The finder keeps it, too: do not write to it.
-  std::optional<PoseLandmarks> find(const cv::Mat& picture, double time, bool keep_mask = false);
+  /// The landmarks of the person in the next picture (CV_8UC3, BGR), in its pixels, without the mask. `time`
+  /// is that of the picture, s.
+  std::optional<PoseLandmarks> find(const cv::Mat& picture, double time);
+
+  /// The mask of the person whom find() found in the last picture, of that picture's size; empty if it found
+  /// nobody. It is computed when it is asked for. With `keep` it may be that of a picture up to 45 ms before:
+  /// computing one takes up to a third of the networks' time. The finder keeps it, too: do not write to it.
+  cv::Mat mask(bool keep);
 
   /// People in the picture when they were last counted, at most 1 s ago.
   int people() const { return people_; }
@@ -56,6 +60,7 @@ class PersonFinder {
   /// Forgets where the person was.
   void reset() {
     followed_.reset();
+    found_ = false;
     nearer_since_.reset();
   }
 
@@ -64,25 +69,27 @@ class PersonFinder {
     PictureRegion region;  ///< in which to look for the person in the next frame
     PersonPlace place;
     double time = 0.0;
-    cv::Mat mask;
+    cv::Size picture;
+    MaskInput mask_input;  ///< of the last picture
+    cv::Mat mask;          ///< the last that was computed
     double mask_time = 0.0;
     std::optional<TrunkFacing> facing;
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;
-  std::optional<PoseLandmarks> detected(const cv::Mat& picture, double time);
+  std::optional<SeenPerson> detected(const cv::Mat& picture, double time);
   /// Counts the people, once a second. Returns whether somebody much nearer to the camera has been there for
   /// a while.
   bool count(const cv::Mat& picture, const PersonPlace& person, double time);
 
   std::shared_ptr<PoseNetworks> networks_;
-  std::shared_ptr<Network> without_mask_;  ///< the landmarker, without its mask
   std::optional<Followed> followed_;
+  bool found_ = false;  ///< somebody, in the last picture
   int people_ = 0;
   std::optional<double> counted_;       ///< when the people were counted
   std::optional<double> nearer_since_;  ///< since when somebody is much nearer than the person, s
 };
 
-/// The landmarks in the pixels of the same picture at another size; the mask, too.
+/// The landmarks in the pixels of the same picture at another size, without the mask.
 PoseLandmarks scaled_to(PoseLandmarks landmarks, cv::Size from, cv::Size to);
 
 /// The square in which a detector of frontal faces sees this head, in pixels of the landmarks. Empty if the

@@ -86,7 +86,9 @@ std::vector<float> features_of(const PictureRegion& piece, std::span<const float
 
 FaceDetail load(const std::filesystem::path& models, const std::string& input,
                 const std::vector<std::string>& outputs) {
-  return {.network = load_network(models, "face_landmark_with_attention", outputs, input), .points = {}};
+  return {.network =
+              load_network(models, "face_landmark_with_attention", {.inputs = {input}, .outputs = outputs}),
+          .points = {}};
 }
 
 }  // namespace

@@ -75,8 +75,10 @@ std::optional<FaceLandmarks> landmarks_in(const cv::Mat& picture, const PictureR
 
 FaceNetworks load_face_networks(const std::filesystem::path& models) {
   const std::vector<std::string> detector_outputs = {"regressors", "classificators"};
-  return {.detector = load_network(models, "face_detection_short_range", detector_outputs),
-          .mesh = load_network(models, "face_landmark_with_attention", kFaceMeshOutputs),
+  return {.detector =
+              load_network(models, "face_detection_short_range", {.inputs = {}, .outputs = detector_outputs}),
+          .mesh = load_network(models, "face_landmark_with_attention",
+                               {.inputs = {}, .outputs = kFaceMeshOutputs}),
           .details = load_face_details(models)};
 }
 

@@ -24,8 +24,7 @@ const NetworkNode* joined(const NetworkGraph& graph, int output) {
 
 struct Network::Runtime {
   NetworkGraph graph;
-  std::vector<float> input;
-  std::vector<std::vector<float>> outputs;
+  std::vector<std::vector<float>> inputs, outputs;
   std::vector<std::span<const float>> views;  // of the outputs
   RuntimeHandle handle;
 
@@ -34,8 +33,11 @@ struct Network::Runtime {
   }
 
   void prepare() {
-    input = buffer_of(graph.input);
-    std::vector<ExternalTensor> external{{graph.input, input.data()}};
+    std::vector<ExternalTensor> external;
+    for (const int input : graph.inputs) {
+      inputs.push_back(buffer_of(input));
+      external.push_back({input, inputs.back().data()});
+    }
     for (const int output : graph.outputs) {
       outputs.push_back(buffer_of(output));
       float* place = outputs.back().data();
@@ -89,19 +91,25 @@ Network::Network(Network&&) noexcept = default;
 Network& Network::operator=(Network&&) noexcept = default;
 Network::~Network() = default;
 
-const TensorShape& Network::input_shape() const {
-  return runtime_->graph.tensors[runtime_->graph.input].shape;
+const TensorShape& Network::input_shape(std::size_t input) const {
+  return runtime_->graph.tensors[runtime_->graph.inputs.at(input)].shape;
 }
 
 const TensorShape& Network::output_shape(std::size_t output) const {
   return runtime_->graph.tensors[runtime_->graph.outputs.at(output)].shape;
 }
 
-std::span<const std::span<const float>> Network::run(std::span<const float> input) {
-  if (input.size() != element_count(input_shape())) {
+std::span<const std::span<const float>> Network::run(std::span<const std::span<const float>> inputs) {
+  bool fits = inputs.size() == runtime_->inputs.size();
+  for (std::size_t i = 0; fits && i < inputs.size(); ++i) {
+    fits = inputs[i].size() == element_count(input_shape(i));
+  }
+  if (!fits) {
     throw Error(ErrorKind::usage, "the input of a network has another size than the network");
   }
-  std::copy(input.begin(), input.end(), runtime_->input.begin());
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    std::copy(inputs[i].begin(), inputs[i].end(), runtime_->inputs[i].begin());
+  }
   if (xnn_invoke_runtime(runtime_->handle.get()) != xnn_status_success) {
     throw Error(ErrorKind::config, "a network could not be computed");
   }

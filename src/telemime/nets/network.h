@@ -20,12 +20,15 @@ class Network {
   Network& operator=(Network&&) noexcept;
   ~Network();
 
-  const TensorShape& input_shape() const;
+  const TensorShape& input_shape(std::size_t input = 0) const;
   const TensorShape& output_shape(std::size_t output) const;
 
-  /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage) if
-  /// the input has another size than input_shape().
-  std::span<const std::span<const float>> run(std::span<const float> input);
+  /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage)
+  /// unless each input has the size of input_shape().
+  std::span<const std::span<const float>> run(std::span<const std::span<const float>> inputs);
+  std::span<const std::span<const float>> run(std::span<const float> input) {
+    return run(std::span(&input, 1));
+  }
 
  private:
   struct Runtime;

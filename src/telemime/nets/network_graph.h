@@ -66,20 +66,31 @@ struct NetworkNode {
 struct NetworkGraph {
   std::vector<NetworkTensor> tensors;
   std::vector<NetworkNode> nodes;
-  int input = 0;             ///< index of a tensor
-  std::vector<int> outputs;  ///< indices of tensors
+  std::vector<int> inputs, outputs;  ///< indices of tensors
+};
+
+/// Some rows of images that are each divided into `parts` bands of equal height: from band `first` to before
+/// band `end`.
+struct RowShare {
+  int first = 0;
+  int end = 1;
+  int parts = 1;
 };
 
 /// The part of a network that is computed.
 struct NetworkPart {
-  std::string input;                 ///< name of the tensor that is given; empty: the network's input
+  std::vector<std::string> inputs;   ///< names of the tensors that are given; empty: the network's input
   std::vector<std::string> outputs;  ///< names of the tensors to compute, in this order; empty: its outputs
+  /// The rows of all images, inputs and outputs among them. Beyond a cut, windows see zeros instead of the
+  /// rows that are missing: rows near it are wrong.
+  RowShare rows = {};
 };
 
-/// Reads the part of a TensorFlow Lite file with one input, floating-point numbers and static shapes. Weights
+/// Reads the part of a TensorFlow Lite file with floating-point numbers and static shapes. Weights
 /// in half precision or sparse form become plain constants, padding before a convolution becomes part of it,
 /// and the slice of the first channels becomes a convolution. Throws Error(config) if the file is damaged,
-/// has no tensor of a name, or the part needs another input or an operator that is not supported.
+/// has no tensor of a name, or the part needs other inputs, an operator that is not supported or images that
+/// cannot be cut.
 NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPart& part = {});
 
 }  // namespace telemime

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -35,6 +36,10 @@ std::vector<OperatorCode> read_codes(const FlatTable& model) {
   return codes;
 }
 
+bool is_input(const NetworkGraph& graph, int tensor) {
+  return std::find(graph.inputs.begin(), graph.inputs.end(), tensor) != graph.inputs.end();
+}
+
 // Follows the operators in their order and checks that each computes one new tensor from known ones.
 class GraphBuilder {
  public:
@@ -47,8 +52,10 @@ class GraphBuilder {
       known_[i] = graph.tensors[i].is_constant();
       same_as_[i] = static_cast<int>(i);
     }
-    require(!known_[graph.input], "the input is a constant");
-    known_[graph.input] = true;
+    for (const int input : graph.inputs) {
+      require(!known_[input], "an input is a constant");
+      known_[input] = true;
+    }
   }
 
   void add(const FlatTable& from) {
@@ -71,7 +78,7 @@ class GraphBuilder {
 
   void check_outputs() const {
     for (const int output : graph_.outputs) {
-      require(known_[output] && !graph_.tensors[same_as_[output]].is_constant() && output != graph_.input,
+      require(known_[output] && !graph_.tensors[same_as_[output]].is_constant() && !is_input(graph_, output),
               "an output is not computed");
     }
   }
@@ -137,7 +144,7 @@ std::vector<FlatTable> needed_operators(const std::vector<FlatTable>& operators,
     const std::vector<std::int32_t> outputs = from->numbers<std::int32_t>(2);
     const bool keep = std::any_of(outputs.begin(), outputs.end(), [&](std::int32_t output) {
       return output < 0 || static_cast<std::size_t>(output) >= needed.size() ||
-             (needed[output] && output != graph.input);
+             (needed[output] && !is_input(graph, output));
     });
     for (const std::int32_t input : keep ? from->numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
       if (input >= 0 && static_cast<std::size_t>(input) < needed.size()) {
@@ -152,12 +159,34 @@ std::vector<FlatTable> needed_operators(const std::vector<FlatTable>& operators,
   return kept;
 }
 
+// Leaves these rows of all images.
+void keep_rows(NetworkGraph& graph, const RowShare& rows) {
+  if (rows.parts == 1) {
+    return;
+  }
+  std::vector<int> computed = graph.inputs;
+  std::transform(graph.nodes.begin(), graph.nodes.end(), std::back_inserter(computed),
+                 [](const NetworkNode& node) { return node.output; });
+  for (const int tensor : computed) {
+    TensorShape& shape = graph.tensors[tensor].shape;
+    if (shape.size() != 4 || shape[1] % rows.parts != 0) {
+      throw Error(ErrorKind::config, "the images of the network cannot be cut into these bands",
+                  "Install the models again.");
+    }
+    shape[1] = shape[1] / rows.parts * (rows.end - rows.first);
+  }
+  for (const NetworkNode& node : graph.nodes) {
+    check_shapes(graph, node);
+  }
+}
+
 // Removes the nodes that became part of others, and the numbers of constants that no node reads.
 void remove_unused(NetworkGraph& graph) {
   std::vector<bool> needed(graph.tensors.size(), false);
-  needed[graph.input] = true;
-  for (const int output : graph.outputs) {
-    needed[output] = true;
+  for (const std::vector<int>& ends : {graph.inputs, graph.outputs}) {
+    for (const int tensor : ends) {
+      needed[tensor] = true;
+    }
   }
   std::vector<NetworkNode> nodes;
   std::reverse(graph.nodes.begin(), graph.nodes.end());
@@ -196,14 +225,15 @@ NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPa
   }
   const std::vector<int> inputs = tensor_list(subgraphs[0], 1, graph.tensors.size());
   require(inputs.size() == 1 && !graph.tensors[inputs[0]].shape.empty(), "it has not exactly one input");
-  graph.input = part.input.empty() ? inputs[0] : computed_tensor(graph, part.input, "input");
-  graph.outputs = tensor_list(subgraphs[0], 2, graph.tensors.size());
-  if (!part.outputs.empty()) {
-    graph.outputs.clear();
-    for (const std::string& name : part.outputs) {
-      graph.outputs.push_back(computed_tensor(graph, name, "output"));
-    }
-  }
+  const auto named = [&graph](const std::vector<std::string>& names, const char* role) {
+    std::vector<int> tensors;
+    std::transform(names.begin(), names.end(), std::back_inserter(tensors),
+                   [&](const std::string& name) { return computed_tensor(graph, name, role); });
+    return tensors;
+  };
+  graph.inputs = part.inputs.empty() ? inputs : named(part.inputs, "input");
+  graph.outputs = part.outputs.empty() ? tensor_list(subgraphs[0], 2, graph.tensors.size())
+                                       : named(part.outputs, "output");
 
   GraphBuilder builder(graph, read_codes(model));
   for (const FlatTable& from : needed_operators(subgraphs[0].tables(3), graph)) {
@@ -211,6 +241,7 @@ NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPa
   }
   builder.check_outputs();
   remove_unused(graph);
+  keep_rows(graph, part.rows);
   return graph;
 }
 

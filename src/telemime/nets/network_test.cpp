@@ -117,25 +117,55 @@ TEST(Network, SliceKeepsTheFirstChannels) {
 
 TEST(Network, ComputesNamedOutputsOnly) {
   const std::vector<std::string> names = {"t8"};
-  Network network(rich_file(), {.input = {}, .outputs = names});
+  Network network(rich_file(), {.inputs = {}, .outputs = names});
   EXPECT_EQ(network.output_shape(0), (TensorShape{1, 4, 2}));
   const auto outputs = network.run(std::vector<float>(16, 1.0F));
   ASSERT_EQ(outputs.size(), 1U);
   EXPECT_EQ(outputs[0].size(), 8U);
   const std::vector<std::string> unknown = {"t1"};
-  EXPECT_THROW(Network(rich_file(), {.input = {}, .outputs = unknown}), Error);
+  EXPECT_THROW(Network(rich_file(), {.inputs = {}, .outputs = unknown}), Error);
 }
 
 TEST(Network, ComputesFromAnInnerTensor) {
   // What comes before the given tensor is not read: an operator that is not supported does not matter there.
   const auto file = network_file({{{1, 2}}, {{1, 1, 2, 1}}, {{1, 1, 2, 1}}, {{1, 1, 2, 1}}},
                                  {{99, {0}, 1}, {kAdd, {1, 1}, 2}, {kAdd, {2, 1}, 3}}, {3});
-  Network network(file, {.input = "t1", .outputs = {"t2", "t3"}});
+  Network network(file, {.inputs = {"t1"}, .outputs = {"t2", "t3"}});
   const auto outputs = network.run(std::vector<float>{1, 10});
   EXPECT_EQ(std::vector<float>(outputs[0].begin(), outputs[0].end()), (std::vector<float>{2, 20}));
   EXPECT_EQ(std::vector<float>(outputs[1].begin(), outputs[1].end()), (std::vector<float>{3, 30}));
-  EXPECT_THROW(Network(file, {.input = "t0", .outputs = {}}), Error);
-  EXPECT_THROW(Network(file, {.input = "t9", .outputs = {}}), Error);
+  EXPECT_THROW(Network(file, {.inputs = {"t0"}, .outputs = {}}), Error);
+  EXPECT_THROW(Network(file, {.inputs = {"t9"}, .outputs = {}}), Error);
+}
+
+TEST(Network, ComputesFromTwoInnerTensors) {
+  const auto file = network_file({{{1, 2}}, {{1, 2}}, {{1, 2}}, {{1, 2}}},
+                                 {{kAdd, {0, 0}, 1}, {kAdd, {1, 0}, 2}, {kAdd, {1, 2}, 3}}, {3});
+  Network network(file, {.inputs = {"t2", "t1"}, .outputs = {}});
+  const std::vector<float> second = {1, 2};
+  const std::vector<float> first = {30, 40};
+  const std::vector<std::span<const float>> inputs = {first, second};
+  const auto outputs = network.run(inputs);
+  EXPECT_EQ(std::vector<float>(outputs[0].begin(), outputs[0].end()), (std::vector<float>{31, 42}));
+  EXPECT_THROW(network.run(first), Error);
+}
+
+TEST(Network, RowsOfAnImageAlone) {
+  // Windows of 3 x 3 ones on eight rows of two pixels: a row counts itself and its neighbours.
+  const auto file =
+      network_file({{{1, 8, 2, 1}}, {{1, 3, 3, 1}, std::vector<float>(9, 1.0F)}, {{1, 8, 2, 1}}},
+                   {{kConvolution, {0, 1}, 2, convolution(kSame, 1)}}, {2});
+  Network network(file, {.inputs = {}, .outputs = {}, .rows = {.first = 2, .end = 4, .parts = 4}});
+  EXPECT_EQ(network.input_shape(), (TensorShape{1, 4, 2, 1}));
+  const auto outputs = network.run(std::vector<float>{1, 1, 10, 10, 100, 100, 1000, 1000});
+  // The first row lacks its upper neighbour, and the last is at the end of the image.
+  EXPECT_EQ(std::vector<float>(outputs[0].begin(), outputs[0].end()),
+            (std::vector<float>{22, 22, 222, 222, 2220, 2220, 2200, 2200}));
+  EXPECT_THROW(Network(file, {.inputs = {}, .outputs = {}, .rows = {.first = 0, .end = 1, .parts = 3}}),
+               Error);
+  const auto vectors = network_file({{{1, 2}}, {{1, 2}}}, {{kAdd, {0, 0}, 1}}, {1});
+  EXPECT_THROW(Network(vectors, {.inputs = {}, .outputs = {}, .rows = {.first = 0, .end = 1, .parts = 2}}),
+               Error);
 }
 
 TEST(Network, RefusesInputOfAnotherSize) {

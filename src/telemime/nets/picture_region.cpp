@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
@@ -61,28 +62,38 @@ std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& re
   cv::warpAffine(picture, crop, picture_from_cell(region, format.size), format.size,
                  cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
                  format.repeats_border ? cv::BORDER_REPLICATE : cv::BORDER_CONSTANT);
-  const float scale = (format.white - format.black) / 255.0F;
+  cv::cvtColor(crop, crop, cv::COLOR_BGR2RGB);
   std::vector<float> input(3 * static_cast<std::size_t>(format.size.area()));
-  float* out = input.data();
-  for (int y = 0; y < crop.rows; ++y) {
-    for (const auto* in = crop.ptr<cv::Vec3b>(y); in != crop.ptr<cv::Vec3b>(y) + crop.cols; ++in) {
-      *out++ = format.black + scale * static_cast<float>((*in)[2]);
-      *out++ = format.black + scale * static_cast<float>((*in)[1]);
-      *out++ = format.black + scale * static_cast<float>((*in)[0]);
-    }
-  }
+  cv::Mat numbers(format.size, CV_32FC3, input.data());
+  crop.convertTo(numbers, CV_32F, (format.white - format.black) / 255.0F);
+  numbers += cv::Scalar::all(format.black);
   return input;
 }
 
-cv::Mat picture_mask(std::span<const float> cells, cv::Size size, const PictureRegion& region,
-                     cv::Size picture) {
-  cv::Mat mask(size, CV_8UC1);
-  std::transform(cells.begin(), cells.end(), mask.begin<std::uint8_t>(),
-                 [](float cell) { return cv::saturate_cast<std::uint8_t>(255.0F * cell); });
+cv::Mat picture_mask(const cv::Mat& cells, const PictureRegion& region, cv::Size picture) {
   cv::Mat result;
-  cv::warpAffine(mask, result, picture_from_cell(region, size), picture, cv::INTER_LINEAR,
+  cv::warpAffine(cells, result, picture_from_cell(region, cells.size()), picture, cv::INTER_LINEAR,
                  cv::BORDER_CONSTANT);
   return result;
+}
+
+cv::Range rows_in_picture(const PictureRegion& region, cv::Size grid, cv::Size picture) {
+  cv::Matx23d to_cell;
+  cv::invertAffineTransform(picture_from_cell(region, grid), to_cell);
+  double first = std::numeric_limits<double>::max();
+  double last = std::numeric_limits<double>::lowest();
+  for (const double x : {0.0, picture.width - 1.0}) {
+    for (const double y : {0.0, picture.height - 1.0}) {
+      const double row = to_cell(1, 0) * x + to_cell(1, 1) * y + to_cell(1, 2);
+      first = std::min(first, row);
+      last = std::max(last, row);
+    }
+  }
+  // A pixel reads the rows before and after its place; warpAffine rounds that by less than a row.
+  const auto clipped = [&](double row) {
+    return static_cast<int>(std::clamp(row, 0.0, static_cast<double>(grid.height)));
+  };
+  return {clipped(std::floor(first) - 1.0), clipped(std::floor(last) + 3.0)};
 }
 
 }  // namespace telemime

@@ -44,9 +44,11 @@ struct InputFormat {
 std::vector<float> network_input(const cv::Mat& picture, const PictureRegion& region,
                                  const InputFormat& format);
 
-/// A probability in [0, 1] for each cell of a region as an image of the picture's size (CV_8UC1, 255 is 1);
-/// 0 outside of the region. `cells` has size.area() elements, row-major.
-cv::Mat picture_mask(std::span<const float> cells, cv::Size size, const PictureRegion& region,
-                     cv::Size picture);
+/// A probability for each cell of a region (CV_8UC1, 255 is 1) as an image of the picture's size (CV_8UC1); 0
+/// outside of the region.
+cv::Mat picture_mask(const cv::Mat& cells, const PictureRegion& region, cv::Size picture);
+
+/// The rows of a grid over the region that a picture of this size shows, and that picture_mask() reads.
+cv::Range rows_in_picture(const PictureRegion& region, cv::Size grid, cv::Size picture);
 
 }  // namespace telemime

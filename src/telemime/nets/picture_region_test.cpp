@@ -70,9 +70,9 @@ TEST(NetworkInput, RefusesOtherPictures) {
 }
 
 TEST(PictureMask, CoversTheRegionAlone) {
-  const std::vector<float> cells(16, 1.0F);
+  const cv::Mat cells(4, 4, CV_8UC1, cv::Scalar(255));
   const PictureRegion region{.centre = {9.5, 9.5}, .width = 8.0, .height = 8.0};
-  const cv::Mat mask = picture_mask(cells, {4, 4}, region, {20, 20});
+  const cv::Mat mask = picture_mask(cells, region, {20, 20});
   EXPECT_EQ(mask.at<std::uint8_t>(9, 9), 255);
   EXPECT_EQ(mask.at<std::uint8_t>(2, 9), 0);
   EXPECT_NEAR(cv::sum(mask)[0] / 255.0, 64.0, 1.0);

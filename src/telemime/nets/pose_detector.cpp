@@ -9,7 +9,7 @@ namespace telemime {
 
 Network load_pose_detector(const std::filesystem::path& models) {
   const std::vector<std::string> outputs = {"Identity", "Identity_1"};  // boxes, scores
-  return load_network(models, "pose_detection", outputs);
+  return load_network(models, "pose_detection", {.inputs = {}, .outputs = outputs});
 }
 
 std::vector<Detection> detect_poses(const cv::Mat& picture, Network& detector) {

@@ -4,8 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
+#include <utility>
 
 #include "telemime/nets/models/table.h"
 
@@ -19,7 +18,7 @@ constexpr std::size_t kNextCentre = 33;
 constexpr std::size_t kNextTop = 34;
 constexpr double kLeastScore = 0.5;
 
-enum Output : std::size_t { kLandmarks, kScore, kHeatMap, kWorld, kMask };
+enum Output : std::size_t { kLandmarks, kScore, kHeatMap, kWorld, kMaskFine, kMaskCoarse };
 
 double sigmoid(double value) {
   return 1.0 / (1.0 + std::exp(-value));
@@ -72,18 +71,16 @@ RegionPoint refined(const Eigen::Vector2d& place, std::span<const float> heat_ma
 
 }  // namespace
 
-Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model, bool with_mask) {
-  static constexpr std::array<const char*, 3> kNames = {"pose_landmark_lite", "pose_landmark_full",
-                                                        "pose_landmark_heavy"};
-  std::vector<std::string> outputs = {"Identity", "Identity_1", "Identity_3", "Identity_4"};
-  if (with_mask) {
-    outputs.emplace_back("Identity_2");
-  }
-  return load_network(models, kNames[static_cast<std::size_t>(model)], outputs);
+Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model) {
+  const PoseModelFile file = pose_model_file(model);
+  return load_network(models, file.name,
+                      {.inputs = {},
+                       .outputs = {file.landmarks, file.score, file.heat_map, file.world, file.mask_inputs[0],
+                                   file.mask_inputs[1]}});
 }
 
-std::optional<PoseLandmarks> find_landmarks(const cv::Mat& picture, const PictureRegion& region,
-                                            Network& landmarker) {
+std::optional<SeenPerson> find_landmarks(const cv::Mat& picture, const PictureRegion& region,
+                                         Network& landmarker) {
   const InputFormat format{.size = {kInput, kInput}, .black = 0.0F, .white = 1.0F, .repeats_border = true};
   const auto outputs = landmarker.run(network_input(picture, region, format));
   PoseLandmarks result;
@@ -115,15 +112,8 @@ std::optional<PoseLandmarks> find_landmarks(const cv::Mat& picture, const Pictur
     }
   }
   result.next_region = region_of_axis(pixels[kNextCentre], pixels[kNextTop]);
-
-  // The mask is a logit for each pixel of the input.
-  if (outputs.size() > kMask) {
-    std::vector<float> probabilities(outputs[kMask].size());
-    std::transform(outputs[kMask].begin(), outputs[kMask].end(), probabilities.begin(),
-                   [](float logit) { return static_cast<float>(sigmoid(logit)); });
-    result.mask = picture_mask(probabilities, format.size, region, picture.size());
-  }
-  return result;
+  return SeenPerson{.landmarks = std::move(result),
+                    .mask = {.region = region, .images = {outputs[kMaskFine], outputs[kMaskCoarse]}}};
 }
 
 }  // namespace telemime

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "telemime/nets/network.h"
+#include "telemime/nets/person_mask.h"
 #include "telemime/nets/picture_region.h"
+#include "telemime/nets/pose_model.h"
 
 namespace telemime {
 
@@ -65,14 +67,18 @@ struct PoseLandmarks {
       mask;  ///< CV_8UC1 of the picture's size: probability of the person, 255 is 1; empty if not computed
 };
 
-enum class PoseModel { lite, full, heavy };
+/// What a network sees of a person; the mask is not computed yet.
+struct SeenPerson {
+  PoseLandmarks landmarks;
+  MaskInput mask;  ///< of person_mask()
+};
 
-/// The network pose_landmark_lite, _full or _heavy. The mask takes a third of its time.
-Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model, bool with_mask);
+/// The network that sees landmarks. Throws Error(config) if it is missing.
+Network load_pose_landmarker(const std::filesystem::path& models, PoseModel model);
 
-/// The landmarks of the person in this region of a BGR picture (CV_8UC3); empty if the network sees nobody.
-/// `landmarker` was made by load_pose_landmarker(); the mask is computed if it was loaded with it.
-std::optional<PoseLandmarks> find_landmarks(const cv::Mat& picture, const PictureRegion& region,
-                                            Network& landmarker);
+/// The person in this region of a BGR picture (CV_8UC3); empty if the network sees nobody. `landmarker` was
+/// made by load_pose_landmarker().
+std::optional<SeenPerson> find_landmarks(const cv::Mat& picture, const PictureRegion& region,
+                                         Network& landmarker);
 
 }  // namespace telemime

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/nets/subgraph.h"
 
+#include <algorithm>
+
 #include "telemime/core/errors.h"
 
 namespace telemime {
@@ -28,8 +30,9 @@ class SubgraphBuilder {
     check(xnn_create_subgraph(static_cast<std::uint32_t>(external.size()), 0, &subgraph));
     subgraph_.reset(subgraph);
     for (std::uint32_t i = 0; i < external.size(); ++i) {
-      define_tensor(external[i].tensor, i,
-                    i == 0 ? XNN_VALUE_FLAG_EXTERNAL_INPUT : XNN_VALUE_FLAG_EXTERNAL_OUTPUT);
+      const int tensor = external[i].tensor;
+      const bool given = std::count(graph.inputs.begin(), graph.inputs.end(), tensor) > 0;
+      define_tensor(tensor, i, given ? XNN_VALUE_FLAG_EXTERNAL_INPUT : XNN_VALUE_FLAG_EXTERNAL_OUTPUT);
     }
   }
 

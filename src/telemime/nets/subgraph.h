@@ -24,8 +24,8 @@ struct ExternalTensor {
   float* data = nullptr;
 };
 
-/// A network that XNNPACK can run: from `external` tensors (its input first) to the others of them. The
-/// weights of the graph must stay where they are. Throws Error(config) if XNNPACK refuses the graph or memory
+/// A network that XNNPACK can run, from its inputs to the other `external` tensors. The weights of the graph
+/// must stay where they are. Throws Error(config) if XNNPACK refuses the graph or memory
 /// is short.
 RuntimeHandle make_runtime(const NetworkGraph& graph, const std::vector<ExternalTensor>& external);
 

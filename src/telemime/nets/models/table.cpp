@@ -97,8 +97,7 @@ std::string missing_models(const fs::path& folder, std::span<const std::string> 
                          : "there is no " + joined(missing) + " in " + folder.string() + "\n  " + kRemedy;
 }
 
-Network load_network(const fs::path& folder, std::string_view name, std::span<const std::string> outputs,
-                     std::string_view input) {
+Network load_network(const fs::path& folder, std::string_view name, const NetworkPart& part) {
   const ModelFile& model = model_named(name);
   const std::array<std::string, 1> names = {std::string(name)};
   if (const std::string missing = missing_models(folder, names); !missing.empty()) {
@@ -113,8 +112,7 @@ Network load_network(const fs::path& folder, std::string_view name, std::span<co
     throw Error(ErrorKind::config, "the model " + path.string() + " is damaged or of another version",
                 kRemedy);
   }
-  return Network(std::as_bytes(std::span(bytes)),
-                 {.input = std::string(input), .outputs = {outputs.begin(), outputs.end()}});
+  return Network(std::as_bytes(std::span(bytes)), part);
 }
 
 }  // namespace telemime

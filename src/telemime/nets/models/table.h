@@ -33,9 +33,9 @@ std::filesystem::path find_models(const std::filesystem::path& folder = {});
 /// What is missing of these networks, as a sentence with a remedy; empty if nothing is.
 std::string missing_models(const std::filesystem::path& folder, std::span<const std::string> names);
 
-/// Reads, checks and prepares a network, or the part of it from `input` to `outputs` (as in NetworkPart).
+/// Reads, checks and prepares a network, or a part of it.
 /// Throws Error(config) if the file is missing or is not the one of the table.
 Network load_network(const std::filesystem::path& folder, std::string_view name,
-                     std::span<const std::string> outputs = {}, std::string_view input = {});
+                     const NetworkPart& part = {});
 
 }  // namespace telemime
