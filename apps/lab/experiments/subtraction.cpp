@@ -66,7 +66,7 @@ Subtractor robust(std::span<const cv::Mat> pictures) {
     constexpr float kAnything = 3.0F;
     LogColour colour = log_colour(bgr);
     compensate(model, estimate_light(model, colour, *believed), colour);
-    cv::Mat mask = cleaned(background_energy(model, colour, ShadowRange{}, {}).energy > kAnything);
+    cv::Mat mask = cleaned(background_energy(model, colour, ShadowRange{}).energy > kAnything);
     cv::Mat grown;
     cv::dilate(mask, grown, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(7, 7)));
     cv::bitwise_not(grown, *believed);

@@ -89,7 +89,7 @@ BackgroundModel learn_background_model(std::span<const cv::Mat> images) {
 }
 
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& image,
-                                   const ShadowRange& shadow, const cv::Mat& unknown) {
+                                   const ShadowRange& shadow) {
   const cv::Size size = model.valid.size();
   BackgroundEnergy out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
   const float darkest = std::log(shadow.darkest);
@@ -138,13 +138,13 @@ BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour
       s[c] = shade < plain ? 255 : 0;
     }
   }
-  // Invalid pixels.
-  if (!unknown.empty()) {
-    const cv::Mat covered = model.valid == 0;
-    unknown.copyTo(out.energy, covered);
-    out.shaded.setTo(0, covered);
-  }
   return out;
+}
+
+void set_unknown(const BackgroundModel& model, const cv::Mat& unknown, BackgroundEnergy& energy) {
+  const cv::Mat invalid = model.valid == 0;
+  unknown.copyTo(energy.energy, invalid);
+  energy.shaded.setTo(0, invalid);
 }
 
 void adapt_background(BackgroundModel& model, const LogColour& image, const cv::Mat& where, float rate,

@@ -49,11 +49,13 @@ struct ShadowRange {
   float prior_cost = 1.0F;
 };
 
-/// Energies of all pixels. Changes of light must have been compensated in `image` (compensate in
-/// light_change.h). Invalid pixels get their energy from `unknown` (CV_32FC1; may be empty if all pixels are
-/// valid).
+/// Energies of all pixels; those of invalid pixels mean nothing. Changes of light must have been compensated
+/// in `image` (compensate in light_change.h).
 BackgroundEnergy background_energy(const BackgroundModel& model, const LogColour& image,
-                                   const ShadowRange& shadow, const cv::Mat& unknown);
+                                   const ShadowRange& shadow);
+
+/// Gives invalid pixels their energy from `unknown` (CV_32FC1), without a shadow.
+void set_unknown(const BackgroundModel& model, const cv::Mat& unknown, BackgroundEnergy& energy);
 
 /// Moves the mean of the model towards the image by `rate` in [0, 1] where `where` (CV_8UC1) is not 0.
 /// Invalid pixels become valid, with the noise of their colour as variance, after `steady` consecutive frames

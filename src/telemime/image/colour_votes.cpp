@@ -11,27 +11,34 @@ namespace telemime {
 namespace {
 
 /// The mean energy of the 3x3 neighbours, each limited so that one pixel cannot outvote all others.
-void smooth(cv::Mat& energy, float limit) {
-  cv::min(energy, limit, energy);
-  cv::blur(energy, energy, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
+cv::Mat smoothed(const cv::Mat& energy, float limit) {
+  cv::Mat out;
+  cv::min(energy, limit, out);
+  cv::blur(out, out, cv::Size(3, 3), cv::Point(-1, -1), cv::BORDER_REPLICATE);
+  return out;
 }
 
 }  // namespace
 
-ColourVotes vote(const LogColour& image, const PersonColours& colours, const std::optional<HeadRegion>& head,
+ColourEnergies colour_energies(const LogColour& image, const PersonColours& colours) {
+  ColourEnergies out;
+  in_parallel(
+      [&] { out.skin = energy(colours.skin, image); }, [&] { out.clothes = energy(colours.clothes, image); },
+      [&] { out.hair = energy(colours.hair, image); }, [&] { out.other = energy(colours.other, image); });
+  return out;
+}
+
+ColourVotes vote(const ColourEnergies& energies, const std::optional<HeadRegion>& head,
                  const SegmentationConfig& config) {
   // Energies of all classes.
-  cv::Mat skin;
-  cv::Mat clothes;
-  cv::Mat hair;
-  cv::Mat known;
+  cv::Mat skin = energies.skin;
+  cv::Mat clothes = energies.clothes;
+  cv::Mat known = energies.other;
   cv::Mat other;
-  in_parallel([&] { skin = energy(colours.skin, image); }, [&] { clothes = energy(colours.clothes, image); },
-              [&] { hair = energy(head ? colours.hair : ColourMixture{}, image); },
-              [&] { known = energy(colours.other, image); });
   cv::min(known, config.unknown_cost, other);
+  cv::Mat hair = head ? energies.hair : other;
   const float limit = config.unknown_cost + config.vote_limit;
-  const cv::Size size = image.u.size();
+  const cv::Size size = skin.size();
   ColourVotes out{cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_8UC1)};
   for (int r = 0; r < size.height; ++r) {
     const auto* s = skin.ptr<float>(r);
@@ -44,11 +51,9 @@ ColourVotes vote(const LogColour& image, const PersonColours& colours, const std
     }
   }
   // The best class after the vote.
-  smooth(skin, limit);
-  smooth(clothes, limit);
-  smooth(hair, limit);
-  smooth(known, limit);
-  smooth(other, limit);
+  in_parallel([&] { skin = smoothed(skin, limit); }, [&] { clothes = smoothed(clothes, limit); },
+              [&] { hair = smoothed(hair, limit); }, [&] { known = smoothed(known, limit); },
+              [&] { other = smoothed(other, limit); });
   for (int r = 0; r < size.height; ++r) {
     const auto* s = skin.ptr<float>(r);
     const auto* c = clothes.ptr<float>(r);

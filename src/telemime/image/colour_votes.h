@@ -38,7 +38,7 @@ struct Ellipse {
 
 /// Computes the colour classes of an image. Hair is a candidate only around the head, other classes
 /// everywhere.
-ColourVotes vote(const LogColour& image, const PersonColours& colours, const std::optional<HeadRegion>& head,
+ColourVotes vote(const ColourEnergies& energies, const std::optional<HeadRegion>& head,
                  const SegmentationConfig& config);
 
 }  // namespace telemime

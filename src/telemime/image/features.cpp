@@ -143,11 +143,31 @@ FeatureExtractor::WorkingImages FeatureExtractor::working_images(const Frame& fr
 void FeatureExtractor::prepare(const Frame& frame) {
   prepared_in_ = -1;
   prepared_ = working_images(frame);
-  prepared_.gradient = deriche_gradient(prepared_.grey, config_.edges.alpha);
-  if (!calibration_.background.empty() && !background_mask_.empty()) {
-    prepared_.lit = in_light_of_background(prepared_.colour, background_mask_);
-  }
+  WorkingImages& p = prepared_;
+  in_parallel([&] { p.gradient = deriche_gradient(p.grey, config_.edges.alpha); },
+              [&] {
+                // The colours, as soon as it is known where the background shows the light.
+                if (!calibration_.background.empty() && !background_mask_.empty()) {
+                  p.lit = in_light_of_background(p.colour, background_mask_);
+                }
+                if (calibration_.background.empty() || p.lit) {
+                  const LogColour& colour = p.lit ? p.lit->colour : p.colour;
+                  p.scene = compare_with_scene(colour);
+                  p.person = colour_energies(colour, calibration_.colours);
+                }
+              },
+              [&] {
+                // Where the background was in the frame before.
+                const bool due = camera_check_is_due(elapsed_until(frame.time));
+                if (due && !motion_image_.empty() && !background_mask_.empty()) {
+                  p.camera = check_camera(p.grey);
+                }
+              });
   prepared_in_ = frame.index;
+}
+
+double FeatureExtractor::elapsed_until(double time) const {
+  return last_time_ ? units_between(*last_time_, time) : 1.0;
 }
 
 // A rate per 1/25 s over the time since the last frame, or less: one frame does not speak for a whole pause.
@@ -159,6 +179,7 @@ PersonReport FeatureExtractor::learn_person(const Frame& frame) {
   // With networks a person is tracked while their colours are looked for: if the frame is refused, the head
   // that is being followed stays as it was. Without them, what was found now is a better start than an old
   // track.
+  prepared_in_ = -1;
   const HeadTracker head = head_;
   const HeadShape shape = shape_;
   PersonReport report = learn_person_in(frame);
@@ -242,7 +263,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
     head_.restart();
     silhouette_.release();
   }
-  elapsed_ = last_time_ ? units_between(*last_time_, frame.time) : 1.0;
+  elapsed_ = elapsed_until(frame.time);
   last_time_ = frame.time;
 
   // Head: track the face; a head that the background explains is rejected. A covered lens shows none.
@@ -271,8 +292,11 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
   }
 
   // Labels and silhouette.
+  if (!p.person) {
+    p.person = colour_energies(p.colour, calibration_.colours);
+  }
   Segmentation segmentation =
-      segment(p.colour, background, calibration_.colours, out.head, config_.segmentation);
+      segment(*p.person, background, calibration_.colours.known(), out.head, config_.segmentation);
   const bool colours_help = calibration_.colours.known() && has_colour(status_);
   if (out.landmarks && !colours_help) {
     segmentation = silhouette_of_mask(out.landmarks->mask, std::move(segmentation));
@@ -324,7 +348,7 @@ FrameFeatures FeatureExtractor::extract(const Frame& frame) {
         cv::dilate(segmentation.silhouette, grown, square, cv::Point(-1, -1), 3);
         cv::bitwise_not(grown, background_mask_);
         update_background(p, background, out.landmarks);
-        update_camera_motion(p.grey);
+        update_camera_motion(p);
       });
   silhouette_ = out.silhouette;
   update_status(p, out);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "telemime/core/frame.h"
+#include "telemime/image/camera_motion.h"
 #include "telemime/image/deriche.h"
 #include "telemime/image/face_memory.h"
 #include "telemime/image/feature_config.h"
@@ -54,7 +55,7 @@ class FeatureExtractor {
 
   /// The part of extract() that needs no network, so that it can run beside find_landmarks() of the same
   /// frame. extract() of the frame with this index then starts from what it computed; the features are the
-  /// same without it. Another background, learned or set, discards it. Throws as extract().
+  /// same without it. Another background or person, learned or set, discards it. Throws as extract().
   void prepare(const Frame& frame);
 
   /// The features of one frame. Call it in temporal order: the models adapt to each frame. Throws
@@ -76,6 +77,14 @@ class FeatureExtractor {
     LogColour colour;
     double change = 0.0;  ///< ln of how much brighter the image was than in that light
   };
+  /// How well the scene explains the colours of an image, the person apart.
+  struct SceneEnergies {
+    BackgroundEnergy background;  ///< empty without a background
+    cv::Mat surroundings;         ///< of pixels whose background is unknown; empty if there are none
+  };
+  struct CameraCheck {
+    std::optional<SharedMotion> shared;  ///< since the image of the last check; empty if nobody can tell
+  };
   struct WorkingImages {
     cv::Mat bgr;       ///< working size
     cv::Mat grey;      ///< working size
@@ -83,9 +92,14 @@ class FeatureExtractor {
     LogColour colour;  ///< working size; that of `lit` once it was compared with the background
     std::optional<LitImage> lit;
     Gradient gradient;  ///< of `grey`; empty where only working_images() was called
+    // Empty where they were not prepared:
+    std::optional<SceneEnergies> scene;    ///< of `colour`
+    std::optional<ColourEnergies> person;  ///< of `colour`
+    std::optional<CameraCheck> camera;
   };
   WorkingImages working_images(const Frame& frame) const;
   LitImage in_light_of_background(const LogColour& colour, const cv::Mat& background) const;
+  SceneEnergies compare_with_scene(const LogColour& colour) const;
   std::optional<HeadRegion> head_region_of(const std::optional<TrackedFace>& face,
                                            const WorkingImages& p) const;
   BackgroundEnergy background_energy_of(WorkingImages& images, const std::optional<HeadRegion>& head,
@@ -104,7 +118,10 @@ class FeatureExtractor {
   double over_elapsed(double rate) const;
   void update_background(const WorkingImages& p, const BackgroundEnergy& background,
                          const std::optional<PoseLandmarks>& landmarks);
-  void update_camera_motion(const cv::Mat& grey);
+  double elapsed_until(double time) const;
+  bool camera_check_is_due(double elapsed) const;
+  CameraCheck check_camera(const cv::Mat& grey) const;
+  void update_camera_motion(const WorkingImages& p);
   void update_status(const WorkingImages& p, const FrameFeatures& features);
 
   double networks_ms_ = 0.0;  ///< time of the networks in the last frame that they looked at

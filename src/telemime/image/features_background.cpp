@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "telemime/image/features.h"
 #include "telemime/image/light_change.h"
@@ -31,6 +32,18 @@ FeatureExtractor::LitImage FeatureExtractor::in_light_of_background(const LogCol
   return lit;
 }
 
+FeatureExtractor::SceneEnergies FeatureExtractor::compare_with_scene(const LogColour& colour) const {
+  const BackgroundModel& model = calibration_.background;
+  SceneEnergies scene;
+  if (!model.empty()) {
+    scene.background = background_energy(model, colour, config_.shadow);
+  }
+  if (!background_complete_ || model.empty()) {
+    scene.surroundings = energy(calibration_.surroundings, colour);
+  }
+  return scene;
+}
+
 BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
                                                         const std::optional<HeadRegion>& head,
                                                         const cv::Mat& mask) {
@@ -47,11 +60,12 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
     images.colour = images.lit->colour;
     status_.light_change = images.lit->change;
   }
+  SceneEnergies scene = images.scene ? *std::exchange(images.scene, {}) : compare_with_scene(images.colour);
   // Energy of pixels whose background is unknown: colours of the surroundings, position relative to the
   // head, and the previous silhouette.
   cv::Mat unknown;
   if (!background_complete_ || model.empty()) {
-    unknown = energy(calibration_.surroundings, images.colour);
+    unknown = scene.surroundings;
     cv::min(unknown, config_.segmentation.unknown_background_cost, unknown);
     constexpr float kPositionWeight = 5.0F;
     constexpr float kPreviousWeight = 4.0F;
@@ -71,7 +85,10 @@ BackgroundEnergy FeatureExtractor::background_energy_of(WorkingImages& images,
     return {unknown, cv::Mat::zeros(size, CV_8UC1), true};
   }
   // Compare with the model.
-  BackgroundEnergy out = background_energy(model, images.colour, config_.shadow, unknown);
+  BackgroundEnergy out = std::move(scene.background);
+  if (!unknown.empty()) {
+    set_unknown(model, unknown, out);
+  }
   out.doubtful = calibration_.doubtful;
   if (!by_mask.empty()) {
     out.energy += by_mask;

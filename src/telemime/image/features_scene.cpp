@@ -225,10 +225,9 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
       head_.reset();
       return found;
     };
-    const bool empty =
-        differs_from_background(background_energy(candidate.background, colour, config_.shadow, {}),
-                                *head->head) &&
-        !has_face(still.front()) && !has_face(still[count / 2]);
+    const bool empty = differs_from_background(
+                           background_energy(candidate.background, colour, config_.shadow), *head->head) &&
+                       !has_face(still.front()) && !has_face(still[count / 2]);
     if (empty) {
       const std::size_t offset = whole || first < half ? 0 : clip.size() - 2 * half;
       const auto from = static_cast<std::size_t>(clip[first + offset].index);
@@ -273,14 +272,22 @@ double FeatureExtractor::known_background_share() const {
   return valid.empty() ? 0.0 : cv::countNonZero(valid) / static_cast<double>(valid.total());
 }
 
-void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
-  since_motion_ += elapsed_;
-  if (config_.motion_every == 0 || since_motion_ < config_.motion_every) {
+bool FeatureExtractor::camera_check_is_due(double elapsed) const {
+  return config_.motion_every > 0 && since_motion_ + elapsed >= config_.motion_every;
+}
+
+FeatureExtractor::CameraCheck FeatureExtractor::check_camera(const cv::Mat& grey) const {
+  return {shared_motion(motion_image_, grey, motion_mask_ & background_mask_)};
+}
+
+void FeatureExtractor::update_camera_motion(const WorkingImages& p) {
+  if (!camera_check_is_due(elapsed_)) {
+    since_motion_ += elapsed_;
     return;
   }
   since_motion_ = 0.0;
   if (!motion_image_.empty()) {
-    const auto shared = shared_motion(motion_image_, grey, motion_mask_ & background_mask_);
+    const std::optional<SharedMotion> shared = (p.camera ? *p.camera : check_camera(p.grey)).shared;
     camera_step_ =
         shared ? shared->pixels * kMotionWidth / reference_width(config_.width, config_.height) : 0.0;
     // Where nothing can be followed, a camera that moved is believed to go on for a while.
@@ -288,7 +295,7 @@ void FeatureExtractor::update_camera_motion(const cv::Mat& grey) {
     const double weight = shared ? kMotionWeight : kOldMotionWeight;
     status_.camera_motion += weight * (std::min(camera_step_, kLargestStep) - status_.camera_motion);
   }
-  motion_image_ = grey;
+  motion_image_ = p.grey;
   motion_mask_ = background_mask_.clone();
 }
 

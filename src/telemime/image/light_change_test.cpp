@@ -37,7 +37,7 @@ double foreground_share(const BackgroundModel& model, const cv::Mat& image) {
   constexpr float kAnything = 3.0F;
   LogColour colour = log_colour(image);
   compensate(model, estimate_light(model, colour, {}), colour);
-  const cv::Mat energy = background_energy(model, colour, ShadowRange{}, {}).energy;
+  const cv::Mat energy = background_energy(model, colour, ShadowRange{}).energy;
   return cv::countNonZero(energy > kAnything) / static_cast<double>(energy.total());
 }
 

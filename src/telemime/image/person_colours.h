@@ -18,6 +18,15 @@ struct PersonColours {
   bool known() const { return !skin.empty(); }
 };
 
+/// Energies of an image under the colours of a person, as energy() gives them: CV_32FC1.
+struct ColourEnergies {
+  cv::Mat skin;
+  cv::Mat clothes;
+  cv::Mat hair;
+  cv::Mat other;
+};
+ColourEnergies colour_energies(const LogColour& image, const PersonColours& colours);
+
 /// Result of an attempt to learn the colours of a person.
 struct PersonReport {
   bool accepted = false;

@@ -297,19 +297,24 @@ double share_of_skin_and_hair(const ColourVotes& votes, const HeadRegion& head) 
 
 Segmentation segment(const LogColour& image, const BackgroundEnergy& background, const PersonColours& colours,
                      const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
+  return segment(colour_energies(image, colours), background, colours.known(), head, config);
+}
+
+Segmentation segment(const ColourEnergies& colours, const BackgroundEnergy& background, bool colours_known,
+                     const std::optional<HeadRegion>& head, const SegmentationConfig& config) {
   // Silhouette.
-  ColourVotes votes = vote(image, colours, head, config);
+  ColourVotes votes = vote(colours, head, config);
   Segmentation out;
   out.head_share = head ? share_of_skin_and_hair(votes, *head) : 0.0;
   out.silhouette = silhouette_of(background, votes, head, config);
-  remove_foreign_components(out.silhouette, votes, head, colours.known(), config);
+  remove_foreign_components(out.silhouette, votes, head, colours_known, config);
   fill_holes(out.silhouette, background, votes.colour,
              config.least_part * static_cast<double>(out.silhouette.total()) * kHoleSize);
   relabel_unknown_scraps(votes, out.silhouette,
                          kScrapSize * config.least_part * static_cast<double>(out.silhouette.total()));
   // Labels.
   cv::compare(votes.colour, static_cast<int>(kSkin), out.skin, cv::CMP_EQ);
-  out.labels = label(out.silhouette, votes, head, colours.known(), config);
+  out.labels = label(out.silhouette, votes, head, colours_known, config);
   const double island = kIslandSize * config.least_part * static_cast<double>(out.silhouette.total());
   relabel_islands(out.labels, Label::clothes, Label::arms, 2 * island);
   relabel_islands(out.labels, Label::arms, Label::clothes, island);

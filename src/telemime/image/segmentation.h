@@ -34,6 +34,8 @@ struct Segmentation {
 /// (with or without a shadow) and the colours of the person wins a 3x3 vote. Components that do not belong to
 /// the person are then removed, and head, neck and hair are recognised by their position (thesis 2.4.4.1,
 /// 3.4.2). Without learned colours, all pixels of the person outside the head are `ignore`.
+Segmentation segment(const ColourEnergies& colours, const BackgroundEnergy& background, bool colours_known,
+                     const std::optional<HeadRegion>& head, const SegmentationConfig& config);
 Segmentation segment(const LogColour& image, const BackgroundEnergy& background, const PersonColours& colours,
                      const std::optional<HeadRegion>& head, const SegmentationConfig& config);
 

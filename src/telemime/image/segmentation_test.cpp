@@ -31,7 +31,7 @@ cv::Mat test_image() {
 // How this image differs from the wall alone.
 BackgroundEnergy against_the_wall(const LogColour& colour) {
   const std::vector<cv::Mat> empty(5, cv::Mat(colour.l.size(), CV_8UC3, kWall));
-  return background_energy(learn_background_model(empty), colour, ShadowRange{}, {});
+  return background_energy(learn_background_model(empty), colour, ShadowRange{});
 }
 
 struct Scene {
