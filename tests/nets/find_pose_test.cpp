@@ -174,7 +174,7 @@ TEST_F(FindPose, FaceIsAroundTheNoseOfThePose) {
   for (const cv::Mat& frame : frames) {
     const auto pose = find_pose(frame, networks);
     ASSERT_TRUE(pose);
-    const auto face = find_face(frame, head_region(*pose), faces, region);
+    const auto face = region ? face_in(frame, *region, faces) : find_face(frame, head_region(*pose), faces);
     ASSERT_TRUE(face);
     region = face->next_region;
     constexpr std::size_t kNoseTip = 1, kRightEyeCorner = 33, kLeftEyeCorner = 263;
@@ -193,7 +193,7 @@ TEST_F(FindPose, EyesAndIrisesAreOnTheirOwnSide) {
   for (const cv::Mat& frame : frames_of(kDemo / "video.mp4", 3)) {
     const auto pose = find_pose(frame, networks);
     ASSERT_TRUE(pose);
-    const auto face = find_face(frame, head_region(*pose), faces, std::nullopt);
+    const auto face = find_face(frame, head_region(*pose), faces);
     ASSERT_TRUE(face);
     FacePoints points;
     for (std::size_t i = 0; i < kFacePoints; ++i) {
@@ -219,6 +219,26 @@ TEST_F(FindPose, EyesAndIrisesAreOnTheirOwnSide) {
     for (const std::size_t i : {0U, 13U, 14U, 17U, 61U, 291U}) {
       EXPECT_LT((fit.in_head(points[i]) - canonical_face()[i]).head<2>().norm(), 15.0) << i << ", mm";
     }
+  }
+}
+
+TEST_F(FindPose, TheSecondLookSeesTheSameFace) {
+  PoseNetworks networks = load_pose_networks(kModels);
+  FaceNetworks faces = load_face_networks(kModels);
+  for (const cv::Mat& frame : frames_of(kDemo / "video.mp4", 3)) {
+    const auto pose = find_pose(frame, networks);
+    ASSERT_TRUE(pose);
+    const auto face = find_face(frame, head_region(*pose), faces);
+    ASSERT_TRUE(face && face->again);
+    double apart = 0.0;
+    for (std::size_t i = 0; i < FaceLandmarks::kMeshCount; ++i) {
+      apart += ((*face->again)[i].pixel - face->points[i].pixel).norm() / FaceLandmarks::kMeshCount;
+    }
+    // It is a look at another square, so it differs a little.
+    EXPECT_GT(apart, 0.01);
+    EXPECT_LT(apart, 0.03 * face->next_region.width);
+    // Where there is no face, nobody looks twice.
+    EXPECT_FALSE(face_in(cv::Mat(frame.size(), CV_8UC3, cv::Scalar(90, 90, 90)), face->next_region, faces));
   }
 }
 

@@ -228,7 +228,7 @@ TEST_F(TwoPeople, AFaceBesideACoveredOneIsNotTaken) {
   cv::Mat image = frames_[0].clone();
   const auto person = finder_.find(image, 0.0);
   ASSERT_TRUE(person);
-  ASSERT_TRUE(FaceFinder(kModels).find(image, *person, image.size()));
+  ASSERT_TRUE(FaceFinder(kModels).find(image, *person, image.size(), 0.0));
   // Somebody who leans in: the same face, a face's width beside the covered one.
   const PictureRegion head = head_region(*person);
   const auto face_at = [&](double aside) {
@@ -238,7 +238,7 @@ TEST_F(TwoPeople, AFaceBesideACoveredOneIsNotTaken) {
   };
   image(face_at(0.0)).copyTo(image(face_at(0.42)));
   image(face_at(0.0)).setTo(cv::Scalar(180, 170, 170));
-  EXPECT_FALSE(FaceFinder(kModels).find(image, *person, image.size()));
+  EXPECT_FALSE(FaceFinder(kModels).find(image, *person, image.size(), 0.0));
 }
 
 }  // namespace

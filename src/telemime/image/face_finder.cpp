@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/image/face_finder.h"
 
+#include <utility>
 
 #include "telemime/image/person_finder.h"
 
@@ -9,8 +10,16 @@ namespace telemime {
 FaceFinder::FaceFinder(const std::filesystem::path& models)
     : networks_(std::make_shared<FaceNetworks>(load_face_networks(models))) {}
 
+void FaceFinder::prepare(const cv::Mat& picture, double time) {
+  prepared_.reset();
+  if (networks_ && region_) {
+    prepared_ = {.time = time, .face = face_in(picture, *region_, *networks_)};
+  }
+}
+
 std::optional<FaceLandmarks> FaceFinder::find(const cv::Mat& picture, const PoseLandmarks& person,
-                                              cv::Size working) {
+                                              cv::Size working, double time) {
+  const std::optional<Seen> prepared = std::exchange(prepared_, std::nullopt);
   if (!networks_) {
     return std::nullopt;
   }
@@ -23,12 +32,17 @@ std::optional<FaceLandmarks> FaceFinder::find(const cv::Mat& picture, const Pose
   if (region_ && !is_near(*region_)) {
     region_.reset();
   }
-  std::optional<FaceLandmarks> face = find_face(picture, head, *networks_, region_);
+  // Where it was, then wherever the detector sees one.
+  std::optional<FaceLandmarks> face;
+  if (region_) {
+    const bool is_prepared = prepared && prepared->time == time;
+    face = is_prepared ? prepared->face : face_in(picture, *region_, *networks_);
+  }
+  if (!face) {
+    face = find_face(picture, head, *networks_);
+  }
   if (face && !is_near(face->next_region)) {
     face.reset();
-  }
-  if (face) {
-    look_again(picture, *networks_, *face);
   }
   region_ = face ? std::optional(face->next_region) : std::nullopt;
   return face;

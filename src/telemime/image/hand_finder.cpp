@@ -56,16 +56,39 @@ HandFinder::HandFinder(const std::filesystem::path& models)
     : networks_{std::make_shared<HandNetworks>(load_hand_networks(models)),
                 std::make_shared<HandNetworks>(load_hand_networks(models))} {}
 
+bool HandFinder::is_followed(std::size_t hand, double time) const {
+  constexpr double kRemembered = 0.25, kTurn = 0.6;  // s, where hands take turns
+  const std::optional<Followed>& followed = followed_[hand];
+  return followed && time > followed->time &&
+         time - followed->time < (followed->missed ? kRemembered : kTurn);
+}
+
+std::optional<HandLandmarks> HandFinder::look_where_it_was(const cv::Mat& picture, std::size_t hand,
+                                                           double time) {
+  const std::optional<Seen> prepared = std::exchange(prepared_[hand], std::nullopt);
+  return prepared && prepared->time == time
+             ? prepared->hand
+             : hand_in(picture, next_region(followed_[hand]->hand), *networks_[hand]);
+}
+
+void HandFinder::prepare(const cv::Mat& picture, double time, bool in_turn) {
+  const auto prepare_for = [&](std::size_t i) {
+    prepared_[i].reset();
+    if (has_networks() && is_due(i, in_turn) && is_followed(i, time)) {
+      prepared_[i] = {.time = time, .hand = look_where_it_was(picture, i, time)};
+    }
+  };
+  in_parallel([&] { prepare_for(0); }, [&] { prepare_for(1); });
+}
+
 std::optional<HandLandmarks> HandFinder::look(const cv::Mat& picture, const PoseLandmarks& pose,
                                               HandSide side, double time) {
-  constexpr double kRemembered = 0.25, kTurn = 0.6;  // s, where hands take turns
   constexpr double kAway = 0.6;  // of the region's width, between the wrist and that of the pose
   const PoseLandmark& wrist = wrist_of(pose, side);
   // Where it was, as long as the body has it there, too.
   const auto i = static_cast<std::size_t>(side);
-  const auto& followed = followed_[i];
-  if (followed && time > followed->time && time - followed->time < (followed->missed ? kRemembered : kTurn)) {
-    auto hand = hand_in(picture, next_region(followed->hand), *networks_[i]);
+  if (is_followed(i, time)) {
+    auto hand = look_where_it_was(picture, i, time);
     if (hand && (hand->points[0].pixel - wrist.pixel).norm() < kAway * hand->region.width) {
       return hand;
     }
@@ -81,14 +104,14 @@ std::array<SeenHand, 2> HandFinder::find(const cv::Mat& picture, const PoseLandm
     return hands;
   }
   const PoseLandmarks in_picture = scaled_to(pose, working, picture.size());
-  turn_ = 1 - turn_;
   const auto look_for = [&](HandSide side) {
     const auto i = static_cast<std::size_t>(side);
-    if (!in_turn || i == turn_) {
+    if (is_due(i, in_turn)) {
       hands[i] = {.looked = true, .found = look(picture, in_picture, side, time)};
     }
   };
   in_parallel([&] { look_for(HandSide::left); }, [&] { look_for(HandSide::right); });
+  turn_ = 1 - turn_;
   // Two findings of one hand: the better one stays.
   if (hands[0].found && hands[1].found && are_same_hand(*hands[0].found, *hands[1].found)) {
     const bool left = doubt(*hands[0].found, in_picture, HandSide::left) <

@@ -30,6 +30,11 @@ class HandFinder {
 
   bool has_networks() const { return networks_[0] != nullptr; }
 
+  /// The part of find() that needs no pose, so that it can run beside the search for the pose of the same
+  /// picture: it looks where the hands were. find() for this time then starts from what was seen there; it
+  /// finds the same without it.
+  void prepare(const cv::Mat& picture, double time, bool in_turn = false);
+
   /// The hands in the next picture (CV_8UC3, BGR). `pose` and the result are in pixels of an image of size
   /// `working` that shows the same. `time` is that of the picture, s. With `in_turn` it looks for one hand
   /// only, otherwise for both at the same time.
@@ -37,9 +42,17 @@ class HandFinder {
                                double time, bool in_turn = false);
 
  private:
+  bool is_due(std::size_t hand, bool in_turn) const { return !in_turn || hand != turn_; }
+  bool is_followed(std::size_t hand, double time) const;
+  std::optional<HandLandmarks> look_where_it_was(const cv::Mat& picture, std::size_t hand, double time);
   std::optional<HandLandmarks> look(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,
                                     double time);
 
+  /// What was seen where a hand was.
+  struct Seen {
+    double time = 0.0;
+    std::optional<HandLandmarks> hand;
+  };
   struct Followed {
     HandLandmarks hand;  ///< in pixels of the picture
     double time = 0.0;
@@ -47,6 +60,7 @@ class HandFinder {
   };
   std::array<std::shared_ptr<HandNetworks>, 2> networks_;  ///< of each hand
   std::array<std::optional<Followed>, 2> followed_;
+  std::array<std::optional<Seen>, 2> prepared_;
   std::size_t turn_ = 0;  ///< the hand that was looked for last
 };
 

@@ -82,15 +82,20 @@ FaceNetworks load_face_networks(const std::filesystem::path& models) {
           .details = load_face_details(models)};
 }
 
-void look_again(const cv::Mat& picture, FaceNetworks& networks, FaceLandmarks& face) {
+std::optional<FaceLandmarks> face_in(const cv::Mat& picture, const PictureRegion& region,
+                                     FaceNetworks& networks) {
   constexpr double kAside = 0.03;  // of its width
   constexpr double kSmaller = 1.25 / kMargin;
-  PictureRegion region = face.next_region;  // which the first look has centred and levelled
-  region.width *= kSmaller;
-  region.height *= kSmaller;
-  region.centre += kAside * region.width * Eigen::Vector2d(1.0, 1.0);
-  const std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks);
-  face.again = found ? std::optional(found->points) : std::nullopt;
+  std::optional<FaceLandmarks> face = landmarks_in(picture, region, networks);
+  if (face) {
+    PictureRegion second = face->next_region;  // which the first look has centred and levelled
+    second.width *= kSmaller;
+    second.height *= kSmaller;
+    second.centre += kAside * second.width * Eigen::Vector2d(1.0, 1.0);
+    const std::optional<FaceLandmarks> again = landmarks_in(picture, second, networks);
+    face->again = again ? std::optional(again->points) : std::nullopt;
+  }
+  return face;
 }
 
 PictureRegion head_region(const PoseLandmarks& pose) {
@@ -106,12 +111,7 @@ PictureRegion head_region(const PoseLandmarks& pose) {
 }
 
 std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegion& search,
-                                       FaceNetworks& networks, const std::optional<PictureRegion>& previous) {
-  if (previous) {
-    if (std::optional<FaceLandmarks> found = landmarks_in(picture, *previous, networks)) {
-      return found;
-    }
-  }
+                                       FaceNetworks& networks) {
   // Keypoints of a face: its right eye, left eye, nose, mouth, right ear, left ear.
   const SingleShotFormat format{.input = 128, .grids = {{16, 2}, {8, 6}}, .keypoints = 6};
   std::vector<Detection> faces = detect(picture, search, networks.detector, format);
@@ -127,7 +127,7 @@ std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegi
                                .width = side,
                                .height = side,
                                .angle = std::atan2(eyes.y(), eyes.x())};
-    if (std::optional<FaceLandmarks> found = landmarks_in(picture, region, networks)) {
+    if (std::optional<FaceLandmarks> found = face_in(picture, region, networks)) {
       return found;
     }
   }

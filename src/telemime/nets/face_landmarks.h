@@ -47,21 +47,21 @@ struct FaceNetworks {
 /// Points of the mesh, presence, and the features for the details: of face_landmark_with_attention.
 inline const std::vector<std::string> kFaceMeshOutputs = {"output_mesh", "conv_faceflag", "p_re_lu_3"};
 
-/// Looks at the same face again and sets `again`. The region is level by the first look, five sixths as wide
-/// as next_region, and a little aside.
-void look_again(const cv::Mat& picture, FaceNetworks& networks, FaceLandmarks& face);
-
 /// Reads face_detection_short_range and face_landmark_with_attention. Throws Error(config) if one is missing.
 FaceNetworks load_face_networks(const std::filesystem::path& models);
 
 /// The square around the head of a person, in which the face is to be searched.
 PictureRegion head_region(const PoseLandmarks& pose);
 
-/// The points of the visible face nearest to the centre of this square region of a BGR picture (CV_8UC3).
-/// `previous` is next_region of the frame before; the detector runs only without it or if there is no face
-/// any more. Empty if no face is found.
+/// The face in this square region of a BGR picture (CV_8UC3), such as next_region of the frame before; empty
+/// if there is none. The network looks twice: the second region is level by the first look, five sixths as
+/// wide as next_region, and a little aside.
+std::optional<FaceLandmarks> face_in(const cv::Mat& picture, const PictureRegion& region,
+                                     FaceNetworks& networks);
+
+/// The visible face nearest to the centre of this square region, by the detector; looked at as in face_in().
+/// Empty if no face is found.
 std::optional<FaceLandmarks> find_face(const cv::Mat& picture, const PictureRegion& search,
-                                       FaceNetworks& networks,
-                                       const std::optional<PictureRegion>& previous = std::nullopt);
+                                       FaceNetworks& networks);
 
 }  // namespace telemime

@@ -59,6 +59,19 @@ struct Timed {
   double ms = 0.0;
 };
 
+// What is seen of face and hands without the pose of the body. The time, ms.
+double prepare_face(const Frame& frame, SceneState& scene) {
+  Stopwatch watch;
+  scene.face.prepare(frame.image, frame.time);
+  return watch.lap();
+}
+
+double prepare_hands(const Frame& frame, SceneState& scene) {
+  Stopwatch watch;
+  scene.hands.prepare(frame.image, frame.time, scene.hands_in_turn);
+  return watch.lap();
+}
+
 // The face of the person (docs/face.md).
 Timed<std::optional<FaceLandmarks>> find_face(const Frame& frame,
                                               const std::optional<PoseLandmarks>& landmarks,
@@ -67,7 +80,7 @@ Timed<std::optional<FaceLandmarks>> find_face(const Frame& frame,
     return {};
   }
   Stopwatch watch;
-  auto face = scene.face.find(frame.image, *landmarks, scene.features.working_size());
+  auto face = scene.face.find(frame.image, *landmarks, scene.features.working_size(), frame.time);
   return {.found = std::move(face), .ms = watch.lap()};
 }
 
@@ -246,23 +259,29 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   FrameFeatures features;
   Timed<std::optional<FaceLandmarks>> face;
   Timed<std::array<SeenHand, 2>> hands;
+  double face_ms = 0.0;
+  double hands_ms = 0.0;
   on_threads(scene.threads, [&] {
     // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
     has_colours = learn_colours(frame, request, scene, learned);
-    // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1). What needs no network runs
-    // beside the landmarks of the body; the rest runs beside face and hands (docs/hands.md), which need only
-    // the landmarks.
+    // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1). What needs no landmarks of
+    // the body runs beside their network: colours and edges, and the looks at places where face and hands
+    // (docs/hands.md) were. The rest needs only the landmarks.
     in_parallel([&] { landmarks = scene.features.find_landmarks(frame); },
-                [&] { scene.features.prepare(frame); });
+                [&] {
+                  in_parallel([&] { scene.features.prepare(frame); },
+                              [&] { hands_ms = prepare_hands(frame, scene); },
+                              [&] { face_ms = prepare_face(frame, scene); });
+                });
     in_parallel([&] { features = scene.features.extract(frame); },
                 [&] { face = find_face(frame, landmarks, scene); },
                 [&] { hands = find_hands(frame, landmarks, scene); });
   });
   features.face = face.found;
-  features.face_ms = face.ms;
+  features.face_ms = face_ms + face.ms;
   if (scene.hands.has_networks()) {
     features.hands = hands.found;
-    features.hands_ms = hands.ms;
+    features.hands_ms = hands_ms + hands.ms;
   }
   // Whether a person is present, and warnings where the assumptions of the scene model do not hold.
   features.warnings = scene.features.status().warnings;
