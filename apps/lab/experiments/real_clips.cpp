@@ -2,6 +2,7 @@
 // Figure 4-33: mistracked frames on clips of real people.
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "lab/experiments/experiments.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 // A clip with its scene and person, learned beforehand.
 struct LearnedClip {
   std::string name;
-  std::string input;
+  TrackRequest request;  ///< names the clip and the files beside it
   Camera camera;
   KnownStart start;
   ImageCalibration scene;      ///< background and colours
@@ -48,6 +49,11 @@ Config config_of(const std::string& filter, int particles, std::uint64_t seed) {
   return config;
 }
 
+// The pictures of a clip, without the distortion of its camera.
+std::unique_ptr<Source> source_of(const TrackRequest& request) {
+  return without_distortion(open_source(request.input), request);
+}
+
 bool counts(const LearnedClip& clip, std::int64_t frame) {
   const auto t = static_cast<std::size_t>(frame);
   return frame > clip.start.frame &&
@@ -60,7 +66,7 @@ void follow(const LearnedClip& clip, const Config& config, std::int64_t most_fra
   TrackingRun run = make_tracking_run(config, clip.camera);
   run.scene.features.set_calibration(clip.scene);
   run.state.known_start = clip.start;
-  const auto source = open_source(clip.input);
+  const auto source = source_of(clip.request);
   while (const std::optional<Frame> frame = source->next()) {
     if (frame->index > clip.start.frame + most_frames) {
       break;
@@ -95,21 +101,23 @@ std::optional<LearnedClip> learn(const Lab& lab, const fs::path& folder) {
   if (!input) {
     return std::nullopt;
   }
-  clip.input = input->string();
   if (fs::exists(folder / "truth.json")) {
     clip.truth = read_truth(folder / "truth.json");
   }
   lab.log("learning scene and person of " + clip.name);
-  TrackRequest request;
-  request.input = clip.input;
+  TrackRequest& request = clip.request;
+  request.input = input->string();
+  if (fs::exists(folder / "camera.yml")) {
+    request.camera = (folder / "camera.yml").string();
+  }
   request.background = find_video(folder, "background").value_or("").string();
   request.config = experiment_config(lab.options().seed);
   request.config.tracking.method = "two-step";
   if (lab.options().quick) {
     request.config.calibration.look_ahead = kQuickFrames;
   }
-  const auto source = open_source(clip.input);
-  clip.camera = camera_for(source->info(), "", request.config.field_of_view);
+  const auto source = source_of(request);
+  clip.camera = camera_for(source->info(), request.camera, request.config.field_of_view);
   TrackingRun run = make_tracking_run(request.config, clip.camera);
   learn_scene(request, source->info(), run);
   const LookAhead found = look_ahead({.next = [&] { return source->next(); }}, run);
