@@ -237,7 +237,7 @@ TEST_F(FindPose, TheSecondLookSeesTheSameFace) {
     // It is a look at another square, so it differs a little.
     EXPECT_GT(apart, 0.01);
     EXPECT_LT(apart, 0.03 * face->next_region.width);
-    // Where there is no face, nobody looks twice.
+    // Where there is no face, none is found.
     EXPECT_FALSE(face_in(cv::Mat(frame.size(), CV_8UC3, cv::Scalar(90, 90, 90)), face->next_region, faces));
   }
 }

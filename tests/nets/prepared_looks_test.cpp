@@ -2,10 +2,13 @@
 // Looks at the places where hands and face were may be prepared before the pose of the body is known.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -51,13 +54,19 @@ class PreparedLooks : public ::testing::Test {
   std::vector<PoseLandmarks> poses_;
 };
 
+bool have_equal_pixels(const auto& a, const auto& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& p, const auto& q) { return p.pixel == q.pixel; });
+}
+
 bool are_equal(const std::optional<HandLandmarks>& a, const std::optional<HandLandmarks>& b) {
-  return a.has_value() == b.has_value() && (!a || a->points[8].pixel == b->points[8].pixel);
+  return a.has_value() == b.has_value() && (!a || have_equal_pixels(a->points, b->points));
 }
 
 bool are_equal(const std::optional<FaceLandmarks>& a, const std::optional<FaceLandmarks>& b) {
   return a.has_value() == b.has_value() &&
-         (!a || (a->points[1].pixel == b->points[1].pixel && a->again.has_value() == b->again.has_value()));
+         (!a || (have_equal_pixels(a->points, b->points) && a->again.has_value() == b->again.has_value() &&
+                 (!a->again || have_equal_pixels(*a->again, *b->again))));
 }
 
 TEST_F(PreparedLooks, HandsAreTheSame) {

@@ -165,6 +165,23 @@ TEST_F(TwoPeople, AMaskIsKeptForOnePicture) {
   EXPECT_TRUE(finder_.mask(true).empty());
 }
 
+TEST_F(TwoPeople, CountingOthersChangesNoMask) {
+  const cv::Mat both = picture(0, true, true);
+  const auto mask_after = [&](double time) {
+    PersonFinder finder(kModels);
+    EXPECT_TRUE(finder.find(both, 0.0));
+    EXPECT_TRUE(finder.find(both, time));
+    EXPECT_EQ(finder.people(), 2);
+    return finder.mask(false);
+  };
+  // Only after a second, the network looks at the other person again.
+  const cv::Mat plain = mask_after(0.9);
+  const cv::Mat counted = mask_after(1.0);
+  ASSERT_EQ(plain.size(), counted.size());
+  EXPECT_EQ(cv::countNonZero(plain != counted), 0);
+  EXPECT_GT(cv::countNonZero(plain > 127), 0);
+}
+
 TEST_F(TwoPeople, SomebodyElseIsNoArm) {
   // Somebody stands behind and touches the outline of the near person.
   const cv::Mat room = empty_picture();

@@ -100,9 +100,11 @@ TEST(BackgroundModel, UnknownPixelsAreLearnedWhenSteady) {
   const LogColour colour = log_colour(scene(random));
   const cv::Mat unknown(120, 160, CV_32FC1, cv::Scalar(7));
   BackgroundEnergy energy = background_energy(model, colour, ShadowRange{});
+  energy.shaded.setTo(255);
   set_unknown(model, unknown, energy);
   EXPECT_EQ(energy.energy.at<float>(60, 10), 7.0F);
   EXPECT_LT(energy.energy.at<float>(60, 100), 0.0F);
+  EXPECT_EQ(cv::countNonZero(energy.shaded.colRange(0, 80)), 0);
   const cv::Mat everywhere(120, 160, CV_8UC1, cv::Scalar(255));
   adapt_background(model, colour, everywhere, 0.0F);
   EXPECT_EQ(model.valid.at<unsigned char>(60, 10), 0);

@@ -36,8 +36,8 @@ struct Ellipse {
   float x, y, rx, ry;
 };
 
-/// Computes the colour classes of an image. Hair is a candidate only around the head, other classes
-/// everywhere.
+/// Computes the colour classes of an image with these energies. Hair is a candidate only around the head,
+/// other classes everywhere.
 ColourVotes vote(const ColourEnergies& energies, const std::optional<HeadRegion>& head,
                  const SegmentationConfig& config);
 

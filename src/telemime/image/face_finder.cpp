@@ -11,8 +11,8 @@ FaceFinder::FaceFinder(const std::filesystem::path& models)
     : networks_(std::make_shared<FaceNetworks>(load_face_networks(models))) {}
 
 void FaceFinder::prepare(const cv::Mat& picture, double time) {
-  prepared_.reset();
-  if (networks_ && region_) {
+  // While find() is not called because nobody is there, nothing is looked at again.
+  if (networks_ && region_ && !prepared_) {
     prepared_ = {.time = time, .face = face_in(picture, *region_, *networks_)};
   }
 }

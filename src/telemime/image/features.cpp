@@ -146,7 +146,7 @@ void FeatureExtractor::prepare(const Frame& frame) {
   WorkingImages& p = prepared_;
   in_parallel([&] { p.gradient = deriche_gradient(p.grey, config_.edges.alpha); },
               [&] {
-                // The colours, as soon as it is known where the background shows the light.
+                // The colours, if it is known which pixels show the background in this light.
                 if (!calibration_.background.empty() && !background_mask_.empty()) {
                   p.lit = in_light_of_background(p.colour, background_mask_);
                 }
@@ -157,9 +157,10 @@ void FeatureExtractor::prepare(const Frame& frame) {
                 }
               },
               [&] {
-                // Where the background was in the frame before.
+                // With the background of the frame before. After a pause, the person may be anywhere in it.
                 const bool due = camera_check_is_due(elapsed_until(frame.time));
-                if (due && !motion_image_.empty() && !background_mask_.empty()) {
+                const bool paused = last_time_ && frame.time - *last_time_ > kPause;
+                if (due && !paused && !motion_image_.empty() && !background_mask_.empty()) {
                   p.camera = check_camera(p.grey);
                 }
               });

@@ -25,6 +25,8 @@ struct ColourEnergies {
   cv::Mat hair;
   cv::Mat other;
 };
+
+/// The energies of all pixels under each mixture, on the threads of the caller's arena.
 ColourEnergies colour_energies(const LogColour& image, const PersonColours& colours);
 
 /// Result of an attempt to learn the colours of a person.

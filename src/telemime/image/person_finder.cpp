@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace telemime {
 namespace {
@@ -119,9 +120,10 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
                .place = place_of(landmarks),
                .time = time,
                .picture = picture.size(),
-               .mask_input = found->mask,
+               .mask_input = std::move(found->mask),
                .mask = mask,
                .mask_time = mask_time,
+               .own_mask = false,
                .facing = facing};
   if (count(picture, followed_->place, time)) {
     // Somebody sits in front of the person who is followed: from now on, they are the person.
@@ -136,12 +138,15 @@ cv::Mat PersonFinder::mask(bool keep) {
   if (!found_) {
     return {};
   }
-  const double age = followed_->time - followed_->mask_time;
-  if (followed_->mask.size() != followed_->picture || age > (keep ? kMaskAge : 0.0)) {
-    followed_->mask = person_mask(followed_->mask_input, followed_->picture, networks_->mask);
-    followed_->mask_time = followed_->time;
+  Followed& person = *followed_;
+  const bool is_kept =
+      keep && person.mask.size() == person.picture && person.time - person.mask_time <= kMaskAge;
+  if (!person.own_mask && !is_kept) {
+    person.mask = person_mask(person.mask_input, person.picture, networks_->mask);
+    person.mask_time = person.time;
+    person.own_mask = true;
   }
-  return followed_->mask;
+  return person.mask;
 }
 
 bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, double time) {
@@ -162,7 +167,6 @@ bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, doub
     if (place.size <= kSmallest * person.size || apart <= kApart) {
       continue;
     }
-    mask(false);  // what it is computed from is lost when the network looks at somebody else
     if (find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
       ++people_;
       much_nearer = much_nearer || place.size > kMuchNearer * person.size;

@@ -73,6 +73,7 @@ class PersonFinder {
     MaskInput mask_input;  ///< of the last picture
     cv::Mat mask;          ///< the last that was computed
     double mask_time = 0.0;
+    bool own_mask = false;  ///< the mask is that of the last picture
     std::optional<TrunkFacing> facing;
   };
   bool is_followed(const PoseLandmarks& landmarks, double time) const;

@@ -33,9 +33,11 @@ struct Segmentation {
 /// Labels each pixel as background, head, arms, clothes or ignore: the lowest energy among the background
 /// (with or without a shadow) and the colours of the person wins a 3x3 vote. Components that do not belong to
 /// the person are then removed, and head, neck and hair are recognised by their position (thesis 2.4.4.1,
-/// 3.4.2). Without learned colours, all pixels of the person outside the head are `ignore`.
+/// 3.4.2). Unless `colours_known`, all pixels of the person outside the head are `ignore`.
 Segmentation segment(const ColourEnergies& colours, const BackgroundEnergy& background, bool colours_known,
                      const std::optional<HeadRegion>& head, const SegmentationConfig& config);
+
+/// The same from an image.
 Segmentation segment(const LogColour& image, const BackgroundEnergy& background, const PersonColours& colours,
                      const std::optional<HeadRegion>& head, const SegmentationConfig& config);
 

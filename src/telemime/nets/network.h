@@ -24,8 +24,9 @@ class Network {
   const TensorShape& output_shape(std::size_t output) const;
 
   /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage)
-  /// unless each input has the size of input_shape().
+  /// unless there is one span for each input, of the size of its input_shape().
   std::span<const std::span<const float>> run(std::span<const std::span<const float>> inputs);
+  /// The same of a network with one input.
   std::span<const std::span<const float>> run(std::span<const float> input) {
     return run(std::span(&input, 1));
   }

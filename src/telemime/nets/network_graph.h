@@ -69,11 +69,10 @@ struct NetworkGraph {
   std::vector<int> inputs, outputs;  ///< indices of tensors
 };
 
-/// Some rows of images that are each divided into `parts` bands of equal height: from band `first` to before
-/// band `end`.
+/// Some of the rows of an image that is divided into `parts` bands of equal height: `bands` neighbouring
+/// ones.
 struct RowShare {
-  int first = 0;
-  int end = 1;
+  int bands = 1;  ///< 1 to parts
   int parts = 1;
 };
 
@@ -81,16 +80,16 @@ struct RowShare {
 struct NetworkPart {
   std::vector<std::string> inputs;   ///< names of the tensors that are given; empty: the network's input
   std::vector<std::string> outputs;  ///< names of the tensors to compute, in this order; empty: its outputs
-  /// The rows of all images, inputs and outputs among them. Beyond a cut, windows see zeros instead of the
-  /// rows that are missing: rows near it are wrong.
+  /// The rows that are kept of every image, including inputs and outputs. Beyond a cut, windows see zeros
+  /// instead of the rows that are missing: rows near it are wrong.
   RowShare rows = {};
 };
 
-/// Reads the part of a TensorFlow Lite file with floating-point numbers and static shapes. Weights
-/// in half precision or sparse form become plain constants, padding before a convolution becomes part of it,
-/// and the slice of the first channels becomes a convolution. Throws Error(config) if the file is damaged,
-/// has no tensor of a name, or the part needs other inputs, an operator that is not supported or images that
-/// cannot be cut.
+/// Reads the part of a TensorFlow Lite file whose network has one input, floating-point numbers and static
+/// shapes. Weights in half precision or sparse form become plain constants, padding before a convolution
+/// becomes part of it, and the slice of the first channels becomes a convolution. Throws Error(config) if the
+/// file is damaged, has no tensor of a name, or the part needs other inputs, an operator that is not
+/// supported or images that cannot be cut; Error(usage) if there is no such share of rows.
 NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPart& part = {});
 
 }  // namespace telemime

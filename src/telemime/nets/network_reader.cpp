@@ -159,21 +159,27 @@ std::vector<FlatTable> needed_operators(const std::vector<FlatTable>& operators,
   return kept;
 }
 
-// Leaves these rows of all images.
+// Keeps only these rows of all images.
 void keep_rows(NetworkGraph& graph, const RowShare& rows) {
-  if (rows.parts == 1) {
+  if (!(rows.bands > 0 && rows.bands <= rows.parts)) {
+    throw Error(ErrorKind::usage, "a network was asked for a share of rows that does not exist");
+  }
+  if (rows.bands == rows.parts) {
     return;
   }
   std::vector<int> computed = graph.inputs;
   std::transform(graph.nodes.begin(), graph.nodes.end(), std::back_inserter(computed),
                  [](const NetworkNode& node) { return node.output; });
+  bool can_be_cut = std::none_of(graph.nodes.begin(), graph.nodes.end(),
+                                 [](const NetworkNode& node) { return node.kind == NodeKind::concatenate; });
   for (const int tensor : computed) {
     TensorShape& shape = graph.tensors[tensor].shape;
-    if (shape.size() != 4 || shape[1] % rows.parts != 0) {
+    can_be_cut = can_be_cut && shape.size() == 4 && shape[1] % rows.parts == 0;
+    if (!can_be_cut) {
       throw Error(ErrorKind::config, "the images of the network cannot be cut into these bands",
                   "Install the models again.");
     }
-    shape[1] = shape[1] / rows.parts * (rows.end - rows.first);
+    shape[1] = shape[1] / rows.parts * rows.bands;
   }
   for (const NetworkNode& node : graph.nodes) {
     check_shapes(graph, node);

@@ -150,22 +150,24 @@ TEST(Network, ComputesFromTwoInnerTensors) {
   EXPECT_THROW(network.run(first), Error);
 }
 
-TEST(Network, RowsOfAnImageAlone) {
+TEST(Network, KeepsSomeRowsOfAnImage) {
   // Windows of 3 x 3 ones on eight rows of two pixels: a row counts itself and its neighbours.
   const auto file =
       network_file({{{1, 8, 2, 1}}, {{1, 3, 3, 1}, std::vector<float>(9, 1.0F)}, {{1, 8, 2, 1}}},
                    {{kConvolution, {0, 1}, 2, convolution(kSame, 1)}}, {2});
-  Network network(file, {.inputs = {}, .outputs = {}, .rows = {.first = 2, .end = 4, .parts = 4}});
+  Network network(file, {.inputs = {}, .outputs = {}, .rows = {.bands = 2, .parts = 4}});
   EXPECT_EQ(network.input_shape(), (TensorShape{1, 4, 2, 1}));
   const auto outputs = network.run(std::vector<float>{1, 1, 10, 10, 100, 100, 1000, 1000});
   // The first row lacks its upper neighbour, and the last is at the end of the image.
   EXPECT_EQ(std::vector<float>(outputs[0].begin(), outputs[0].end()),
             (std::vector<float>{22, 22, 222, 222, 2220, 2220, 2200, 2200}));
-  EXPECT_THROW(Network(file, {.inputs = {}, .outputs = {}, .rows = {.first = 0, .end = 1, .parts = 3}}),
-               Error);
+  EXPECT_THROW(Network(file, {.inputs = {}, .outputs = {}, .rows = {.bands = 1, .parts = 3}}), Error);
+  for (const RowShare& none : {RowShare{0, 4}, RowShare{5, 4}, RowShare{1, 0}}) {
+    EXPECT_THROW(Network(file, {.inputs = {}, .outputs = {}, .rows = none}), Error);
+  }
+  EXPECT_THROW(Network(rich_file(), {.inputs = {}, .outputs = {}, .rows = {.bands = 1, .parts = 2}}), Error);
   const auto vectors = network_file({{{1, 2}}, {{1, 2}}}, {{kAdd, {0, 0}, 1}}, {1});
-  EXPECT_THROW(Network(vectors, {.inputs = {}, .outputs = {}, .rows = {.first = 0, .end = 1, .parts = 2}}),
-               Error);
+  EXPECT_THROW(Network(vectors, {.inputs = {}, .outputs = {}, .rows = {.bands = 1, .parts = 2}}), Error);
 }
 
 TEST(Network, RefusesInputOfAnotherSize) {

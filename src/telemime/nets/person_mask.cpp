@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
+#include "telemime/core/errors.h"
 #include "telemime/core/in_parallel.h"
 #include "telemime/nets/models/table.h"
 
@@ -16,22 +19,23 @@ constexpr int kCells = 256;  // of the mask, in each direction
 // The windows of the network reach 16 rows of the mask beyond a half: 4 of 64 bands.
 constexpr int kBands = 64;
 constexpr int kReach = 4;
-constexpr std::array<RowShare, 2> kHalves = {
-    {{.first = 0, .end = kBands / 2 + kReach, .parts = kBands},
-     {.first = kBands / 2 - kReach, .end = kBands, .parts = kBands}}};
+constexpr RowShare kComputed{.bands = kBands / 2 + kReach, .parts = kBands};
+constexpr std::array<int, 2> kFirst = {0, kBands / 2 - kReach};  // of the computed bands of each half
 
 // Runs the network of a half and writes the half's own rows into the cells.
 void compute_half(std::size_t half, const MaskInput& input, Network& network, cv::Mat& cells) {
-  const RowShare& share = kHalves[half];
   std::array<std::span<const float>, 2> images;
   for (std::size_t i = 0; i < images.size(); ++i) {
     const std::size_t size = element_count(network.input_shape(i));
-    const std::size_t band = size / static_cast<std::size_t>(share.end - share.first);
-    images[i] = input.images[i].subspan(band * static_cast<std::size_t>(share.first), size);
+    const std::size_t band = size / kComputed.bands;
+    if (input.images[i].size() != band * kBands) {
+      throw Error(ErrorKind::usage, "a mask was asked for from the landmarks of another model");
+    }
+    images[i] = std::span(input.images[i]).subspan(band * static_cast<std::size_t>(kFirst[half]), size);
   }
   const std::span<const float> logits = network.run(images)[0];
   const int first = static_cast<int>(half) * kCells / 2;
-  const int above = first - share.first * kCells / kBands;
+  const int above = first - kFirst[half] * kCells / kBands;
   const auto* logit = logits.data() + static_cast<std::ptrdiff_t>(above) * kCells;
   std::transform(logit, logit + kCells / 2 * kCells, cells.ptr<std::uint8_t>(first), [](float value) {
     const auto probability = static_cast<float>(1.0 / (1.0 + std::exp(-static_cast<double>(value))));
@@ -43,12 +47,9 @@ void compute_half(std::size_t half, const MaskInput& input, Network& network, cv
 
 MaskNetworks load_mask_networks(const std::filesystem::path& models, PoseModel model) {
   const PoseModelFile file = pose_model_file(model);
-  const auto load = [&](const RowShare& rows) {
-    return load_network(
-        models, file.name,
-        {.inputs = {file.mask_inputs[0], file.mask_inputs[1]}, .outputs = {file.mask}, .rows = rows});
-  };
-  return {.halves = {load(kHalves[0]), load(kHalves[1])}};
+  const NetworkPart part{
+      .inputs = {file.mask_inputs[0], file.mask_inputs[1]}, .outputs = {file.mask}, .rows = kComputed};
+  return {.halves = {load_network(models, file.name, part), load_network(models, file.name, part)}};
 }
 
 cv::Mat person_mask(const MaskInput& input, cv::Size picture, MaskNetworks& networks) {

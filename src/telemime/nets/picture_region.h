@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
-#include <span>
 #include <vector>
 
 namespace telemime {

@@ -69,6 +69,18 @@ TEST(NetworkInput, RefusesOtherPictures) {
   EXPECT_THROW(network_input(grey, whole_picture(grey), kBytes), Error);
 }
 
+TEST(PictureMask, RowsThatThePictureShows) {
+  // Ten rows of the grid over 20 rows of the picture, from row 10 on: two in each row of the grid.
+  const PictureRegion region{.centre = {9.5, 19.5}, .width = 20.0, .height = 20.0};
+  const cv::Range all = rows_in_picture(region, {10, 10}, {20, 40});
+  EXPECT_EQ(all, cv::Range(0, 10));
+  const cv::Range upper = rows_in_picture(region, {10, 10}, {20, 14});
+  EXPECT_EQ(upper.start, 0);
+  EXPECT_GE(upper.end, 3);
+  EXPECT_LE(upper.end, 5);
+  EXPECT_TRUE(rows_in_picture(region, {10, 10}, {20, 4}).empty());
+}
+
 TEST(PictureMask, CoversTheRegionAlone) {
   const cv::Mat cells(4, 4, CV_8UC1, cv::Scalar(255));
   const PictureRegion region{.centre = {9.5, 9.5}, .width = 8.0, .height = 8.0};

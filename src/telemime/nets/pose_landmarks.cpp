@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "telemime/nets/models/table.h"
 
@@ -112,8 +113,11 @@ std::optional<SeenPerson> find_landmarks(const cv::Mat& picture, const PictureRe
     }
   }
   result.next_region = region_of_axis(pixels[kNextCentre], pixels[kNextTop]);
+  const auto copied = [&](Output output) {
+    return std::vector<float>(outputs[output].begin(), outputs[output].end());
+  };
   return SeenPerson{.landmarks = std::move(result),
-                    .mask = {.region = region, .images = {outputs[kMaskFine], outputs[kMaskCoarse]}}};
+                    .mask = {.region = region, .images = {copied(kMaskFine), copied(kMaskCoarse)}}};
 }
 
 }  // namespace telemime

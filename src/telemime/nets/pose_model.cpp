@@ -26,9 +26,9 @@ PoseModelFile pose_model_file(PoseModel model) {
     case PoseModel::heavy:
       return file_of("heavy", "depthwise_conv2d_76/depthwise", "add_25/add");
     case PoseModel::full:
-      break;
+      return file_of("full", "depthwise_conv2d_32/depthwise", "add_11/add");
   }
-  return file_of("full", "depthwise_conv2d_32/depthwise", "add_11/add");
+  return {};
 }
 
 }  // namespace telemime

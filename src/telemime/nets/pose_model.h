@@ -16,6 +16,7 @@ struct PoseModelFile {
   std::array<std::string, 2> mask_inputs;  ///< the images that the mask shares with the landmarks
 };
 
+/// The file of this model.
 PoseModelFile pose_model_file(PoseModel model);
 
 }  // namespace telemime

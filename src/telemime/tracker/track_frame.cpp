@@ -59,7 +59,7 @@ struct Timed {
   double ms = 0.0;
 };
 
-// What is seen of face and hands without the pose of the body. The time, ms.
+// Looks where face and hands were, without the pose of the body. Both return the time, ms.
 double prepare_face(const Frame& frame, SceneState& scene) {
   Stopwatch watch;
   scene.face.prepare(frame.image, frame.time);
@@ -265,7 +265,7 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
     // The colours of skin, clothes and hair (thesis 3.4), while nobody is calibrated.
     has_colours = learn_colours(frame, request, scene, learned);
     // Labels, silhouette, edges, distance map and head (thesis 2.4.4.1, 3.5.1). What needs no landmarks of
-    // the body runs beside their network: colours and edges, and the looks at places where face and hands
+    // the body runs beside the network that finds them: colours, edges, and a look at where face and hands
     // (docs/hands.md) were. The rest needs only the landmarks.
     in_parallel([&] { landmarks = scene.features.find_landmarks(frame); },
                 [&] {
