@@ -37,7 +37,8 @@ void compute_half(std::size_t half, const MaskInput& input, Network& network, cv
   const int first = static_cast<int>(half) * kCells / 2;
   const int above = first - kFirst[half] * kCells / kBands;
   const auto* logit = logits.data() + static_cast<std::ptrdiff_t>(above) * kCells;
-  std::transform(logit, logit + kCells / 2 * kCells, cells.ptr<std::uint8_t>(first), [](float value) {
+  constexpr std::ptrdiff_t kHalf = std::ptrdiff_t{kCells} * kCells / 2;
+  std::transform(logit, logit + kHalf, cells.ptr<std::uint8_t>(first), [](float value) {
     const auto probability = static_cast<float>(1.0 / (1.0 + std::exp(-static_cast<double>(value))));
     return cv::saturate_cast<std::uint8_t>(255.0F * probability);
   });
