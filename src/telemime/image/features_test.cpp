@@ -186,6 +186,26 @@ TEST(FeatureExtractor, PreparesAgainForAnotherImage) {
   EXPECT_EQ(cv::countNonZero(features.extract({dark, 3, 0.12}).silhouette), 0);
 }
 
+TEST(FeatureExtractor, PreparesAgainForAnotherPerson) {
+  const std::filesystem::path demo = TELEMIME_SOURCE_DIR "/data/demo";
+  const auto background = frames_of(demo / "background.mp4", 20);
+  const auto frames = frames_of(demo / "video.mp4", 2);
+  const auto labels = [&](bool prepares) {
+    FeatureExtractor features(ImageConfig{});
+    features.learn_background(background);
+    features.extract(frames[0]);
+    if (prepares) {
+      features.prepare(frames[1]);
+    }
+    EXPECT_TRUE(features.learn_person(frames[1]).accepted);
+    return features.extract(frames[1]).labels;
+  };
+  // Without the colours of the person, there would be no arms.
+  const cv::Mat plain = labels(false);
+  EXPECT_GT(cv::countNonZero(plain == static_cast<int>(Label::arms)), 0);
+  EXPECT_EQ(cv::countNonZero(plain != labels(true)), 0);
+}
+
 class OnClip : public testing::TestWithParam<const char*> {};
 
 TEST_P(OnClip, LabelsMatchTrueJointsAndRepeat) {
