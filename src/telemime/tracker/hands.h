@@ -30,9 +30,11 @@ struct HandScene {
 };
 
 /// Which finding is whose hand, by Side: that of the arm whose wrist is nearest, neither twice nor farther
-/// from it than a wrist's error. Empty: none.
+/// from it than a wrist's error. Empty: none. They point into `seen`, which must outlive them.
 std::array<const HandLandmarks*, 2> hands_of_arms(const std::array<SeenHand, 2>& seen,
                                                   const HandScene& scene);
+std::array<const HandLandmarks*, 2> hands_of_arms(std::array<SeenHand, 2>&& seen,
+                                                  const HandScene& scene) = delete;
 
 /// The points of a finding in m from its wrist, camera frame, for a wrist at `depth` m: its place in the
 /// picture with the depths that the network gives.

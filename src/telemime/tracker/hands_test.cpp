@@ -135,20 +135,22 @@ TEST_F(Hands, HandBelongsToTheNearestArm) {
   const SeenHand left = seen(Side::left, resting_hand());
   const SeenHand right = seen(Side::right, resting_hand());
   for (const auto& [a, b] : {std::pair(left, right), std::pair(right, left)}) {
-    const auto mine = hands_of_arms({a, b}, scene(0.0));
+    const std::array<SeenHand, 2> both = {a, b};
+    const auto mine = hands_of_arms(both, scene(0.0));
     ASSERT_TRUE(mine[0] != nullptr && mine[1] != nullptr);
     EXPECT_EQ(mine[0]->points[0].pixel, left.found->points[0].pixel);
     EXPECT_EQ(mine[1]->points[0].pixel, right.found->points[0].pixel);
   }
   // One hand, found where the other was looked for.
-  const auto one = hands_of_arms({right, SeenHand{.looked = true, .found = {}}}, scene(0.0));
+  const std::array<SeenHand, 2> exchanged = {right, SeenHand{.looked = true, .found = {}}};
+  const auto one = hands_of_arms(exchanged, scene(0.0));
   EXPECT_EQ(one[0], nullptr);
   ASSERT_NE(one[1], nullptr);
 }
 
 TEST_F(Hands, HandOfSomebodyElseIsNoHand) {
-  const auto mine =
-      hands_of_arms({seen(Side::left, resting_hand(), {0.5, -0.2, 0.0}), SeenHand{}}, scene(0.0));
+  const std::array<SeenHand, 2> far = {seen(Side::left, resting_hand(), {0.5, -0.2, 0.0}), SeenHand{}};
+  const auto mine = hands_of_arms(far, scene(0.0));
   EXPECT_EQ(mine[0], nullptr);
   EXPECT_EQ(mine[1], nullptr);
 }
