@@ -40,7 +40,8 @@ OverlayVideo::OverlayVideo(const std::filesystem::path& folder, double fps, Note
 
 bool OverlayVideo::open(cv::Size size) {
   try {
-    video_.open(name_for_ffmpeg(file_.string()), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), rate_, size);
+    video_.open(name_for_ffmpeg(file_.string()), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
+                rate_, size);
   } catch (const cv::Exception&) {
     video_.release();
   }
