@@ -164,10 +164,8 @@ bool PersonFinder::count(const cv::Mat& picture, const PersonPlace& person, doub
   for (const Detection& other : detect_poses(picture, networks_->detector)) {
     const PersonPlace place = place_of(other);
     const double apart = (place.shoulders - person.shoulders).norm() / person.size * kBodyRadius;
-    if (place.size <= kSmallest * person.size || apart <= kApart) {
-      continue;
-    }
-    if (find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
+    if (place.size > kSmallest * person.size && apart > kApart &&
+        find_landmarks(picture, region_of_person(other), networks_->landmarker)) {
       ++people_;
       much_nearer = much_nearer || place.size > kMuchNearer * person.size;
     }

@@ -14,8 +14,8 @@ namespace telemime {
 
 /// What the network of the landmarks hands on to that of the mask.
 struct MaskInput {
-  PictureRegion region;  ///< in which the person was seen
-  std::array<std::vector<float>, 2> images;
+  PictureRegion region;                      ///< in which the person was seen
+  std::array<std::vector<float>, 2> images;  ///< each [height, width, channels], row-major, as in the file
 };
 
 /// The part of a pose network that computes the mask, for the upper and the lower half of its region.
