@@ -35,7 +35,8 @@ struct LearningFrame {
 /// person is found.
 std::vector<LearningFrame> learning_frames(const Scene& scene, int step, PersonFinder& finder);
 
-/// The numbers of kLandmarkPoints and kLandmarkBoneSigma, learned. Both sides of the body have the same.
+/// The numbers of kLandmarkPoints and kLandmarkBoneSigma, learned. Both sides of the body have the same. The
+/// standard deviations of bones are about kLandmarkBoneResponse, which is not learned.
 struct LearnedLandmarks {
   struct Point {
     std::array<double, 3> offset{};

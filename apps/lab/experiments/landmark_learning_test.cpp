@@ -49,8 +49,11 @@ std::vector<LearningFrame> made_frames(double outliers) {
     frame.seen.ray = points[0].normalized();
     const auto bones = landmark_bones(points);
     for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
-      const double along = bones[i].dot(frame.seen.ray) / bones[i].norm() + random.normal(0.0, 0.1);
-      frame.seen.bones[i] = {.seen = true, .along = along, .sigma = kLandmarkBoneSigma[i]};
+      const SlopeResponse& response = kLandmarkBoneResponse[i];
+      const double slope = bones[i].dot(frame.seen.ray) / bones[i].norm();
+      const double along = response.offset + response.gain * slope + random.normal(0.0, 0.1);
+      frame.seen.bones[i] = {
+          .seen = true, .along = along, .sigma = kLandmarkBoneSigma[i], .response = response};
     }
   }
   return frames;

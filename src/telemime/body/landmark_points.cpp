@@ -29,9 +29,11 @@ const std::array<LandmarkPoint, kLandmarkCount> kLandmarkPoints = {{
     {"r_hip", Joint::root, Segment::chest, {-0.0635, -0.0100, 0.0060}, 0.040, OffsetSource::anthropometry},
 }};
 
-// Chosen, not learned: on synthetic people slopes of arms were off by 0.115 on average, on filmed ones by as
-// much in the other direction, so that no bias holds for both.
-const std::array<double, kLandmarkBoneCount> kLandmarkBoneSigma = {0.23, 0.23, 0.2, 0.2, 0.1, 0.2, 0.3};
+// Chosen, not learned: measured gains of arms are 0.1 to 0.7, with other offsets for each kind of people
+// (docs/networks.md). These are a compromise with 1, with which slopes would be believed as reported.
+const std::array<SlopeResponse, kLandmarkBoneCount> kLandmarkBoneResponse = {
+    {{-0.05, 0.6}, {-0.05, 0.6}, {-0.15, 0.65}, {-0.15, 0.65}, {}, {}, {}}};
+const std::array<double, kLandmarkBoneCount> kLandmarkBoneSigma = {0.2, 0.2, 0.18, 0.18, 0.1, 0.2, 0.3};
 
 LandmarkPositions landmark_positions(const Body& body, const Kinematics& k) {
   LandmarkPositions points;

@@ -72,7 +72,16 @@ enum class LandmarkBone : std::size_t {
 };
 inline constexpr std::size_t kLandmarkBoneCount = 7;
 
-/// Standard deviation of a bone's slope in depth, a share of its length, as a network sees it.
+/// What a network reports on average of a slope in depth (a share of the bone's length): offset + gain *
+/// slope. A gain (above 0) below 1: the reports are nearer to a usual slope, offset / (1 - gain), than the
+/// bones are.
+struct SlopeResponse {
+  double offset = 0.0;
+  double gain = 1.0;
+};
+extern const std::array<SlopeResponse, kLandmarkBoneCount> kLandmarkBoneResponse;
+
+/// Standard deviation of what a network reports of a bone's slope, about this average.
 extern const std::array<double, kLandmarkBoneCount> kLandmarkBoneSigma;
 
 /// All bones between these landmarks, from start to end, in their frame and unit.

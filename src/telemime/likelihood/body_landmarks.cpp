@@ -64,6 +64,7 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera) {
     BoneObservation& bone = out.bones[i];
     bone.seen = least >= kLeastVisibility && length > 1e-6;
     bone.along = bone.seen ? std::clamp(bones[i].z() / length, -1.0, 1.0) : 0.0;
+    bone.response = kLandmarkBoneResponse[i];
     bone.sigma = kLandmarkBoneSigma[i] * (1.0 + (kHidden - 1.0) * (1.0 - least));
   }
   return out;
@@ -81,7 +82,11 @@ Eigen::Vector2d landmark_error(const LandmarkObservation& observed, const Camera
 
 double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, const Eigen::Vector3d& bone) {
   const double length = bone.norm();
-  return observed.seen && length > 0.0 ? (bone.dot(ray) / length - observed.along) / observed.sigma : 0.0;
+  if (!observed.seen || !(length > 0.0)) {
+    return 0.0;
+  }
+  const SlopeResponse& response = observed.response;
+  return (response.offset + response.gain * bone.dot(ray) / length - observed.along) / observed.sigma;
 }
 
 }  // namespace telemime

@@ -20,8 +20,9 @@ struct LandmarkObservation {
 /// How much a network sees a bone point away from the camera.
 struct BoneObservation {
   bool seen = false;
-  double along = 0.0;  ///< share of the bone's length along the viewing ray, -1 (to the camera) to 1
-  double sigma = 1.0;  ///< standard deviation of it
+  double along = 0.0;  ///< reported share of the bone's length along the viewing ray, -1 (to the camera) to 1
+  double sigma = 1.0;  ///< standard deviation of the report
+  SlopeResponse response = {};  ///< what is reported of a slope on average
 };
 
 /// What a network sees of the body in one frame, as the likelihood reads it.
@@ -39,7 +40,8 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera);
 Eigen::Vector2d landmark_error(const LandmarkObservation& observed, const Camera& camera,
                                const Eigen::Vector3d& point);
 
-/// Error of one bone's direction in standard deviations; 0 for one that is not seen.
+/// Difference, in standard deviations, between what the network would report of a bone with this direction
+/// and what it reports; 0 for one that is not seen.
 double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, const Eigen::Vector3d& bone);
 
 /// Saturating square of an error in standard deviations (Geman & McClure): an outlier costs `most` at most.

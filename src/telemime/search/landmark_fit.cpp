@@ -225,7 +225,7 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
   if (count > 0) {
     pose.root += shift / count;
   }
-  // The arms along their lines in the picture, with the slopes that the network sees.
+  // The arms along their lines in the picture, with the slopes for which the network's reports stand.
   const auto bone_along = [&](Landmark from, Landmark to,
                               LandmarkBone bone) -> std::optional<Eigen::Vector3d> {
     if (!seen(landmarks, from) || !seen(landmarks, to)) {
@@ -233,7 +233,8 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
     }
     const Eigen::Vector2d in_picture = pixel(landmarks, to) - pixel(landmarks, from);
     const BoneObservation& slope = landmarks.bones[static_cast<std::size_t>(bone)];
-    const double along = slope.seen ? std::clamp(slope.along, -kSteepest, kSteepest) : 0.0;
+    const double likely = (slope.along - slope.response.offset) / slope.response.gain;
+    const double along = slope.seen ? std::clamp(likely, -kSteepest, kSteepest) : 0.0;
     const double across = std::sqrt(1.0 - along * along);
     Eigen::Vector3d direction(in_picture.x(), in_picture.y(), 0.0);
     direction.normalize();
