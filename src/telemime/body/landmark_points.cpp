@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/landmark_points.h"
 
+#include "telemime/body/kinematic_rates.h"
+
 namespace telemime {
 
 // `telemime-lab learn landmarks` finds shoulders, elbows, wrists and the sides of eyes and ears to within
@@ -44,6 +46,17 @@ LandmarkPositions landmark_positions(const Body& body, const Kinematics& k) {
     points[i] = k.joints[p.origin] + k[p.axes].linear() * (body.shape.stature * offset);
   }
   return points;
+}
+
+LandmarkPositions landmark_velocities(const LandmarkPositions& points, const Kinematics& k,
+                                      const KinematicRate& rate) {
+  LandmarkPositions velocities;
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    const LandmarkPoint& p = kLandmarkPoints[i];
+    const Eigen::Vector3d& turn = rate.angular[static_cast<std::size_t>(p.axes)];
+    velocities[i] = rate.joints[p.origin] + turn.cross(points[i] - k.joints[p.origin]);
+  }
+  return velocities;
 }
 
 std::array<Eigen::Vector3d, kLandmarkBoneCount> landmark_bones(const LandmarkPositions& points) {

@@ -10,6 +10,8 @@
 
 namespace telemime {
 
+struct KinematicRate;
+
 /// Points of the upper body that learned networks find in a picture. l_ and r_ are the person's own sides.
 enum class Landmark : std::size_t {
   nose,
@@ -59,6 +61,10 @@ using LandmarkPositions = std::array<Eigen::Vector3d, kLandmarkCount>;
 
 /// All landmarks of a body in a pose, m, camera frame.
 LandmarkPositions landmark_positions(const Body& body, const Kinematics& kinematics);
+
+/// The velocities of these landmarks, m/s, where the body moves so (kinematic_rates).
+LandmarkPositions landmark_velocities(const LandmarkPositions& points, const Kinematics& kinematics,
+                                      const KinematicRate& rate);
 
 /// Lines between landmarks (or the middles of two) whose direction in depth a network estimates.
 enum class LandmarkBone : std::size_t {

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 namespace telemime {
 namespace {
@@ -24,6 +25,8 @@ constexpr double kLeastPresence = 0.5;
 constexpr double kHidden = 4.0;
 // Share of the heat map's second moment that is uncertainty: the network was taught blobs of a fixed width.
 constexpr double kHeatMap = 0.1;
+// m: a point behind the camera has no pixel, and counts at this distance.
+constexpr double kNearest = 0.05;
 // The side of the network's region in metres: the circle about an average body, enlarged by a quarter.
 constexpr double kRegionSide = 2.4;
 
@@ -75,9 +78,19 @@ Eigen::Vector2d landmark_error(const LandmarkObservation& observed, const Camera
   if (!observed.seen) {
     return Eigen::Vector2d::Zero();
   }
-  constexpr double kNearest = 0.05;  // m: a point behind the camera has no pixel
   const Eigen::Vector3d before(point.x(), point.y(), std::max(kNearest, point.z()));
   return observed.whitening * (camera.project(before) - observed.pixel);
+}
+
+Eigen::Vector2d landmark_error_rate(const LandmarkObservation& observed, const Camera& camera,
+                                    const Eigen::Vector3d& point, const Eigen::Vector3d& velocity) {
+  if (!observed.seen) {
+    return Eigen::Vector2d::Zero();
+  }
+  const double z = std::max(kNearest, point.z());
+  const double away = point.z() > kNearest ? velocity.z() / z : 0.0;
+  return observed.whitening * Eigen::Vector2d(camera.fx * (velocity.x() - away * point.x()) / z,
+                                              camera.fy * (velocity.y() - away * point.y()) / z);
 }
 
 double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, const Eigen::Vector3d& bone) {
@@ -87,6 +100,16 @@ double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, c
   }
   const SlopeResponse& response = observed.response;
   return (response.offset + response.gain * bone.dot(ray) / length - observed.along) / observed.sigma;
+}
+
+double bone_error_rate(const BoneObservation& observed, const Eigen::Vector3d& ray,
+                       const Eigen::Vector3d& bone, const Eigen::Vector3d& change) {
+  const double squared = bone.squaredNorm();
+  if (!observed.seen || !(squared > 0.0)) {
+    return 0.0;
+  }
+  const double along = change.dot(ray) - bone.dot(ray) * bone.dot(change) / squared;
+  return observed.response.gain * along / (std::sqrt(squared) * observed.sigma);
 }
 
 }  // namespace telemime

@@ -40,9 +40,17 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera);
 Eigen::Vector2d landmark_error(const LandmarkObservation& observed, const Camera& camera,
                                const Eigen::Vector3d& point);
 
+/// Rate of this error where the point moves (m/s, camera frame), per second.
+Eigen::Vector2d landmark_error_rate(const LandmarkObservation& observed, const Camera& camera,
+                                    const Eigen::Vector3d& point, const Eigen::Vector3d& velocity);
+
 /// Difference, in standard deviations, between what the network would report of a bone with this direction
 /// and what it reports; 0 for one that is not seen.
 double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, const Eigen::Vector3d& bone);
+
+/// Rate of this difference where the bone changes (m/s, camera frame), per second.
+double bone_error_rate(const BoneObservation& observed, const Eigen::Vector3d& ray,
+                       const Eigen::Vector3d& bone, const Eigen::Vector3d& change);
 
 /// Saturating square of an error in standard deviations (Geman & McClure): an outlier costs `most` at most.
 inline double robust_square(double squared, double most) {

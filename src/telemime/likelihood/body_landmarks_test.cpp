@@ -60,5 +60,36 @@ TEST(BodyLandmarks, ABoneThatIsNotSeenSaysNothing) {
   EXPECT_EQ(bone_error({.seen = true, .along = 1.0}, ray, Eigen::Vector3d::Zero()), 0.0);
 }
 
+// Central differences of an error of a point or bone that moves.
+template <typename Error>
+auto measured_rate(const Error& error, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity) {
+  constexpr double kStep = 1e-6;
+  return ((error(at + kStep * velocity) - error(at - kStep * velocity)) / (2 * kStep));
+}
+
+TEST(BodyLandmarks, RatesAreTheDerivativesOfTheErrors) {
+  LandmarkObservation point{.seen = true, .pixel = {300.0, 200.0}};
+  point.whitening << 0.5, 0.2, 0.0, 0.7;
+  const Camera camera;
+  BoneObservation bone{.seen = true, .along = 0.3, .sigma = 0.2, .response = {-0.1, 0.6}};
+  const Eigen::Vector3d ray = Eigen::Vector3d(0.1, -0.2, 1.0).normalized();
+  for (const Eigen::Vector3d& at :
+       {Eigen::Vector3d(0.2, 0.1, 1.4), Eigen::Vector3d(-0.1, 0.3, 0.2), Eigen::Vector3d(0.1, 0.1, -1.0)}) {
+    for (const Eigen::Vector3d& velocity :
+         {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0.0, -1.0, 0.5), Eigen::Vector3d(0.3, 0.2, -1.0)}) {
+      const auto of_point = [&](const Eigen::Vector3d& p) -> Eigen::Vector2d {
+        return landmark_error(point, camera, p);
+      };
+      const Eigen::Vector2d moves = measured_rate(of_point, at, velocity);
+      EXPECT_LT((landmark_error_rate(point, camera, at, velocity) - moves).norm(), 1e-4 * (1 + moves.norm()));
+      const auto of_bone = [&](const Eigen::Vector3d& b) { return bone_error(bone, ray, b); };
+      EXPECT_NEAR(bone_error_rate(bone, ray, at, velocity), measured_rate(of_bone, at, velocity), 1e-6);
+    }
+  }
+  point.seen = bone.seen = false;
+  EXPECT_EQ(landmark_error_rate(point, camera, ray, ray), Eigen::Vector2d(0.0, 0.0));
+  EXPECT_EQ(bone_error_rate(bone, ray, ray, Eigen::Vector3d::UnitX()), 0.0);
+}
+
 }  // namespace
 }  // namespace telemime

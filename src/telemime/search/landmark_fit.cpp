@@ -8,6 +8,7 @@
 #include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/interpenetration.h"
+#include "telemime/body/kinematic_rates.h"
 
 namespace telemime {
 namespace {
@@ -45,6 +46,7 @@ struct Problem {
   PoseVector deviations = prior_deviations();
   JointPositions followed = forward_kinematics(body, prior.pose).joints;
 
+  // Errors of a pose.
   Residuals operator()(const PoseVector& x) const {
     Residuals r;
     const Kinematics k = forward_kinematics(body, Pose::from_vector(x));
@@ -66,6 +68,36 @@ struct Problem {
       at += 3;
     }
     return r;
+  }
+
+  // Their derivatives.
+  Jacobian jacobian(const PoseVector& x) const {
+    const Pose pose = Pose::from_vector(x);
+    const Kinematics k = forward_kinematics(body, pose);
+    const LandmarkPositions points = landmark_positions(body, k);
+    const auto bones = landmark_bones(points);
+    const auto rates = kinematic_rates(body, pose, k);
+    Jacobian all = Jacobian::Zero();
+    for (std::size_t n = 0; n < kPoseSize; ++n) {
+      auto column = all.col(static_cast<Eigen::Index>(n));
+      const LandmarkPositions velocities = landmark_velocities(points, k, rates[n]);
+      Eigen::Index at = 0;
+      for (std::size_t i = 0; i < kLandmarkCount; ++i, at += 2) {
+        if (!velocities[i].isZero(0.0)) {
+          column.segment<2>(at) = landmark_error_rate(landmarks.points[i], camera, points[i], velocities[i]);
+        }
+      }
+      const auto changes = landmark_bones(velocities);
+      for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
+        column[at++] = bone_error_rate(landmarks.bones[i], landmarks.ray, bones[i], changes[i]);
+      }
+      column[at + static_cast<Eigen::Index>(n)] = 1.0 / deviations[static_cast<Eigen::Index>(n)];
+      at += static_cast<Eigen::Index>(kPoseSize);
+      for (std::size_t i = 0; i < kFollowed && prior.following > 0.0; ++i, at += 3) {
+        column.segment<3>(at) = rates[n].joints[kFollowedJoints[i]] / prior.following;
+      }
+    }
+    return all;
   }
 };
 
@@ -106,7 +138,6 @@ Residuals row_weights(const Residuals& r) {
 // Levenberg-Marquardt.
 constexpr int kMostSteps = 12;
 constexpr int kMostDampings = 6;        // of one step, each with more damping
-constexpr double kDelta = 1e-5;         // rad and m, for the numerical derivatives
 constexpr double kEnough = 1e-3;        // relative gain of a step below which the fit has converged
 constexpr double kFirstDamping = 1e-3;  // relative to the diagonal
 constexpr double kLeastDamping = 1e-6;
@@ -165,15 +196,10 @@ LandmarkFit fit_to_landmarks(const Body& body, const Camera& camera, const BodyL
   double damping = kFirstDamping;
   for (int step = 0; step < kMostSteps; ++step) {
     // Linearise about the pose.
-    Jacobian jacobian;
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      PoseVector moved = x;
-      moved[i] += kDelta;
-      jacobian.col(i) = (problem(moved) - r) / kDelta;
-    }
     const Residuals w = row_weights(r);
-    const Jacobian weighted = w.asDiagonal() * jacobian;
-    const Eigen::Matrix<double, kPoseSize, kPoseSize> normal = weighted.transpose() * weighted;
+    const Jacobian weighted = w.asDiagonal() * problem.jacobian(x);
+    Eigen::Matrix<double, kPoseSize, kPoseSize> normal;  // only its lower half is read
+    normal.triangularView<Eigen::Lower>() = weighted.transpose().lazyProduct(weighted);
     const PoseVector gradient = weighted.transpose() * w.cwiseProduct(r);
     // Damp more until the step gains something.
     bool gained = false;
