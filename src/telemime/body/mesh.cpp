@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -165,19 +164,25 @@ class MeshBuilder {
     mesh_.triangles.push_back({{a, b, c}, surface});
   }
 
+  // Edges of the triangles from `from` on: each belongs to two, which go through it either way.
   void connect(std::uint32_t from) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;
+    struct Half {
+      std::uint32_t a, b, triangle;
+    };
+    std::vector<Half> open;
     for (auto t = from; t < mesh_.triangles.size(); ++t) {
       const auto& v = mesh_.triangles[t].vertex;
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = v[k];
-        const std::uint32_t b = v[(k + 1) % 3];
-        const auto twin = open.find({b, a});
-        if (twin != open.end()) {
-          mesh_.edges.push_back({{a, b}, {t, twin->second}});
-          open.erase(twin);
+        const Half half = {v[k], v[(k + 1) % 3], t};
+        const auto twin = std::find_if(open.rbegin(), open.rend(), [&](const Half& other) {
+          return other.a == half.b && other.b == half.a;
+        });
+        if (twin != open.rend()) {
+          mesh_.edges.push_back({{half.a, half.b}, {t, twin->triangle}});
+          *twin = open.back();
+          open.pop_back();
         } else {
-          open.emplace(std::pair{a, b}, t);
+          open.push_back(half);
         }
       }
     }
