@@ -25,8 +25,8 @@ class Timed final : public Backend {
  public:
   explicit Timed(Clock& clock) : clock_(&clock) {}
   std::string_view name() const override { return "timed"; }
-  void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, std::span<const Kinematics>,
+             Reduction, std::span<Reductions> counts) override {
     EXPECT_EQ(poses.size(), counts.size());
     const double noise = 1e-4 * static_cast<double>((7 * batches_) % 5);
     clock_->now += (batches_ == 0 ? 1.0 : 0.0) + 1e-3 + noise + 2e-6 * static_cast<double>(poses.size());

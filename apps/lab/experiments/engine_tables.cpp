@@ -34,8 +34,8 @@ class ScalarUpTo final : public Backend {
  public:
   explicit ScalarUpTo(std::size_t stage) : stage_(stage) {}
   std::string_view name() const override { return "part of scalar"; }
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction,
-             std::span<Reductions>) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics>, Reduction, std::span<Reductions>) override {
     for (const Pose& pose : poses) {
       const Kinematics kinematics = forward_kinematics(model.body, pose);
       if (stage_ >= 1) {

@@ -20,8 +20,8 @@ constexpr double kNearest = 0.05;
 template <typename Point>
 class OpencvBackend : public Backend {
  public:
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics>, Reduction terms, std::span<Reductions> counts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
       draw(frame, model, forward_kinematics(model.body, poses[i]));
       if (wants(terms, Reduction::overlap)) {
@@ -149,13 +149,13 @@ class FastOpencv final : public OpencvBackend<cv::Point> {
  public:
   std::string_view name() const override { return "opencv"; }
 
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics>, Reduction terms, std::span<Reductions> counts) override {
     cv::compare(frame.labels, kSurfaceClassCount, known_, cv::CMP_LE);
     for (std::size_t c = 0; c < kSurfaceClassCount; ++c) {
       cv::compare(frame.labels, c + 1, observed_[c], cv::CMP_EQ);
     }
-    OpencvBackend::count(frame, model, poses, terms, counts);
+    OpencvBackend::count(frame, model, poses, {}, terms, counts);
   }
 
  private:

@@ -49,18 +49,18 @@ class AutoBackend final : public Backend {
     return on_device_ ? device_->device_times() : std::nullopt;
   }
 
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics> kinematics, Reduction terms, std::span<Reductions> counts) override {
     on_device_ = false;
     const Kind kind{frame.camera.width, frame.camera.height, std::bit_width(poses.size()), terms};
     const auto known = prefers_device_.find(kind);
     if (known == prefers_device_.end()) {
-      prefers_device_[kind] = measure(frame, model, poses, terms, counts);
+      prefers_device_[kind] = measure(frame, model, poses, kinematics, terms, counts);
       return;
     }
     if (known->second) {
       try {
-        device_->count(frame, model, poses, terms, counts);
+        device_->count(frame, model, poses, kinematics, terms, counts);
         on_device_ = true;
         return;
       } catch (const Error&) {  // unplugged, or reset by its driver
@@ -68,7 +68,7 @@ class AutoBackend final : public Backend {
         std::fill(counts.begin(), counts.end(), Reductions{});
       }
     }
-    processor_->count(frame, model, poses, terms, counts);
+    processor_->count(frame, model, poses, kinematics, terms, counts);
   }
 
  private:
@@ -77,13 +77,13 @@ class AutoBackend final : public Backend {
   // Whether the device is to evaluate such batches: it is faster and agrees with the processor. Its counts
   // are kept if so, so that all batches of a kind have those of one back end. The second run of each is
   // measured: the first one allocates memory and may compile the kernel.
-  bool measure(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-               std::span<Reductions> counts) {
+  bool measure(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+               std::span<const Kinematics> kinematics, Reduction terms, std::span<Reductions> counts) {
     const auto seconds_of = [&](Backend& backend, std::span<Reductions> out) {
-      backend.count(frame, model, poses, terms, out);
+      backend.count(frame, model, poses, kinematics, terms, out);
       std::fill(out.begin(), out.end(), Reductions{});
       const double begin = seconds_();
-      backend.count(frame, model, poses, terms, out);
+      backend.count(frame, model, poses, kinematics, terms, out);
       return seconds_() - begin;
     };
     const double processor = seconds_of(*processor_, counts);

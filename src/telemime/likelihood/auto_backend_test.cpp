@@ -25,8 +25,8 @@ class Worker final : public Backend {
   Worker(Clock& clock, int& batches, double start, double each, double mark, int fails_at = 1000)
       : clock_(clock), batches_(batches), start_(start), each_(each), mark_(mark), fails_at_(fails_at) {}
   std::string_view name() const override { return "worker"; }
-  void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, Reduction,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame&, const Model&, std::span<const Pose> poses, std::span<const Kinematics>,
+             Reduction, std::span<Reductions> counts) override {
     if (++batches_ >= fails_at_) {
       counts.front().contour_points = 7;
       throw Error(ErrorKind::usage, "the device was unplugged");

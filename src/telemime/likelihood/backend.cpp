@@ -12,7 +12,7 @@ void Backend::evaluate(const PreparedFrame& frame, const Model& model, std::span
   }
   counts_.assign(poses.size(), {});
   if (terms != Reduction::none) {
-    count(frame, model, poses, terms, counts_);
+    count(frame, model, poses, kinematics, terms, counts_);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (wants(terms, Reduction::overlap)) {

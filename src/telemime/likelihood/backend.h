@@ -42,9 +42,10 @@ class Backend {
                 std::span<Score> scores, std::span<const Kinematics> kinematics = {});
 
   /// Adds to counts[i], which come in as Reductions{}, what `terms` asks for of poses[i]. The sizes are
-  /// equal. `observed` is left to evaluate().
+  /// equal, but that `kinematics` may be empty. `observed` is left to evaluate().
   virtual void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-                     Reduction terms, std::span<Reductions> counts) = 0;
+                     std::span<const Kinematics> kinematics, Reduction terms,
+                     std::span<Reductions> counts) = 0;
 
   /// Times of the last batch; none from back ends that run on the processor.
   virtual std::optional<DeviceTimes> device_times() const { return std::nullopt; }

@@ -19,7 +19,7 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
   if (out.grid.width != grid.width || out.grid.height != grid.height) {
     out.grid = grid;
     out.labels.assign(grid.pixels(), TiledPlanes::kUnknown);
-    out.distance.assign(grid.pixels() + 1, 0.0F);
+    out.distance.assign(grid.pixels() + 1, 0);
   }
   out.content = std::make_shared<char>();
   std::array<std::uint8_t, 256> code{};
@@ -35,7 +35,9 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
       const int columns = std::min(TileGrid::kSide, grid.width - x);
       for (int i = 0; i < columns; ++i) {
         out.labels[at + static_cast<std::size_t>(i)] = code[label[x + i]];
-        out.distance[at + static_cast<std::size_t>(i)] = pixel[x + i];
+        const float px = std::min(pixel[x + i], TiledPlanes::kMostDistance);
+        out.distance[at + static_cast<std::size_t>(i)] =
+            static_cast<std::int32_t>(px * TiledPlanes::kDistanceUnits);
       }
     }
   }

@@ -38,10 +38,15 @@ TileGrid tile_grid(int width, int height);
 struct TiledPlanes {
   /// Code of a pixel that counts nowhere; other labels have 8 times their class (0: background).
   static constexpr std::uint8_t kUnknown = 0x80;
+  /// Units of a distance in a pixel: whole numbers have the same sum in any order. Rounded down, so that no
+  /// mean of them is above the largest distance.
+  static constexpr int kDistanceUnits = 4096;
+  /// Largest distance, px: greater ones count as this one.
+  static constexpr float kMostDistance = 2000.0F;
 
   TileGrid grid;
   std::vector<std::uint8_t> labels;     ///< codes; kUnknown outside the image
-  std::vector<float> distance;          ///< px; 0 outside the image; one more number at the end
+  std::vector<std::int32_t> distance;   ///< 1/4096 px; 0 outside the image; one more number at the end
   std::shared_ptr<const void> content;  ///< another one after each tile(); copies share it
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -26,7 +27,8 @@ Planes random_planes(int width, int height, std::uint64_t seed) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       planes.labels.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(random.below(256));
-      planes.distance.at<float>(y, x) = static_cast<float>(random.uniform(1.0, 20.0));
+      const double most = random.below(20) == 0 ? 1e6 : 20.0;
+      planes.distance.at<float>(y, x) = static_cast<float>(random.uniform(1.0, most));
     }
   }
   return planes;
@@ -44,7 +46,7 @@ void expect_holds(const TiledPlanes& tiles, const Planes& planes) {
   ASSERT_EQ(tiles.labels.size(), grid.pixels());
   ASSERT_EQ(tiles.distance.size(), grid.pixels() + 1);
   std::vector<std::uint8_t> labels(grid.pixels(), TiledPlanes::kUnknown);
-  std::vector<float> distance(grid.pixels() + 1, 0.0F);
+  std::vector<std::int32_t> distance(grid.pixels() + 1, 0);
   std::vector<bool> taken(grid.pixels(), false);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
@@ -53,7 +55,7 @@ void expect_holds(const TiledPlanes& tiles, const Planes& planes) {
       ASSERT_FALSE(taken[at]) << "two pixels at one place: " << x << " " << y;
       taken[at] = true;
       labels[at] = code_of(planes.labels.at<std::uint8_t>(y, x));
-      distance[at] = planes.distance.at<float>(y, x);
+      distance[at] = static_cast<std::int32_t>(4096.0F * std::min(planes.distance.at<float>(y, x), 2000.0F));
     }
   }
   ASSERT_TRUE(tiles.labels == labels);
@@ -126,7 +128,7 @@ TEST(TiledPlanes, MemoryIsUsedAgainWithoutATrace) {
     tile(planes.labels, planes.distance, tiles);
     expect_holds(tiles, planes);
   }
-  const float* memory = tiles.distance.data();
+  const std::int32_t* memory = tiles.distance.data();
   const Planes last = random_planes(61, 33, 99);
   tile(last.labels, last.distance, tiles);
   EXPECT_EQ(tiles.distance.data(), memory) << "images of one size need memory once";

@@ -14,8 +14,8 @@ namespace {
 class Asked final : public Backend {
  public:
   std::string_view name() const override { return "asked"; }
-  void count(const PreparedFrame&, const Model&, std::span<const Pose>, Reduction terms,
-             std::span<Reductions>) override {
+  void count(const PreparedFrame&, const Model&, std::span<const Pose>, std::span<const Kinematics>,
+             Reduction terms, std::span<Reductions>) override {
     last = terms;
   }
   Reduction last = Reduction::none;

@@ -68,10 +68,11 @@ class ScalarBackend final : public Backend {
   using Backend::Backend;
   std::string_view name() const override { return "scalar"; }
 
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics> kinematics, Reduction terms, std::span<Reductions> counts) override {
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      render(model.mesh, forward_kinematics(model.body, poses[i]), frame.camera, rendering_);
+      render(model.mesh, kinematics.empty() ? forward_kinematics(model.body, poses[i]) : kinematics[i],
+             frame.camera, rendering_);
       if (wants(terms, Reduction::overlap)) {
         count_overlap(frame, rendering_, counts[i]);
       }

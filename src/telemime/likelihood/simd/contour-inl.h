@@ -8,6 +8,9 @@
 #define TELEMIME_SIMD_CONTOUR_INL_H
 #endif
 
+#include <algorithm>
+#include <limits>
+
 #include "telemime/likelihood/simd/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -60,8 +63,9 @@ HWY_INLINE void sample_edge(std::size_t a, std::size_t b, Workspace& ws) {
   const std::int32_t steps = std::max(1, static_cast<std::int32_t>(length + 0.5F));
   std::size_t at = ws.samples;
   ws.samples = at + static_cast<std::size_t>(steps);
-  if (ws.samples + TileGrid::kPixels > ws.capacity) {
-    ws.grow_samples(ws.samples + TileGrid::kPixels);
+  constexpr std::size_t kFilled = 2 * TileGrid::kPixels;  // to the end of a tile's row, and one more
+  if (ws.samples + kFilled > ws.capacity) {
+    ws.grow_samples(ws.samples + kFilled);
   }
   float* const xs = ws.sample_x.get();
   float* const ys = ws.sample_y.get();
@@ -134,8 +138,9 @@ inline void sample_contour(const PackedSegment& segment, const Facing& facing, W
       ws);
 }
 
-// Pixel of each point; points outside the image get the additional last one.
-inline void find_pixels(const TileGrid& grid, Workspace& ws) {
+// Pixel of each point from `first` on, a multiple of a tile's pixels; points outside the image get the
+// additional last one.
+inline void find_pixels(const TileGrid& grid, std::size_t first, Workspace& ws) {
   const FloatVector low = number(-0.5F);
   const FloatVector right = number(static_cast<float>(grid.width) - 0.5F);
   const FloatVector bottom = number(static_cast<float>(grid.height) - 0.5F);
@@ -146,7 +151,7 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   const IntVector last_column = hn::Set(kInt, grid.width - 1);
   const IntVector last_row = hn::Set(kInt, grid.height - 1);
   const IntVector outside = hn::Set(kInt, static_cast<std::int32_t>(grid.pixels()));
-  for (std::size_t i = 0; i < ws.samples; i += kN) {
+  for (std::size_t i = first; i < ws.samples; i += kN) {
     const FloatVector x = hn::Load(kFloat, ws.sample_x.get() + i) * side;
     const FloatVector y = hn::Load(kFloat, ws.sample_y.get() + i) * side;
     const FloatMask inside = hn::And(hn::And(x > low, x < right), hn::And(y > low, y < bottom));
@@ -158,20 +163,29 @@ inline void find_pixels(const TileGrid& grid, Workspace& ws) {
   }
 }
 
-// Sums in 16 columns for any vector length, so that the order of additions is always the same.
+constexpr float kThickness = 0.015F;  // m: a point this far behind the surface of its pixel is hidden
+
+// Distances under the visible points. Whole numbers: the order of the points does not matter. The first
+// points, of segments that stay, have their pixels and distances already.
 inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) {
-  constexpr float kThickness = 0.015F;
+  // Points of a lane's sum: even the largest distances fit into 32 bits.
+  constexpr std::size_t kMostPoints = 256;
+  static_assert(1.0 * kMostPoints * TiledPlanes::kDistanceUnits * TiledPlanes::kMostDistance <
+                std::numeric_limits<std::int32_t>::max());
   if (ws.samples == 0) {
     return;
   }
-  // Depth and distance at the pixel of each sample.
-  find_pixels(frame.grid, ws);
+  find_pixels(frame.grid, ws.memory.samples, ws);
+  // Depth and distance at the pixel of each point; one by one, since vector gathers are slower.
   const auto* depth = reinterpret_cast<const float*>(ws.depth.get());
-  const float* map = frame.distance.data();
+  const std::int32_t* map = frame.distance.data();
   const std::int32_t* pixel = ws.sample_pixel.get();
   float* nearest = ws.sample_nearest.get();
-  float* distance = ws.sample_distance.get();
-  for (std::size_t i = 0; i < ws.samples; ++i) {  // one by one: vector gathers are slower
+  std::int32_t* distance = ws.sample_distance.get();
+  for (std::size_t i = 0; i < ws.memory.samples; ++i) {
+    nearest[i] = depth[static_cast<std::size_t>(pixel[i])];
+  }
+  for (std::size_t i = ws.memory.samples; i < ws.samples; ++i) {
     const auto at = static_cast<std::size_t>(pixel[i]);
     nearest[i] = depth[at];
     distance[i] = map[at];
@@ -181,30 +195,25 @@ inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) 
     hn::StoreU(number(1e30F), kFloat, ws.sample_nearest.get() + ws.samples + i);
     hn::StoreU(number(1.0F), kFloat, ws.sample_w.get() + ws.samples + i);
   }
-  // Add the distances of visible samples.
-  FloatVector sum[kParts];
-  for (FloatVector& part : sum) {
-    part = hn::Zero(kFloat);
-  }
+  // Add the distances of visible points.
+  std::int64_t all = 0;
   std::size_t points = 0;
-  for (std::size_t i = 0; i < ws.samples; i += kTile) {
-    for (std::size_t part = 0; part < kParts; ++part) {
-      const std::size_t at = i + part * kN;
-      const FloatVector w = hn::Load(kFloat, ws.sample_w.get() + at);
-      const FloatMask seen = hn::Not(is_hidden(hn::Load(kFloat, nearest + at), w, number(kThickness)));
-      sum[part] = sum[part] + hn::IfThenElseZero(seen, hn::Load(kFloat, distance + at));
+  for (std::size_t first = 0; first < ws.samples; first += kMostPoints * kN) {
+    const std::size_t end = std::min(first + kMostPoints * kN, ws.samples);
+    IntVector sum = hn::Zero(kInt);
+    for (std::size_t i = first; i < end; i += kN) {
+      const FloatVector w = hn::Load(kFloat, ws.sample_w.get() + i);
+      const FloatMask seen = hn::Not(is_hidden(hn::Load(kFloat, nearest + i), w, number(kThickness)));
+      sum = sum + hn::IfThenElseZero(hn::RebindMask(kInt, seen), hn::Load(kInt, distance + i));
       points += hn::CountTrue(kFloat, seen);
     }
+    alignas(64) std::int32_t lanes[kN];
+    hn::Store(sum, kInt, lanes);
+    for (const std::int32_t lane : lanes) {
+      all += lane;
+    }
   }
-  alignas(64) float columns[kTile];
-  for (std::size_t part = 0; part < kParts; ++part) {
-    hn::Store(sum[part], kFloat, columns + part * kN);
-  }
-  double all = 0.0;
-  for (const float column : columns) {
-    all += static_cast<double>(column);
-  }
-  r.contour_sum = all;
+  r.contour_sum = static_cast<double>(all) / TiledPlanes::kDistanceUnits;
   r.contour_points = static_cast<std::int32_t>(points);
 }
 

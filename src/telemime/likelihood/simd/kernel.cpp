@@ -16,19 +16,17 @@
 
 #include "telemime/likelihood/simd/contour-inl.h"
 #include "telemime/likelihood/simd/count-inl.h"
-#include "telemime/likelihood/simd/place-inl.h"
 #include "telemime/likelihood/simd/still-inl.h"
 #include "telemime/likelihood/simd/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
-// Counts one pose, given the transforms of its segments.
-inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Reductions& r) {
+inline void count_stages(const Batch& batch, const Placement& pose, Reductions& r, Workspace& ws) {
   const bool contour = wants(batch.terms, Reduction::contour);
   const SimdStage last = batch.last_stage;
   if (last == SimdStage::count) {
-    keep_still(batch, lane, ws);
+    keep_still(batch, pose, ws);
   }
   Memory& memory = ws.memory;
   const auto moves = [&memory](std::size_t s) { return (memory.still >> s & 1U) == 0; };
@@ -36,22 +34,24 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
   // wait.
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
     if (moves(s)) {
-      memory.projection[s] = project_segment(batch, batch.model.segments[s], s, lane, ws);
+      memory.projection[s] = project_segment(batch, batch.model.segments[s], pose[s], ws);
     }
   }
-  // Set up, draw and sample each segment.
-  ws.samples = 0;
+  if (contour) {
+    sample_still(batch, ws);
+  }
+  // Set up, draw and sample each segment that moves.
+  ws.samples = memory.samples;
   for (std::size_t s = 0; s < kSegmentCount && last >= SimdStage::set_up; ++s) {
     const PackedSegment& segment = batch.model.segments[s];
-    Facing& facing = memory.facing[s];
     if (moves(s)) {
-      facing = set_up_quads(batch, segment, memory.projection[s], ws);
+      const Facing facing = set_up_quads(batch, segment, memory.projection[s], ws);
       if (last >= SimdStage::draw) {
         draw_quads(batch, segment, facing, ws);
       }
-    }
-    if (contour && last >= SimdStage::sample) {
-      sample_contour(segment, facing, ws);
+      if (contour && last >= SimdStage::sample) {
+        sample_contour(segment, facing, ws);
+      }
     }
   }
   // Count contour and overlap, and clear the z-buffer.
@@ -70,18 +70,12 @@ inline void count_pose(const Batch& batch, std::size_t lane, Workspace& ws, Redu
   }
 }
 
-void count_poses(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out, Workspace& ws) {
+void count_pose(const Batch& batch, const Placement& pose, Reductions& out, Workspace& ws) {
   ws.fit(batch.frame.grid);
   // An exception (no memory for contour points) leaves the z-buffer uncleared: `pixels` = 0 makes fit() clear
   // it.
   const std::size_t pixels = std::exchange(ws.pixels, 0);
-  for (std::size_t first = 0; first < poses.size(); first += kN) {
-    const std::size_t size = std::min(kN, poses.size() - first);
-    place_segments(batch.model.skeleton, poses.subspan(first, size), ws);
-    for (std::size_t lane = 0; lane < size && batch.last_stage > SimdStage::place; ++lane) {
-      count_pose(batch, lane, ws, out[first + lane]);
-    }
-  }
+  count_stages(batch, pose, out, ws);
   ws.pixels = pixels;
 }
 
@@ -125,10 +119,12 @@ void Workspace::grow_samples(std::size_t at_least) {
     std::copy_n(array.get(), capacity, grown.get());
     array = std::move(grown);
   };
-  for (auto* array : {&sample_x, &sample_y, &sample_w, &sample_nearest, &sample_distance}) {
+  for (auto* array : {&sample_x, &sample_y, &sample_w, &sample_nearest}) {
     grow(*array);
   }
-  grow(sample_pixel);
+  for (auto* array : {&sample_pixel, &sample_distance}) {
+    grow(*array);
+  }
   capacity = larger;
 }
 
@@ -141,31 +137,31 @@ std::vector<InstructionSet> instruction_sets() {
     }
   };
 #if (HWY_TARGETS & HWY_AVX3_DL) != 0
-  offer(HWY_AVX3_DL, "avx512", &N_AVX3_DL::count_poses);
+  offer(HWY_AVX3_DL, "avx512", &N_AVX3_DL::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_AVX3) != 0
-  offer(HWY_AVX3, "avx512", &N_AVX3::count_poses);
+  offer(HWY_AVX3, "avx512", &N_AVX3::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_AVX2) != 0
-  offer(HWY_AVX2, "avx2", &N_AVX2::count_poses);
+  offer(HWY_AVX2, "avx2", &N_AVX2::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_SSE4) != 0
-  offer(HWY_SSE4, "sse4", &N_SSE4::count_poses);
+  offer(HWY_SSE4, "sse4", &N_SSE4::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_SSSE3) != 0
-  offer(HWY_SSSE3, "ssse3", &N_SSSE3::count_poses);
+  offer(HWY_SSSE3, "ssse3", &N_SSSE3::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_NEON) != 0
-  offer(HWY_NEON, "neon", &N_NEON::count_poses);
+  offer(HWY_NEON, "neon", &N_NEON::count_pose);
 #endif
 #if (HWY_TARGETS & HWY_EMU128) != 0
-  sets.push_back({"portable", &N_EMU128::count_poses});
+  sets.push_back({"portable", &N_EMU128::count_pose});
 #endif
 #if (HWY_TARGETS & HWY_SCALAR) != 0
-  sets.push_back({"portable", &N_SCALAR::count_poses});
+  sets.push_back({"portable", &N_SCALAR::count_pose});
 #endif
   if (sets.empty()) {  // the instruction set that the compiler assumes
-    sets.push_back({"baseline", &HWY_STATIC_DISPATCH(count_poses)});
+    sets.push_back({"baseline", &HWY_STATIC_DISPATCH(count_pose)});
   }
   return sets;
 }

@@ -3,13 +3,13 @@
 
 #include <hwy/aligned_allocator.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <vector>
 
-#include "telemime/body/pose.h"
+#include "telemime/body/skeleton.h"
 #include "telemime/likelihood/cues/reductions.h"
 #include "telemime/likelihood/packed_model.h"
 #include "telemime/likelihood/simd/simd_backend.h"
@@ -57,6 +57,10 @@ struct Facing {
   LaneSet medium = {};  ///< those of at most 3 x 3 tiles that are not in `small`
 };
 
+/// A pose as the kernel reads it: camera from segment, by Segment. Three rows of the rotation, then the
+/// translation (m).
+using Placement = std::array<std::array<float, 12>, kSegmentCount>;
+
 /// Segments by bit.
 using SegmentSet = std::uint32_t;
 
@@ -64,11 +68,15 @@ using SegmentSet = std::uint32_t;
 struct Memory {
   std::shared_ptr<const void> model, frame;  ///< the contents that the rest is of
   Pinhole camera;
-  float placed[kSegmentCount][12] = {};  ///< transforms of the pose before
+  Placement placed = {};  ///< the pose before
   Projection projection[kSegmentCount] = {};
-  Facing facing[kSegmentCount];
-  SegmentSet still = 0;  ///< segments that are drawn in both planes of depths and counted here
-  Reductions counts;     ///< of these
+  Facing facing[kSegmentCount];  ///< of those that are still
+  SegmentSet still = 0;          ///< segments that are drawn in both planes of depths and counted here
+  Reductions counts;             ///< of these
+  /// Those whose contour points are the first `samples` of the workspace: all of `still`, or none. Points
+  /// that they hide themselves are left out.
+  SegmentSet sampled = 0;
+  std::size_t samples = 0;  ///< a multiple of a tile's pixels
 };
 
 /// Working memory of one thread, aligned for vectors. It grows with the image and with the size of the person
@@ -76,11 +84,7 @@ struct Memory {
 struct Workspace {
   static constexpr std::size_t kLanes = PackedSegment::kMostLanes + 64;
   static constexpr std::size_t kVertices = kSegmentCount * PackedSegment::kMostLanes + 64;
-  static constexpr std::size_t kPoses = 16;
-  static constexpr std::size_t kNumbers = 12 * kSegmentCount;
 
-  alignas(64) float pose[kPoseSize][kPoses];      ///< pose numbers of a block, by lane
-  alignas(64) float transform[kNumbers][kPoses];  ///< camera from segment, 12 numbers each, by lane
   alignas(64) float u[kVertices], v[kVertices], w[kVertices];  ///< the model's vertices, px and 1/m
   alignas(64) float line[18][kLanes];     ///< four edges, depth plane and fold of a segment; a b c each
   alignas(64) float bend[kLanes];         ///< 1/z is plane + bend * min(fold, 0)
@@ -96,9 +100,9 @@ struct Workspace {
   std::size_t pixels = 0;
   int grid_columns = 0;  ///< of the tiles; grids of as many pixels may differ in shape
 
-  /// Contour points (px, 1/m), their pixels, and depth and distance of those pixels.
-  hwy::AlignedFreeUniquePtr<float[]> sample_x, sample_y, sample_w, sample_nearest, sample_distance;
-  hwy::AlignedFreeUniquePtr<std::int32_t[]> sample_pixel;
+  /// Contour points (tiles, 1/m), their pixels, and depth and distance of those pixels.
+  hwy::AlignedFreeUniquePtr<float[]> sample_x, sample_y, sample_w, sample_nearest;
+  hwy::AlignedFreeUniquePtr<std::int32_t[]> sample_pixel, sample_distance;
   std::size_t samples = 0;
   std::size_t capacity = 0;
 
@@ -106,9 +110,8 @@ struct Workspace {
   void grow_samples(std::size_t at_least);
 };
 
-/// Counts one pose after the other; does not set `observed`.
-using Kernel = void (*)(const Batch& batch, std::span<const Pose> poses, std::span<Reductions> out,
-                        Workspace& workspace);
+/// Counts one pose; does not set `observed`.
+using Kernel = void (*)(const Batch& batch, const Placement& pose, Reductions& out, Workspace& workspace);
 
 struct InstructionSet {
   std::string_view name;  ///< "avx512", "avx2", "sse4", "ssse3", "neon", "portable"

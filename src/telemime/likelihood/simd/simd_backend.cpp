@@ -16,9 +16,8 @@
 namespace telemime {
 namespace {
 
-constexpr std::size_t kBlock = simd::Workspace::kPoses;
-// Blocks per task; fewer are not worth a task.
-constexpr std::size_t kGrain = 4;
+// Poses of a task; fewer are not worth one.
+constexpr std::size_t kGrain = 64;
 
 simd::InstructionSet chosen(const std::string& name) {
   const std::vector<simd::InstructionSet> sets = simd::instruction_sets();
@@ -36,6 +35,17 @@ simd::InstructionSet chosen(const std::string& name) {
                 "Choose one of: " + all + ".");
   }
   return *found;
+}
+
+simd::Placement placement_of(const Kinematics& kinematics) {
+  simd::Placement placement;
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    const Eigen::Isometry3d& transform = kinematics.camera_from_segment[s];
+    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(placement[s].data()) =
+        transform.linear().cast<float>();
+    Eigen::Map<Eigen::Vector3f>(placement[s].data() + 9) = transform.translation().cast<float>();
+  }
+  return placement;
 }
 
 int checked_threads(int threads) {
@@ -60,8 +70,8 @@ class SimdBackend final : public Backend {
 
   std::string_view name() const override { return "simd"; }
 
-  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
-             std::span<Reductions> counts) override {
+  void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
+             std::span<const Kinematics> kinematics, Reduction terms, std::span<Reductions> counts) override {
     const simd::Pinhole camera = {.fx = static_cast<float>(frame.camera.fx),
                                   .fy = static_cast<float>(frame.camera.fy),
                                   .cx = static_cast<float>(frame.camera.cx),
@@ -71,36 +81,33 @@ class SimdBackend final : public Backend {
                                .camera = camera,
                                .terms = terms,
                                .last_stage = last_stage_};
-    if (workspaces_.size() == 1 || poses.size() <= kGrain * kBlock) {
-      count_some(batch, poses, counts, *workspaces_.front());
+    const auto count_some = [&](std::size_t first, std::size_t end, simd::Workspace& workspace) {
+      for (std::size_t i = first; i < end; ++i) {
+        set_.kernel(
+            batch,
+            placement_of(kinematics.empty() ? forward_kinematics(model.body, poses[i]) : kinematics[i]),
+            counts[i], workspace);
+      }
+    };
+    if (workspaces_.size() == 1 || poses.size() <= kGrain) {
+      count_some(0, poses.size(), *workspaces_.front());
       return;
     }
-    // Threads take whole blocks of the kernel, several at a time.
-    const std::size_t blocks = (poses.size() + kBlock - 1) / kBlock;
+    // Threads take tasks of several poses.
     const LoopOrder order;
     arena_.execute([&] {
       tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, blocks, kGrain),
+          tbb::blocked_range<std::size_t>(0, poses.size(), kGrain),
           [&](const auto& range) {
             const LoopOrder::Task task(order);
             const auto thread = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
-            const std::size_t first = range.begin() * kBlock;
-            const std::size_t size = std::min(range.end() * kBlock, poses.size()) - first;
-            count_some(batch, poses.subspan(first, size), counts.subspan(first, size), *workspaces_[thread]);
+            count_some(range.begin(), range.end(), *workspaces_[thread]);
           },
           tbb::simple_partitioner());
     });
   }
 
  private:
-  void count_some(const simd::Batch& batch, std::span<const Pose> poses, std::span<Reductions> counts,
-                  simd::Workspace& workspace) const {
-    for (std::size_t first = 0; first < poses.size(); first += kBlock) {
-      const std::size_t size = std::min(kBlock, poses.size() - first);
-      set_.kernel(batch, poses.subspan(first, size), counts.subspan(first, size), workspace);
-    }
-  }
-
   simd::InstructionSet set_;
   SimdStage last_stage_;
   tbb::task_arena arena_;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "telemime/likelihood/simd/contour-inl.h"
 #include "telemime/likelihood/simd/count-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,16 +26,12 @@ constexpr SegmentSet kArms[] = {set_of(Segment::l_upper_arm, Segment::l_forearm,
                                 set_of(Segment::r_upper_arm, Segment::r_forearm, Segment::r_hand)};
 
 // The segments in the same place as those of the pose before. Remembers this pose.
-inline SegmentSet unmoved(std::size_t lane, Workspace& ws) {
+inline SegmentSet unmoved(const Placement& pose, Memory& memory) {
   SegmentSet same = 0;
   for (std::size_t s = 0; s < kSegmentCount; ++s) {
-    float placed[12];
-    for (std::size_t k = 0; k < 12; ++k) {
-      placed[k] = ws.transform[12 * s + k][lane];
-    }
-    same |= SegmentSet{std::memcmp(placed, ws.memory.placed[s], sizeof placed) == 0} << s;
-    std::memcpy(ws.memory.placed[s], placed, sizeof placed);
+    same |= SegmentSet{std::memcmp(&pose[s], &memory.placed[s], sizeof pose[s]) == 0} << s;
   }
+  memory.placed = pose;
   return same;
 }
 
@@ -52,6 +49,8 @@ inline void clear_still(const TileGrid& grid, Workspace& ws) {
     }
   }
   ws.memory.still = 0;
+  ws.memory.sampled = 0;
+  ws.memory.samples = 0;
 }
 
 // Draws and counts these segments, whose vertices are those of the pose before.
@@ -91,12 +90,49 @@ inline void draw_still(const Batch& batch, SegmentSet segments, Workspace& ws) {
   memory.still = segments;
 }
 
+// Samples the contour of the segments that stay, once. What moves can only hide more of it, so points that
+// are hidden already are dropped.
+inline void sample_still(const Batch& batch, Workspace& ws) {
+  Memory& memory = ws.memory;
+  if (memory.sampled == memory.still) {
+    return;
+  }
+  ws.samples = 0;
+  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+    if ((memory.still >> s & 1U) != 0) {
+      sample_contour(batch.model.segments[s], memory.facing[s], ws);
+    }
+  }
+  find_pixels(batch.frame.grid, 0, ws);
+  const FloatVector thickness = number(kThickness);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < ws.samples; ++i) {
+    const std::int32_t pixel = ws.sample_pixel[i];
+    const auto at = static_cast<std::size_t>(pixel);
+    const FloatVector nearest = number(std::bit_cast<float>(ws.depth[at]));
+    if (hn::AllFalse(kFloat, is_hidden(nearest, number(ws.sample_w[i]), thickness))) {
+      ws.sample_w[kept] = ws.sample_w[i];
+      ws.sample_pixel[kept] = pixel;
+      ws.sample_distance[kept] = batch.frame.distance[at];
+      ++kept;
+    }
+  }
+  // Points outside the image, which are hidden, fill the last vector.
+  for (; kept % kTile != 0; ++kept) {
+    ws.sample_w[kept] = 1.0F;
+    ws.sample_pixel[kept] = static_cast<std::int32_t>(batch.frame.grid.pixels());
+    ws.sample_distance[kept] = 0;
+  }
+  memory.samples = kept;
+  memory.sampled = memory.still;
+}
+
 // Decides which segments of a pose stay, and has these in both planes of depths.
-inline void keep_still(const Batch& batch, std::size_t lane, Workspace& ws) {
+inline void keep_still(const Batch& batch, const Placement& pose, Workspace& ws) {
   Memory& memory = ws.memory;
   const bool known = memory.model == batch.model.content && memory.frame == batch.frame.content &&
                      memory.camera == batch.camera && memory.model && memory.frame;
-  const SegmentSet same = unmoved(lane, ws);
+  const SegmentSet same = unmoved(pose, memory);
   if (known && (memory.still & ~same) == 0 && memory.still != 0) {
     return;
   }

@@ -34,13 +34,13 @@ HWY_INLINE void tile_interval(float low, float high, int size, std::int32_t& fir
   }
 }
 
-inline Projection project_segment(const Batch& batch, const PackedSegment& segment, std::size_t s,
-                                  std::size_t lane, Workspace& ws) {
+inline Projection project_segment(const Batch& batch, const PackedSegment& segment,
+                                  const std::array<float, 12>& camera_from_segment, Workspace& ws) {
   constexpr float kNearest = 0.05F;
   constexpr float kFar = 1e30F;
   FloatVector transform[12];
   for (std::size_t k = 0; k < 12; ++k) {
-    transform[k] = number(ws.transform[12 * s + k][lane]);
+    transform[k] = number(camera_from_segment[k]);
   }
   const float scale = 1.0F / static_cast<float>(TileGrid::kSide);
   const FloatVector fx = number(batch.camera.fx * scale);

@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <numbers>
 
 #include "telemime/likelihood/simd/kernel.h"
 
@@ -42,31 +41,6 @@ HWY_INLINE std::uint64_t bits_of(FloatMask mask) {
   return bits;
 }
 
-// Sine and cosine of |x| < 10^4 rad to 1e-6 or better: Cody and Waite's reduction to a quarter turn and the
-// polynomials of S. L. Moshier's Cephes library.
-HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosine) {
-  const FloatVector turns = x * number(static_cast<float>(2.0 / std::numbers::pi));
-  const FloatVector half = hn::CopySign(number(0.5F), turns);
-  const IntVector quarter = hn::ConvertTo(kInt, turns + half);
-  const FloatVector q = hn::ConvertTo(kFloat, quarter);
-  const FloatVector r = ((x - q * number(1.5703125F)) - q * number(4.837512969970703125e-4F)) -
-                        q * number(7.54978995489188216e-8F);
-  const FloatVector r2 = r * r;
-  const FloatVector s =
-      r +
-      r * r2 * ((number(-1.9515295891e-4F) * r2 + number(8.3321608736e-3F)) * r2 - number(1.6666654611e-1F));
-  const FloatVector c = number(1.0F) - number(0.5F) * r2 +
-                        r2 * r2 *
-                            ((number(2.443315711809948e-5F) * r2 - number(1.388731625493765e-3F)) * r2 +
-                             number(4.166664568298827e-2F));
-  const IntVector one = hn::Set(kInt, 1);
-  const FloatMask swapped = hn::RebindMask(kFloat, (quarter & one) == one);
-  const IntVector sine_sign = hn::ShiftLeft<30>(quarter & hn::Set(kInt, 2));
-  const IntVector cosine_sign = hn::ShiftLeft<30>((quarter + one) & hn::Set(kInt, 2));
-  *sine = hn::Xor(hn::IfThenElse(swapped, c, s), hn::BitCast(kFloat, sine_sign));
-  *cosine = hn::Xor(hn::IfThenElse(swapped, s, c), hn::BitCast(kFloat, cosine_sign));
-}
-
 #define FN HWY_INLINE
 #define REAL FloatVector
 #define MASK FloatMask
@@ -74,7 +48,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #define FUSED(a, b, c) hn::MulAdd(a, b, c)
 #define SELECT(m, a, b) hn::IfThenElse(m, a, b)
 #define LESS(a, b) hn::Lt(a, b)
-#define SINE_COSINE(angle, sine, cosine) sine_cosine(angle, sine, cosine)
 #include "telemime/likelihood/formulas.inc"
 #undef FN
 #undef REAL
@@ -83,7 +56,6 @@ HWY_INLINE void sine_cosine(FloatVector x, FloatVector* sine, FloatVector* cosin
 #undef FUSED
 #undef SELECT
 #undef LESS
-#undef SINE_COSINE
 
 }  // namespace telemime::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
