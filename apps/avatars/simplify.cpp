@@ -62,7 +62,7 @@ void simplify(const Figure& figure, double error, Triangles& mesh) {
   const BentSkeleton to = bend(figure.skeleton);
   std::vector<Eigen::Vector3f> points;
   for (const Eigen::Vector3d& vertex : mesh.vertices) {
-    points.push_back(moved(to, vertex, skin_weights(figure, vertex)).cast<float>());
+    points.emplace_back(moved(to, vertex, skin_weights(figure, vertex)).cast<float>());
   }
   const std::size_t count = points.size();
   const float* const numbers = points.data()->data();

@@ -60,8 +60,7 @@ double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a, c
 void add_fingers(const FingerSkeleton& fingers, Side side, const Eigen::Vector3d& from_wrist, double s,
                  Weights& w) {
   constexpr double kJoint = 0.007;  // m, half of the skin that bends at a joint
-  const std::size_t hand =
-      static_cast<std::size_t>(side == Side::left ? HumanBone::l_hand : HumanBone::r_hand);
+  const auto hand = static_cast<std::size_t>(side == Side::left ? HumanBone::l_hand : HumanBone::r_hand);
   std::size_t nearest = 0;
   std::array<double, kFingerCount> distance{};
   double palm = 1.0;

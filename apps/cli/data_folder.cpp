@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 // The installed folder, or `otherwise`: the first that contains `entry`.
 fs::path find(const std::string& what, const fs::path& entry, const fs::path& otherwise) {
-  if (const fs::path installed = installed_folder(code_folder(), entry); !installed.empty()) {
+  if (fs::path installed = installed_folder(code_folder(), entry); !installed.empty()) {
     return installed;
   }
   std::error_code failed;

@@ -115,9 +115,11 @@ void run_soak(double minutes) {
 
 // The array and nothrow forms call these, and the library's operator delete calls free(). Inlined, the
 // compiler would take allocation and release for a mismatch.
+// NOLINTBEGIN(misc-new-delete-overloads)
 [[gnu::noinline]] void* operator new(std::size_t size) {
   return telemime::allocate(size, alignof(std::max_align_t));
 }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   return telemime::allocate(size, static_cast<std::size_t>(alignment));
 }
+// NOLINTEND(misc-new-delete-overloads)

@@ -167,10 +167,10 @@ Table overlap_time_table(const EngineOptions& options) {
     table.columns.push_back(column.title);
   }
   const EngineScene scene = engine_scene(engine_cameras().front(), 10 * kHistograms.back(), options.seed);
-  for (std::size_t h = 0; h < kHistograms.size(); ++h) {
-    table.rows.push_back({std::to_string(kHistograms[h])});
+  for (const std::size_t histograms : kHistograms) {
+    table.rows.push_back({std::to_string(histograms)});
     for (const Timed& column : timed) {
-      const BatchTime time = best_batch_time(*column.backend, scene, kHistograms[h], Reduction::overlap,
+      const BatchTime time = best_batch_time(*column.backend, scene, histograms, Reduction::overlap,
                                              options.quick ? 0.01 : 0.2, options.seconds);
       table.rows.back().push_back(number(1e3 * time.seconds));
     }

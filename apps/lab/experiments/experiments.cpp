@@ -133,9 +133,9 @@ std::vector<std::string> conditions(const LabOptions& options) {
       "Sequences: raising_arms, joy, exclaiming and asking from " + options.data.filename().string() +
           ", working image 160x120, seed " + std::to_string(options.seed) + ".",
       "The search of chapter 3 is the thesis's own: one downhill simplex over all 23 numbers, F then D_C, no "
-      "prior, each frame from the pose of the previous one, unless a line says 'ours'. Features, joint "
-      "limits "
-      "(the anatomical set) and the calibration of body and first pose are ours in both.",
+      "prior, each frame from the pose of the previous one, unless a line says 'ours'. "
+      "Features, joint limits (the anatomical set) and the calibration of body and first pose are ours in "
+      "both.",
       "The particle filter of chapter 4 is the thesis's: the heaviest particle is the estimate, and it knows "
       "only the image, the joint limits and that the body is solid. data/filter.json holds what was learned "
       "from sequences. Every filter runs with several seeds.",

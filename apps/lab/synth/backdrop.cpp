@@ -126,8 +126,9 @@ void draw_notice(Canvas& c, double x, double y, double w, double h, const cv::Sc
   c.box(x, y, w, h, {70, 70, 72});
   c.box(x + 4, y + 4, w - 8, h - 8, {204, 206, 204});
   c.box(x + 16, y + 16, w - 32, 0.32 * h, shade(accent, 0.9));
-  for (double line = y + 0.46 * h; line < y + h - 18; line += 16) {
-    c.box(x + 16, line, (w - 32) * random.uniform(0.5, 1.0), 6, {96, 96, 98});
+  const int lines = static_cast<int>(std::ceil((0.54 * h - 18) / 16));
+  for (int i = 0; i < lines; ++i) {
+    c.box(x + 16, y + 0.46 * h + 16 * i, (w - 32) * random.uniform(0.5, 1.0), 6, {96, 96, 98});
   }
 }
 

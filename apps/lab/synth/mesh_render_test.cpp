@@ -17,7 +17,7 @@ using testing_errors::message_of;
 using testing_errors::names;
 
 struct MeshSceneTest : MeshPersonTest {
-  SceneOptions options = [this] {
+  SceneOptions options = [] {
     SceneOptions o;
     o.width = 160;
     o.height = 120;

@@ -136,8 +136,8 @@ std::optional<ArmAngles> solve_arm(const Body& body, const Pose& pose, Side side
   constexpr int kMostSteps = 120;
   constexpr double kSlack = 1e-6;  // m, of an arm that is just straight
   double beyond = 0.0;             // m out of reach
-  const double low = std::cos(target.swivel);
-  const double aside = std::sin(target.swivel);
+  const double cosine = std::cos(target.swivel);
+  const double sine = std::sin(target.swivel);
   for (int step = 0; step < kMostSteps; ++step) {
     const Eigen::Vector3d shoulder = shoulder_in_chest(body, side, direction);
     const Eigen::Vector3d line = wrist - shoulder;
@@ -151,7 +151,7 @@ std::optional<ArmAngles> solve_arm(const Body& body, const Pose& pose, Side side
     const double along = (upper * upper - fore * fore + distance * distance) / (2.0 * distance);
     const double across = std::sqrt(std::max(0.0, upper * upper - along * along));
     const SwivelFrame frame = swivel_frame(axis);
-    const Eigen::Vector3d elbow = along * axis + across * (low * frame.low + aside * frame.side);
+    const Eigen::Vector3d elbow = along * axis + across * (cosine * frame.low + sine * frame.side);
     const Eigen::Vector3d next = elbow.normalized();
     const double change = (next - direction).norm();
     direction = step < kPlainSteps ? next : (next + direction).normalized();

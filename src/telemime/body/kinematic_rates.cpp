@@ -15,6 +15,7 @@ KinematicRate& rate_of(Rates& rates, Angle angle) {
 void turn(KinematicRate& rate, Segment segment, const Eigen::Vector3d& axis) {
   rate.angular[static_cast<std::size_t>(segment)] = axis;
 }
+
 // Moves a joint about an axis through `centre`.
 void carry(KinematicRate& rate, const Kinematics& k, Joint joint, const Eigen::Vector3d& axis,
            const Eigen::Vector3d& centre) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/landmark_points.h"
 
-#include "telemime/body/kinematic_rates.h"
-
 namespace telemime {
 
 // `telemime-lab learn landmarks` finds shoulders, elbows, wrists and the sides of eyes and ears to within

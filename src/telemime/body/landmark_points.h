@@ -7,10 +7,9 @@
 #include <string_view>
 
 #include "telemime/body/body.h"
+#include "telemime/body/kinematic_rates.h"
 
 namespace telemime {
-
-struct KinematicRate;
 
 /// Points of the upper body that learned networks find in a picture. l_ and r_ are the person's own sides.
 enum class Landmark : std::size_t {
@@ -62,7 +61,8 @@ using LandmarkPositions = std::array<Eigen::Vector3d, kLandmarkCount>;
 /// All landmarks of a body in a pose, m, camera frame.
 LandmarkPositions landmark_positions(const Body& body, const Kinematics& kinematics);
 
-/// The velocities of these landmarks, m/s, where the body moves so (kinematic_rates).
+/// Velocities (m/s, camera frame) of the landmarks of a body that moves at `rate` (see kinematic_rates()).
+/// `points` are landmark_positions() of `kinematics`.
 LandmarkPositions landmark_velocities(const LandmarkPositions& points, const Kinematics& kinematics,
                                       const KinematicRate& rate);
 

@@ -58,6 +58,32 @@ TEST(LandmarkPoints, MoveWithTheBodyAndGrowWithIt) {
   }
 }
 
+TEST(LandmarkPoints, VelocitiesAreTheirDerivatives) {
+  constexpr double kStep = 1e-5;
+  const Body body = make_body(testing_poses::other_shape());
+  Random random(9);
+  for (int i = 0; i < 20; ++i) {
+    const Pose pose = testing_poses::random_pose(anatomical_limits(), random);
+    const Kinematics k = forward_kinematics(body, pose);
+    const LandmarkPositions points = landmark_positions(body, k);
+    const auto rates = kinematic_rates(body, pose, k);
+    for (std::size_t n = 0; n < kPoseSize; ++n) {
+      const auto moved = [&](double change) {
+        PoseVector x = pose.vector();
+        x[static_cast<Eigen::Index>(n)] += change;
+        return landmark_positions(body, forward_kinematics(body, Pose::from_vector(x)));
+      };
+      const LandmarkPositions less = moved(-kStep);
+      const LandmarkPositions more = moved(kStep);
+      const LandmarkPositions velocities = landmark_velocities(points, k, rates[n]);
+      for (std::size_t l = 0; l < kLandmarkCount; ++l) {
+        EXPECT_LT((velocities[l] - (more[l] - less[l]) / (2 * kStep)).norm(), 1e-7)
+            << n << " " << kLandmarkPoints[l].name;
+      }
+    }
+  }
+}
+
 TEST(LandmarkPoints, BonesJoinTheirEnds) {
   const Body body = make_body({});
   const auto bones = landmark_bones(landmark_positions(body, forward_kinematics(body, Pose{})));

@@ -164,7 +164,7 @@ class MeshBuilder {
     mesh_.triangles.push_back({{a, b, c}, surface});
   }
 
-  // Edges of the triangles from `from` on: each belongs to two, which go through it either way.
+  // Edges of the triangles from `from` on: each belongs to two, which run along it in opposite directions.
   void connect(std::uint32_t from) {
     struct Half {
       std::uint32_t a, b, triangle;

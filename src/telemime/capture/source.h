@@ -59,6 +59,7 @@ class Source {
   virtual void stop() {}
   /// Waits for a camera that is gone until stop(), and reports changes of its condition by calling `report`
   /// from within next(). To be called before the first next(). Files ignore it.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): those that report keep it
   virtual void attend(std::function<void(const SourceNews&)> /*report*/) {}
   /// Problems while reading so far (truncated file, interrupted stream) as text; empty if there were none.
   virtual std::string complaint() const = 0;

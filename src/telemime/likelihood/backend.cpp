@@ -8,7 +8,7 @@ namespace telemime {
 void Backend::evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                        Reduction terms, std::span<Score> scores, std::span<const Kinematics> kinematics) {
   if (poses.size() != scores.size() || (!kinematics.empty() && kinematics.size() != poses.size())) {
-    throw Error(ErrorKind::usage, "evaluate: as many scores as poses are needed");
+    throw Error(ErrorKind::usage, "evaluate: as many scores, and kinematics if any, as poses are needed");
   }
   counts_.assign(poses.size(), {});
   if (terms != Reduction::none) {

@@ -41,8 +41,8 @@ class Backend {
   void evaluate(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses, Reduction terms,
                 std::span<Score> scores, std::span<const Kinematics> kinematics = {});
 
-  /// Adds to counts[i], which come in as Reductions{}, what `terms` asks for of poses[i]. The sizes are
-  /// equal, but that `kinematics` may be empty. `observed` is left to evaluate().
+  /// Adds to counts[i], which come in as Reductions{}, what `terms` asks for of poses[i]. `kinematics` are
+  /// empty or those of the poses: a back end may read either. `observed` is left to evaluate().
   virtual void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
                      std::span<const Kinematics> kinematics, Reduction terms,
                      std::span<Reductions> counts) = 0;

@@ -40,7 +40,8 @@ BodyLandmarks observe(const PoseLandmarks& seen, const Camera& camera);
 Eigen::Vector2d landmark_error(const LandmarkObservation& observed, const Camera& camera,
                                const Eigen::Vector3d& point);
 
-/// Rate of this error where the point moves (m/s, camera frame), per second.
+/// Derivative of landmark_error() by time (1/s) for a point that moves at `velocity` (m/s, camera frame);
+/// zero for one that is not seen. Nearer than 5 cm its motion in depth counts nothing.
 Eigen::Vector2d landmark_error_rate(const LandmarkObservation& observed, const Camera& camera,
                                     const Eigen::Vector3d& point, const Eigen::Vector3d& velocity);
 
@@ -48,7 +49,8 @@ Eigen::Vector2d landmark_error_rate(const LandmarkObservation& observed, const C
 /// and what it reports; 0 for one that is not seen.
 double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, const Eigen::Vector3d& bone);
 
-/// Rate of this difference where the bone changes (m/s, camera frame), per second.
+/// Derivative of bone_error() by time (1/s) for a bone whose end moves at `change` (m/s, camera frame)
+/// relative to its start; 0 for one that is not seen.
 double bone_error_rate(const BoneObservation& observed, const Eigen::Vector3d& ray,
                        const Eigen::Vector3d& bone, const Eigen::Vector3d& change);
 

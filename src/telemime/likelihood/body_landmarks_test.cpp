@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace telemime {
 namespace {
@@ -61,10 +62,11 @@ TEST(BodyLandmarks, ABoneThatIsNotSeenSaysNothing) {
 }
 
 // Central differences of an error of a point or bone that moves.
-template <typename Error>
-auto measured_rate(const Error& error, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity) {
+template <typename Number>
+Number measured_rate(const std::function<Number(const Eigen::Vector3d&)>& error, const Eigen::Vector3d& at,
+                     const Eigen::Vector3d& velocity) {
   constexpr double kStep = 1e-6;
-  return ((error(at + kStep * velocity) - error(at - kStep * velocity)) / (2 * kStep));
+  return (error(at + kStep * velocity) - error(at - kStep * velocity)) / (2 * kStep);
 }
 
 TEST(BodyLandmarks, RatesAreTheDerivativesOfTheErrors) {
@@ -80,10 +82,11 @@ TEST(BodyLandmarks, RatesAreTheDerivativesOfTheErrors) {
       const auto of_point = [&](const Eigen::Vector3d& p) -> Eigen::Vector2d {
         return landmark_error(point, camera, p);
       };
-      const Eigen::Vector2d moves = measured_rate(of_point, at, velocity);
+      const Eigen::Vector2d moves = measured_rate<Eigen::Vector2d>(of_point, at, velocity);
       EXPECT_LT((landmark_error_rate(point, camera, at, velocity) - moves).norm(), 1e-4 * (1 + moves.norm()));
       const auto of_bone = [&](const Eigen::Vector3d& b) { return bone_error(bone, ray, b); };
-      EXPECT_NEAR(bone_error_rate(bone, ray, at, velocity), measured_rate(of_bone, at, velocity), 1e-6);
+      EXPECT_NEAR(bone_error_rate(bone, ray, at, velocity), measured_rate<double>(of_bone, at, velocity),
+                  1e-6);
     }
   }
   point.seen = bone.seen = false;

@@ -3,10 +3,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "telemime/body/mesh.h"
 
 namespace telemime {
+namespace {
+
+// At least 1: tiny distances need no more digits. At most a million pixels.
+float largest(const cv::Mat& distance) {
+  constexpr float kMost = 1e6F;
+  float most = 1.0F;
+  for (int y = 0; y < distance.rows; ++y) {
+    const auto* row = distance.ptr<float>(y);
+    for (int x = 0; x < distance.cols; ++x) {
+      most = std::max(most, row[x]);
+    }
+  }
+  return std::min(most, kMost);
+}
+
+}  // namespace
 
 TileGrid tile_grid(int width, int height) {
   constexpr int kSide = TileGrid::kSide;
@@ -22,6 +39,9 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
     out.distance.assign(grid.pixels() + 1, 0);
   }
   out.content = std::make_shared<char>();
+  const float most = largest(distance);
+  out.distance_units =
+      std::ldexp(1.0F, std::ilogb(static_cast<float>(TiledPlanes::kDistanceEnd)) - 1 - std::ilogb(most));
   std::array<std::uint8_t, 256> code{};
   code.fill(TiledPlanes::kUnknown);
   for (std::uint8_t c = 0; c <= kSurfaceClassCount; ++c) {
@@ -35,9 +55,8 @@ void tile(const cv::Mat& labels, const cv::Mat& distance, TiledPlanes& out) {
       const int columns = std::min(TileGrid::kSide, grid.width - x);
       for (int i = 0; i < columns; ++i) {
         out.labels[at + static_cast<std::size_t>(i)] = code[label[x + i]];
-        const float px = std::min(pixel[x + i], TiledPlanes::kMostDistance);
-        out.distance[at + static_cast<std::size_t>(i)] =
-            static_cast<std::int32_t>(px * TiledPlanes::kDistanceUnits);
+        const float px = std::min(most, pixel[x + i]);  // also of what is not a number
+        out.distance[at + static_cast<std::size_t>(i)] = static_cast<std::int32_t>(px * out.distance_units);
       }
     }
   }

@@ -38,15 +38,13 @@ TileGrid tile_grid(int width, int height);
 struct TiledPlanes {
   /// Code of a pixel that counts nowhere; other labels have 8 times their class (0: background).
   static constexpr std::uint8_t kUnknown = 0x80;
-  /// Units of a distance in a pixel: whole numbers have the same sum in any order. Rounded down, so that no
-  /// mean of them is above the largest distance.
-  static constexpr int kDistanceUnits = 4096;
-  /// Largest distance, px: greater ones count as this one.
-  static constexpr float kMostDistance = 2000.0F;
+  /// Distances are whole numbers below this: their sum is the same in any order.
+  static constexpr std::int32_t kDistanceEnd = 1 << 22;
 
   TileGrid grid;
-  std::vector<std::uint8_t> labels;     ///< codes; kUnknown outside the image
-  std::vector<std::int32_t> distance;   ///< 1/4096 px; 0 outside the image; one more number at the end
+  std::vector<std::uint8_t> labels;    ///< codes; kUnknown outside the image
+  std::vector<std::int32_t> distance;  ///< in units; 0 outside the image; one more number at the end
+  float distance_units = 1.0F;         ///< of a pixel, a power of two: as many as the largest distance allows
   std::shared_ptr<const void> content;  ///< another one after each tile(); copies share it
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -21,14 +22,15 @@ struct Planes {
 };
 
 // Every label occurs, and no two neighbours have the same distance.
-Planes random_planes(int width, int height, std::uint64_t seed) {
+Planes random_planes(int width, int height, std::uint64_t seed, double farthest = 100.0) {
   Planes planes = {cv::Mat(height, width, CV_8UC1), cv::Mat(height, width, CV_32FC1)};
   Random random(seed);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       planes.labels.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(random.below(256));
-      const double most = random.below(20) == 0 ? 1e6 : 20.0;
-      planes.distance.at<float>(y, x) = static_cast<float>(random.uniform(1.0, most));
+      const double most = random.below(20) == 0 ? farthest : 20.0;
+      const double distance = random.below(100) == 0 ? std::nan("") : random.uniform(1.0, most);
+      planes.distance.at<float>(y, x) = static_cast<float>(distance);
     }
   }
   return planes;
@@ -46,7 +48,9 @@ void expect_holds(const TiledPlanes& tiles, const Planes& planes) {
   ASSERT_EQ(tiles.labels.size(), grid.pixels());
   ASSERT_EQ(tiles.distance.size(), grid.pixels() + 1);
   std::vector<std::uint8_t> labels(grid.pixels(), TiledPlanes::kUnknown);
-  std::vector<std::int32_t> distance(grid.pixels() + 1, 0);
+  double most = 1.0;  // px; what is not a number counts as the largest
+  cv::minMaxLoc(planes.distance, nullptr, &most, nullptr, nullptr, planes.distance == planes.distance);
+  most = std::clamp(most, 1.0, 1e6);
   std::vector<bool> taken(grid.pixels(), false);
   for (int y = 0; y < grid.height; ++y) {
     for (int x = 0; x < grid.width; ++x) {
@@ -55,20 +59,29 @@ void expect_holds(const TiledPlanes& tiles, const Planes& planes) {
       ASSERT_FALSE(taken[at]) << "two pixels at one place: " << x << " " << y;
       taken[at] = true;
       labels[at] = code_of(planes.labels.at<std::uint8_t>(y, x));
-      distance[at] = static_cast<std::int32_t>(4096.0F * std::min(planes.distance.at<float>(y, x), 2000.0F));
+      const float px = planes.distance.at<float>(y, x);
+      const double expected = std::isnan(px) ? most : std::min<double>(px, most);
+      const double held = tiles.distance[at] / static_cast<double>(tiles.distance_units);
+      ASSERT_LE(held, expected);
+      ASSERT_LT(expected - held, 1e-6 * most) << x << " " << y;
+      ASSERT_LT(tiles.distance[at], TiledPlanes::kDistanceEnd);
     }
   }
   ASSERT_TRUE(tiles.labels == labels);
-  ASSERT_TRUE(tiles.distance == distance);
+  for (std::size_t at = 0; at < tiles.distance.size(); ++at) {
+    ASSERT_TRUE((at < grid.pixels() && taken[at]) || tiles.distance[at] == 0);
+  }
 }
 
 TEST(TiledPlanes, HoldEveryPixelAndNothingElse) {
   for (const auto& [width, height] : kSizes) {
     SCOPED_TRACE(std::to_string(width) + " x " + std::to_string(height));
-    const Planes planes = random_planes(width, height, 1);
-    TiledPlanes tiles;
-    tile(planes.labels, planes.distance, tiles);
-    expect_holds(tiles, planes);
+    for (const double farthest : {20.0, 1000.0, 1e7}) {
+      const Planes planes = random_planes(width, height, 1, farthest);
+      TiledPlanes tiles;
+      tile(planes.labels, planes.distance, tiles);
+      expect_holds(tiles, planes);
+    }
   }
 }
 

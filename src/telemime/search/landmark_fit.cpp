@@ -93,8 +93,11 @@ struct Problem {
       }
       column[at + static_cast<Eigen::Index>(n)] = 1.0 / deviations[static_cast<Eigen::Index>(n)];
       at += static_cast<Eigen::Index>(kPoseSize);
-      for (std::size_t i = 0; i < kFollowed && prior.following > 0.0; ++i, at += 3) {
-        column.segment<3>(at) = rates[n].joints[kFollowedJoints[i]] / prior.following;
+      if (prior.following > 0.0) {
+        for (const Joint j : kFollowedJoints) {
+          column.segment<3>(at) = rates[n].joints[j] / prior.following;
+          at += 3;
+        }
       }
     }
     return all;

@@ -108,6 +108,28 @@ TEST(LandmarkFit, FollowsThroughAnOutlier) {
   EXPECT_LT(worst_arm_error(body, fit.pose, truth), 0.05);
 }
 
+// Where landmarks and prior agree, Gauss-Newton steps with exact derivatives converge quadratically.
+TEST(LandmarkFit, ConvergesToAPerfectFit) {
+  const Body body = make_body({});
+  const JointLimits limits = anatomical_limits();
+  const Camera camera = camera_from_field_of_view(320, 240, 60.0);
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    const Pose truth = random_gesture(random, limits);
+    const BodyLandmarks seen = observe(body, camera, truth, 0.0, 0.0, random);
+    PoseVector start = truth.vector();
+    for (double& number : start) {
+      number += random.normal(0.0, 0.05);
+    }
+    for (const double following : {0.0, 0.1}) {
+      const LandmarkFit fit = fit_to_landmarks(body, camera, seen, {.pose = truth, .following = following},
+                                               Pose::from_vector(start), limits);
+      EXPECT_LT(fit.cost, 1e-9) << i << " " << following;
+      EXPECT_LT((fit.pose.vector() - truth.vector()).norm(), 1e-4) << i << " " << following;
+    }
+  }
+}
+
 TEST(LandmarkFit, NeedsAPairOfLandmarks) {
   EXPECT_FALSE(pose_from_landmarks(make_body({}), Camera{}, BodyLandmarks{}, anatomical_limits()));
 }

@@ -72,7 +72,7 @@ std::optional<HandFit> likelier_hand(const HandLandmarks& hand, Side side, doubl
     }
     return result;
   };
-  const auto as_seen = tried(1.0, own);
+  auto as_seen = tried(1.0, own);
   const double off = as_seen ? as_seen->error / kWorst : 1.0;
   if (own > kCertain && off < 1.0 / 3.0) {
     return as_seen;

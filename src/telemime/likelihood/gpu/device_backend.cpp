@@ -102,8 +102,7 @@ class DeviceBackend final : public Backend {
   std::optional<DeviceTimes> device_times() const override { return times_; }
 
   void count(const PreparedFrame& frame, const Model& model, std::span<const Pose> poses,
-             std::span<const Kinematics> /*kinematics*/, Reduction terms,
-             std::span<Reductions> counts) override {
+             std::span<const Kinematics>, Reduction terms, std::span<Reductions> counts) override {
     if (frame.camera.width > kBandPixels) {
       throw Error(ErrorKind::usage, "the image is too wide for this back end", "Use the back end simd.");
     }

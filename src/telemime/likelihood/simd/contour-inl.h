@@ -170,8 +170,7 @@ constexpr float kThickness = 0.015F;  // m: a point this far behind the surface 
 inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) {
   // Points of a lane's sum: even the largest distances fit into 32 bits.
   constexpr std::size_t kMostPoints = 256;
-  static_assert(1.0 * kMostPoints * TiledPlanes::kDistanceUnits * TiledPlanes::kMostDistance <
-                std::numeric_limits<std::int32_t>::max());
+  static_assert(1.0 * kMostPoints * TiledPlanes::kDistanceEnd < std::numeric_limits<std::int32_t>::max());
   if (ws.samples == 0) {
     return;
   }
@@ -213,7 +212,7 @@ inline void sum_contour(const TiledPlanes& frame, Workspace& ws, Reductions& r) 
       all += lane;
     }
   }
-  r.contour_sum = static_cast<double>(all) / TiledPlanes::kDistanceUnits;
+  r.contour_sum = static_cast<double>(all) / static_cast<double>(frame.distance_units);
   r.contour_points = static_cast<std::int32_t>(points);
 }
 

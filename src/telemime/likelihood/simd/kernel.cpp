@@ -32,7 +32,7 @@ inline void count_stages(const Batch& batch, const Placement& pose, Reductions& 
   const auto moves = [&memory](std::size_t s) { return (memory.still >> s & 1U) == 0; };
   // Project all segments first: a vector load that overlaps a recent store at another address would have to
   // wait.
-  for (std::size_t s = 0; s < kSegmentCount; ++s) {
+  for (std::size_t s = 0; s < kSegmentCount && last >= SimdStage::project; ++s) {
     if (moves(s)) {
       memory.projection[s] = project_segment(batch, batch.model.segments[s], pose[s], ws);
     }

@@ -100,7 +100,7 @@ struct Workspace {
   std::size_t pixels = 0;
   int grid_columns = 0;  ///< of the tiles; grids of as many pixels may differ in shape
 
-  /// Contour points (tiles, 1/m), their pixels, and depth and distance of those pixels.
+  /// Contour points (tiles, 1/m), their pixels, and depth (1/m) and distance (units) of those pixels.
   hwy::AlignedFreeUniquePtr<float[]> sample_x, sample_y, sample_w, sample_nearest;
   hwy::AlignedFreeUniquePtr<std::int32_t[]> sample_pixel, sample_distance;
   std::size_t samples = 0;
@@ -110,7 +110,7 @@ struct Workspace {
   void grow_samples(std::size_t at_least);
 };
 
-/// Counts one pose; does not set `observed`.
+/// Adds what it counts of one pose to `out`, which comes in as Reductions{}; does not set `observed`.
 using Kernel = void (*)(const Batch& batch, const Placement& pose, Reductions& out, Workspace& workspace);
 
 struct InstructionSet {

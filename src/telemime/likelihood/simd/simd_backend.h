@@ -26,9 +26,9 @@ struct SimdOptions {
 std::vector<std::string> simd_instruction_sets();
 
 /// Back end with vector instructions over vertices, surfaces and pixels: the scores of `scalar` up to
-/// rounding, many times faster. Scores are bit-identical on all processors with fused multiply-add (AVX2,
-/// AVX-512, NEON), for any number of threads and any batch size; older processors agree with each other.
-/// Throws Error(usage) for options that are not available.
+/// rounding, many times faster. For the same kinematics, scores are bit-identical on all processors with
+/// fused multiply-add (AVX2, AVX-512, NEON), for any number of threads and any batch size; older processors
+/// agree with each other. Throws Error(usage) for options that are not available.
 std::unique_ptr<Backend> make_simd_backend(const SimdOptions& options = {});
 
 }  // namespace telemime

@@ -147,6 +147,36 @@ TEST_F(Simd, ScoresDoNotDependOnThreads) {
   }
 }
 
+std::vector<Kinematics> kinematics_of(const Body& body, std::span<const Pose> poses) {
+  std::vector<Kinematics> all;
+  for (const Pose& pose : poses) {
+    all.push_back(forward_kinematics(body, pose));
+  }
+  return all;
+}
+
+TEST_F(Simd, KinematicsOfTheCallerChangeNothing) {
+  const std::vector<Pose> poses = random_poses(200, 13);
+  const std::vector<Kinematics> kinematics = kinematics_of(model_.body, poses);
+  for (const auto& backend :
+       {make_simd_backend(), make_simd_backend({3, {}, SimdStage::count}), make_scalar_backend()}) {
+    std::vector<Score> scores(poses.size());
+    backend->evaluate(frame_, model_, poses, Reduction::all, scores, kinematics);
+    expect_same(scores, scores_of(*backend, frame_, model_, poses));
+  }
+}
+
+TEST_F(Simd, RefusesAnotherNumberOfKinematics) {
+  const std::vector<Pose> poses = random_poses(3, 14);
+  const std::vector<Kinematics> kinematics = kinematics_of(model_.body, poses);
+  std::vector<Score> scores(poses.size());
+  for (const std::size_t size : {1U, 2U}) {
+    EXPECT_THROW(
+        backend_->evaluate(frame_, model_, poses, Reduction::all, scores, std::span(kinematics).first(size)),
+        Error);
+  }
+}
+
 TEST_F(Simd, TermsThatAreNotAskedForKeepTheirDefaults) {
   const std::vector<Pose> poses = random_poses(40, 4);
   const std::vector<Score> all = scores_of(*backend_, frame_, model_, poses);
@@ -227,6 +257,22 @@ TEST_F(Simd, SegmentsThatStayCountAsOthersDo) {
       const auto fresh = make_simd_backend({1, name, SimdStage::count});
       expect_same(scores_of(*backend, frame, model, {&pose, 1}, terms),
                   scores_of(*fresh, frame, model, {&pose, 1}, terms));
+    }
+  }
+}
+
+// The memory for contour points grows while those of segments that stay are kept in it.
+TEST_F(Simd, PointsThatStayAreKeptWhereMemoryGrows) {
+  const PreparedFrame large = make_frame(model_, 2560, 1920);
+  const auto backend = make_simd_backend();
+  Pose pose;
+  pose.root = {0.0, 0.35, 3.0};
+  for (const double z : {3.0, 0.9, 0.5}) {
+    pose.root.z() = z;
+    for (const double turn : {-0.2, -0.9, -1.5, -0.4}) {
+      pose[Angle::l_shoulder_flexion] = turn;
+      expect_same(scores_of(*backend, large, model_, {&pose, 1}),
+                  {alone(large, model_, pose, Reduction::all)});
     }
   }
 }

@@ -8,7 +8,7 @@
 #define TELEMIME_SIMD_STILL_INL_H
 #endif
 
-#include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "telemime/likelihood/simd/contour-inl.h"
