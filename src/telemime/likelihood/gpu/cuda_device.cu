@@ -38,6 +38,7 @@ namespace kernel {
 #define NUMBER(x) (x)
 #define LESS(a, b) ((a) < (b))
 #include "telemime/likelihood/formulas.inc"
+#include "telemime/likelihood/gpu/kinematics.cl"
 #include "telemime/likelihood/gpu/evaluate.cl"
 
 static_assert(GROUP_SIZE == kGroupSize && BAND_PIXELS == kBandPixels && MOST_VERTICES == kMostVertices);
