@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <utility>
 
 #include "telemime/core/errors.h"
@@ -141,19 +140,20 @@ std::vector<FlatTable> needed_operators(const std::vector<FlatTable>& operators,
     needed[output] = true;
   }
   std::vector<FlatTable> kept;
-  for (const FlatTable& from : std::views::reverse(operators)) {
-    const std::vector<std::int32_t> outputs = from.numbers<std::int32_t>(2);
+  // NOLINTNEXTLINE(modernize-loop-convert): clang 14 cannot read std::views::reverse of GCC's library
+  for (auto from = operators.rbegin(); from != operators.rend(); ++from) {
+    const std::vector<std::int32_t> outputs = from->numbers<std::int32_t>(2);
     const bool keep = std::any_of(outputs.begin(), outputs.end(), [&](std::int32_t output) {
       return output < 0 || static_cast<std::size_t>(output) >= needed.size() ||
              (needed[output] && !is_input(graph, output));
     });
-    for (const std::int32_t input : keep ? from.numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
+    for (const std::int32_t input : keep ? from->numbers<std::int32_t>(1) : std::vector<std::int32_t>{}) {
       if (input >= 0 && static_cast<std::size_t>(input) < needed.size()) {
         needed[input] = true;
       }
     }
     if (keep) {
-      kept.push_back(from);
+      kept.push_back(*from);
     }
   }
   std::reverse(kept.begin(), kept.end());
