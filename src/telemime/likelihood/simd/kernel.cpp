@@ -22,6 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace telemime::simd::HWY_NAMESPACE {
 
+// The stages of one pose, up to the last one that is asked for.
 inline void count_stages(const Batch& batch, const Placement& pose, Reductions& r, Workspace& ws) {
   const bool contour = wants(batch.terms, Reduction::contour);
   const SimdStage last = batch.last_stage;
