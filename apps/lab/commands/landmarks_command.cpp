@@ -60,7 +60,8 @@ cv::Mat drawn(const cv::Mat& image, const PoseLandmarks& landmarks) {
     cv::line(picture, point(landmarks.points[from]), point(landmarks.points[to]), {255, 255, 0}, 2);
   }
   for (const PoseLandmark& landmark : landmarks.points) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(landmark.covariance);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+    axes.computeDirect(landmark.covariance);
     const Eigen::Vector2d longest = axes.eigenvectors().col(1);
     const cv::Size2d size(2.0 * std::sqrt(axes.eigenvalues()[1]), 2.0 * std::sqrt(axes.eigenvalues()[0]));
     const double degrees = std::atan2(longest.y(), longest.x()) * 180.0 / std::numbers::pi;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "lab/synth/mesh_person.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -132,13 +133,13 @@ class Poser {
     const Vector3d rest_fore = rest(sided("wrist", side)) - rest(sided("lowerarm01", side));
     ArmTurns arm;
     arm.along = (wrist - elbow).normalized();
-    arm.swing = Quaterniond::FromTwoVectors(chest_ * rest_upper, upper) * chest_;
+    arm.swing = rotation_between(chest_ * rest_upper, upper) * chest_;
     // The elbow's axis decides about the twist of the upper arm; a straight elbow has none.
     const Vector3d axis = upper.cross(arm.along);
     const Vector3d rest_axis = (arm.swing * rest_upper.cross(rest_fore)).normalized();
     const double twist = angle_about(upper, rest_axis, axis) * std::min(1.0, axis.norm() / 0.3);
     arm.upper = Eigen::AngleAxisd(twist, upper) * arm.swing;
-    arm.fore = Quaterniond::FromTwoVectors(arm.upper * rest_fore, arm.along) * arm.upper;
+    arm.fore = rotation_between(arm.upper * rest_fore, arm.along) * arm.upper;
 
     const auto shape = hand_joints(hand_shape(actor_.curl[side]));
     for (std::size_t j = 0; j < arm.joints.size(); ++j) {
@@ -192,8 +193,7 @@ class Poser {
       const std::size_t from = hand_joint(finger, static_cast<std::size_t>(n[8] - '1'));
       const MeshBone& at_rest = person_.bones[bone(name)];
       const Vector3d along = (at_rest.tail - at_rest.head).cast<double>();
-      return Quaterniond::FromTwoVectors(arm.hand * along, arm.joints[from + 1] - arm.joints[from]) *
-             arm.hand;
+      return rotation_between(arm.hand * along, arm.joints[from + 1] - arm.joints[from]) * arm.hand;
     }
     return chest_;
   }

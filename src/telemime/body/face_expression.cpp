@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "telemime/body/face_eye.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -249,7 +250,7 @@ FaceMotion face_motion(const FacePoints& points, double presence, const Camera& 
   }
   // The points are a parallel projection along the ray to the head.
   const Eigen::Vector3d ray = camera.ray(fit.translation.head<2>());
-  face.head = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;
+  face.head = rotation_between(Eigen::Vector3d::UnitZ(), ray) * fit.rotation;
   face.detail = detail;
   face.gaze *= detail;
   for (double& value : face.expressions) {

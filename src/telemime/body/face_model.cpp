@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/face_model.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "telemime/body/face_eye.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -64,18 +64,10 @@ HeadFit weighted_fit(const FacePoints& points, const std::array<double, kRigidCo
     covariance += weights[k] * (points[kRigid[k].first] - to) * own.transpose();
     spread += weights[k] * own.squaredNorm();
   }
-  // The rotation is the eigenvector of the largest eigenvalue of a symmetric matrix.
-  const Eigen::Matrix3d& c = covariance;
-  Eigen::Matrix4d form = Eigen::Matrix4d::Zero();  // in the order w, x, y, z
-  form(0, 0) = c.trace();
-  const Eigen::Vector3d skew(c(2, 1) - c(1, 2), c(0, 2) - c(2, 0), c(1, 0) - c(0, 1));
-  form.block<1, 3>(0, 1) = skew.transpose();
-  form.block<3, 1>(1, 0) = skew;
-  form.block<3, 3>(1, 1) = c + c.transpose() - c.trace() * Eigen::Matrix3d::Identity();
-  const Eigen::Vector4d q = Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(form).eigenvectors().col(3);
   HeadFit fit;
-  fit.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
-  fit.scale = (fit.rotation.toRotationMatrix().transpose() * c).trace() / spread;
+  const Eigen::Matrix3d rotation = best_rotation(covariance);
+  fit.rotation = Eigen::Quaterniond(rotation).normalized();
+  fit.scale = (rotation.transpose() * covariance).trace() / spread;
   fit.translation = to - fit.scale * (fit.rotation * from);
   return fit;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/hand_model.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -200,11 +199,7 @@ std::optional<Eigen::Matrix3d> palm_rotation(const HandSizes& sizes, const HandP
   if (!(to.norm() > kSmallest * from.norm())) {
     return std::nullopt;
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(to * from.transpose(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
-  return mirrored_if(side, Eigen::Matrix3d(svd.matrixU() * sign * svd.matrixV().transpose()));
+  return mirrored_if(side, best_rotation(to * from.transpose()));
 }
 
 }  // namespace telemime

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/rotations.h"
 
+#include <Eigen/SVD>
 #include <numbers>
 
 namespace telemime {
@@ -32,6 +33,17 @@ std::array<AnglesZxy, 2> decompose_zxy(const Eigen::Matrix3d& r) {
   const AnglesZxy second = {wrap_angle(first.z + std::numbers::pi), wrap_angle(std::numbers::pi - first.x),
                             wrap_angle(first.y + std::numbers::pi)};
   return {first, second};
+}
+
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
+Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  sign.z() = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
 }
 
 }  // namespace telemime

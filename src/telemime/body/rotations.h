@@ -45,6 +45,14 @@ Eigen::Matrix3d compose_zxy(const AnglesZxy& angles);
 /// x' = pi - x. Every angle wrapped to (-pi, pi]. At x = +-pi/2 (arm straight ahead) y is set to 0.
 std::array<AnglesZxy, 2> decompose_zxy(const Eigen::Matrix3d& rotation);
 
+/// The shortest rotation that turns the direction of `from` into that of `to`, by any axis across them if
+/// they are opposite. Neither may be zero.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+/// The rotation R that fits points best to others, given the sum of w to from^T over centred points with
+/// weights w: the one with the smallest sum of w |to - R from|^2 (Kabsch, Acta Crystallographica A34, 1978).
+Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance);
+
 /// a wrapped to (-pi, pi].
 double wrap_angle(double a);
 

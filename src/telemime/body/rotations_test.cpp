@@ -75,6 +75,44 @@ TEST(Rotations, NearGimbalLockTheRotationIsStillRight) {
   }
 }
 
+TEST(Rotations, BetweenTwoDirectionsIsTheShortest) {
+  Random random(2);
+  const auto direction = [&random] {
+    return Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  };
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d from = direction();
+    const Eigen::Vector3d to = i % 10 == 0 ? Eigen::Vector3d(-2.0 * from) : direction();
+    const Eigen::AngleAxisd turn(rotation_between(from, to));
+    ASSERT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-7);
+    ASSERT_NEAR(std::cos(turn.angle()), from.normalized().dot(to.normalized()), 1e-7);
+  }
+}
+
+TEST(Rotations, BestRotationIsTheOneOfThePointsAndNeverAMirror) {
+  Random random(3);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Matrix3d rotation =
+        compose_zxy({random.uniform(-kPi, kPi), random.uniform(-kPi, kPi), random.uniform(-kPi, kPi)});
+    Eigen::Matrix<double, 3, 6> from;
+    for (double& value : from.reshaped()) {
+      value = random.uniform(-1, 1);
+    }
+    from.colwise() -= from.rowwise().mean().eval();
+    const Eigen::Matrix<double, 3, 6> to = rotation * from;
+    ASSERT_LT((best_rotation(to * from.transpose()) - rotation).norm(), 1e-9);
+    const Eigen::Matrix3d best = best_rotation(-to * from.transpose());  // of mirrored points
+    ASSERT_NEAR(best.determinant(), 1.0, 1e-9);
+    for (const double angle : {-0.1, 0.1}) {
+      for (const Eigen::Vector3d axis :
+           {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+        const Eigen::Matrix3d other = Eigen::AngleAxisd(angle, axis) * best;
+        ASSERT_LE((to + best * from).norm(), (to + other * from).norm() + 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Rotations, WrapKeepsTheAngleUpToWholeTurns) {
   for (double a = -20.0; a < 20.0; a += 0.37) {
     const double w = wrap_angle(a);

@@ -132,7 +132,8 @@ void draw_spread(cv::Mat& panel, const Eigen::Matrix3d& covariance, cv::Point at
   Eigen::Matrix2d plane;
   plane << covariance(0, 0), -covariance(0, 2), -covariance(2, 0),
       covariance(2, 2);  // z is up in the picture
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(plane);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(plane);
   const auto half = [&](int i) {
     const double length = kRadius * std::sqrt(std::max(0.0, axes.eigenvalues()[i])) * pixels_a_metre;
     return std::max(1, static_cast<int>(length * (1 << kFractionBits)));

@@ -131,7 +131,7 @@ HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::
     const Eigen::Vector3d collar = collar_in_chest(body, side);
     const Eigen::Vector3d at_rest = shoulder_in_chest(body, side, side_sign(side) * Eigen::Vector3d::UnitX());
     const Eigen::Matrix3d clavicle =
-        Eigen::Quaterniond::FromTwoVectors(at_rest - collar, arm.translation() - collar).toRotationMatrix();
+        rotation_between(at_rest - collar, arm.translation() - collar).toRotationMatrix();
     const Eigen::Matrix3d t = t_pose_from_rest(side);
     const auto in_t_pose = [&t](const Eigen::Matrix3d& rotation) -> Eigen::Matrix3d {
       return t * rotation * t.transpose();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "telemime/body/hand_fit.h"
+#include "telemime/body/rotations.h"
 #include "telemime/core/time_base.h"
 
 namespace telemime {
@@ -146,8 +147,7 @@ std::array<const HandLandmarks*, 2> hands_of_arms(const std::array<SeenHand, 2>&
 HandPoints metric_points(const HandLandmarks& hand, const Camera& camera, double depth) {
   // The network's points about the wrist, which it sees along the wrist's ray.
   const Eigen::Vector3d wrist = camera.ray(hand.points[0].pixel);
-  const Eigen::Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), wrist).toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation_between(Eigen::Vector3d::UnitZ(), wrist).toRotationMatrix();
   HandPoints world;
   for (std::size_t i = 0; i < kHandJointCount; ++i) {
     world[i] = turn * (hand.points[i].world - hand.points[0].world);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "telemime/body/rotations.h"
 #include "telemime/core/random.h"
 #include "telemime/tracker/hand_smoother.h"
 
@@ -43,8 +44,7 @@ class Hands : public ::testing::Test {
     hand.presence = 0.95;
     hand.is_right = side == Side::right ? 0.95 : 0.05;
     hand.region = {.centre = camera_.project(points[9]), .width = 60.0, .height = 60.0};
-    const Eigen::Matrix3d upright =
-        Eigen::Quaterniond::FromTwoVectors(points[0], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d upright = rotation_between(points[0], Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (std::size_t i = 0; i < kHandJointCount; ++i) {
       hand.points[i] = {.pixel = camera_.project(points[i]), .world = upright * (points[i] - points[9])};
     }
