@@ -11,6 +11,7 @@
 #include "broker.h"
 #include "checks.h"
 #include "feeder.h"
+#include "meeting/transport/replay_participant.h"
 #include "meeting/transport/senders.h"
 #include "recordings.h"
 #include "relay.h"
@@ -133,13 +134,8 @@ TEST(Replay, LinkGivesEveryoneASeat) {
   const Subscriber subscriber(broker.port(), "studio.watch", "c");
   std::vector<Credentials> keys;
   for (const auto& [who, password] : {std::pair("p06", "b"), std::pair("p05", "a")}) {
-    keys.push_back({"mqtt://127.0.0.1:" + std::to_string(broker.port()),
-                    "studio." + std::string(who),
-                    password,
-                    "r/home/studio",
-                    who,
-                    {"speak"},
-                    ""});
+    keys.push_back({"mqtt://127.0.0.1:" + std::to_string(broker.port()), "studio." + std::string(who),
+                    password, "r/home/studio", who, ""});
   }
   ReplayOptions options = replay_to("http://localhost:7080/room#k=invitation", file);
   options.log_in = [&](const LinkLogin& entry) {
@@ -207,6 +203,24 @@ TEST(Replay, SlowBrokerDelaysNothing) {
   thread.join();
   ASSERT_EQ(people.size(), 1U);
   EXPECT_GE(people[0].status.dropped, 30 - kQueuedPoses - 1);
+}
+
+TEST(Replay, DetailsWaitAndGoWithTheirFrames) {
+  const BrokerLogin nowhere{
+      .server = {.host = "127.0.0.1", .port = 1, .ca_file = {}, .user = {}, .password = {}},
+      .meeting = {"home", "studio"},
+      .participant = "p01",
+      .warning = {}};
+  constexpr std::uint16_t kSession = 7;
+  ReplayParticipant person(nowhere, kSession);
+  for (int i = 0; i < 10; ++i) {
+    for (const char* version : {"\x01", "\x02"}) {  // a frame, its detail
+      person.publish({TopicKind::pose, 0, kSession, false, version});
+    }
+  }
+  EXPECT_EQ(person.status().dropped, 10 - kQueuedPoses);
+  person.publish({TopicKind::presence, 0, kSession + 1, true, ""});
+  EXPECT_EQ(person.status().dropped, 10U);
 }
 
 TEST(Replay, RestartedBrokerGetsEverythingAgain) {

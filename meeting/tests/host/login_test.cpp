@@ -92,7 +92,6 @@ TEST(Login, ProgramLogsInByALink) {
   EXPECT_EQ(key.broker, "mqtt://localhost:" + std::to_string(meeting.host().mqtt_port()));
   EXPECT_EQ(key.topic, "r/home/studio");
   EXPECT_EQ(key.participant, "p01");
-  EXPECT_EQ(key.roles, (std::vector<std::string>{"speak", "board"}));
   entry.rejoin = key.rejoin;
   EXPECT_EQ(log_in_by_link(entry).participant, "p01");
   entry.link = meeting.host().page();
@@ -187,9 +186,8 @@ TEST(Login, InvalidRequestsAreHarmless) {
   EXPECT_EQ(answers[500], 0);
   EXPECT_EQ(answers[413] + answers[429] + answers[400] + answers[403], 10'000);
   EXPECT_EQ(telemime::ask(meeting.host().port(), "/room").status, 200);
-  EXPECT_TRUE(comes_true([&] {  // the limit applies to valid links, too
-    return meeting.post(Json{{"v", 1}, {"invite", meeting.speak()}}.dump()).status == 200;
-  }));
+  EXPECT_EQ(meeting.post(Json{{"v", 1}, {"invite", meeting.speak()}}.dump()).status, 200)
+      << "guessing does not lock out those with a link";
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ void OpenMeeting::open(const Change& change) {
   if (change) {
     change(options);
   }
-  host_ = std::make_unique<MeetingHost>(options, [this](MeetingHost::Level, const std::string& text) {
+  host_ = std::make_unique<MeetingHost>(options, [this](const std::string& text) {
     const std::lock_guard lock(mutex_);
     reports_ += text + "\n";
   });

@@ -13,6 +13,7 @@ import {
   tokenFor,
   withSeat,
   trackerCommand,
+  untilAnswered,
   type Entered,
 } from "./entry";
 
@@ -135,14 +136,39 @@ describe("entering", () => {
       [423, "locked"],
       [429, "Too many"],
       [500, "refused the request"],
+      [502, "refused the request"],
     ] as const) {
       const e = await enter(question, answering(status, { error: "SECRET" })).catch((x: unknown) => x);
       expect(e).toBeInstanceOf(EntryError);
       expect((e as Error).message).toContain(words);
       expect((e as Error).message).not.toContain("SECRET");
+      expect((e as EntryError).final).toBe(status !== 429 && status < 500);
     }
     await expect(enter(question, answering(200, {}))).rejects.toThrow("does not understand");
     await expect(enter(question, () => Promise.reject(new TypeError("net")))).rejects.toThrow("answer");
+  });
+});
+
+describe("asking until there is an answer", () => {
+  const outcome = async (failures: Error[], most = 10) => {
+    const pauses: number[] = [];
+    const ask = () => {
+      const e = failures.shift();
+      return e ? Promise.reject(e) : Promise.resolve("entered");
+    };
+    const pause = (n: number) => Promise.resolve(pauses.push(n) < most);
+    const answer = await untilAnswered(ask, pause).catch((e: unknown) => (e as Error).message);
+    return { answer, pauses };
+  };
+  it("repeats what may succeed later, and only that", async () => {
+    const busy = () => new EntryError("busy");
+    expect(await outcome([busy(), busy()])).toEqual({ answer: "entered", pauses: [0, 1] });
+    expect(await outcome([busy(), new EntryError("locked", true)])).toEqual({
+      answer: "locked",
+      pauses: [0],
+    });
+    expect(await outcome([new TypeError("a defect")])).toEqual({ answer: "a defect", pauses: [] });
+    expect(await outcome([busy(), busy(), busy()], 2)).toEqual({ answer: "busy", pauses: [0, 1] });
   });
 });
 

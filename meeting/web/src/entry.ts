@@ -99,7 +99,15 @@ export function readEntered(answer: unknown): Entered | null {
 }
 
 /** Why joining failed; the page shows `message`. */
-export class EntryError extends Error {}
+export class EntryError extends Error {
+  /** With `final` the server has refused; otherwise a later attempt may succeed. */
+  constructor(
+    message: string,
+    readonly final = false,
+  ) {
+    super(message);
+  }
+}
 
 const REFUSALS: Record<number, string> = {
   403: "This link is not valid: it may be old or incomplete. Ask for a new one.",
@@ -108,6 +116,7 @@ const REFUSALS: Record<number, string> = {
   423: "The meeting is locked: nobody new can join now.",
   429: "Too many attempts. Wait a minute, then try again.",
 };
+const FINAL = [400, 403, 404, 409, 423];
 
 export interface EntryRequest {
   invite: string | null;
@@ -137,10 +146,28 @@ export async function enter(request: EntryRequest, fetcher: typeof fetch = fetch
     throw new EntryError("The meeting's server does not answer. Is it still running?");
   }
   if (!answer.ok)
-    throw new EntryError(REFUSALS[answer.status] ?? "The server refused the request. Try again.");
+    throw new EntryError(
+      REFUSALS[answer.status] ?? "The server refused the request. Try again.",
+      FINAL.includes(answer.status),
+    );
   const entered = readEntered(await answer.json().catch(() => null));
-  if (!entered) throw new EntryError("This page does not understand the server's answer. Reload the page.");
+  if (!entered)
+    throw new EntryError("This page does not understand the server's answer. Reload the page.", true);
   return entered;
+}
+
+/** Repeats `ask` until it succeeds or the server refuses; `pause` follows attempt number n (from 0), and false ends it. */
+export async function untilAnswered<T>(
+  ask: () => Promise<T>,
+  pause: (n: number) => Promise<boolean>,
+): Promise<T> {
+  for (let n = 0; ; n++) {
+    try {
+      return await ask();
+    } catch (e) {
+      if (!(e instanceof EntryError) || e.final || !(await pause(n))) throw e;
+    }
+  }
 }
 
 /** Escapes a part of an address within single quotes. */

@@ -5,6 +5,7 @@ import { button, byId } from "#web/shared/dom";
 import { buildFrame } from "#web/shared/frame";
 import { Banner, Toasts } from "#web/shared/notices";
 import { Panel } from "#web/shared/panel";
+import { retryDelay } from "#web/shared/retry";
 import { Shortcuts } from "#web/shared/shortcuts";
 import { exposeMeeting } from "./debug";
 import {
@@ -14,6 +15,7 @@ import {
   inviteOfTab,
   storedEntry,
   trackerCommand,
+  untilAnswered,
   type Entered,
 } from "./entry";
 import type { Dial, LinkState } from "./link";
@@ -137,18 +139,25 @@ function linked(s: LinkState): void {
   if (s.kind === "refused") void comeBack(s.words);
 }
 
-/** The broker refuses the account: asks the server for another one, once in 10 s, or else shows the entry form. */
+/** The broker refuses the account: gets another one from the server, once in 10 s, or else shows the entry form. */
 let backAt = -Infinity;
 async function comeBack(words: string): Promise<void> {
   const old = client;
-  if (!old || !wish) return;
+  const watch = wish?.watch;
+  if (!old || watch === undefined) return;
   if (performance.now() < backAt + 10000) {
     leave(`${words} Join again.`);
     return;
   }
-  backAt = performance.now();
+  const pause = async (n: number): Promise<boolean> => {
+    const ms = retryDelay(n, Math.random());
+    banner.setState({ kind: "lost", retryAt: performance.now() + ms, words });
+    await new Promise((done) => window.setTimeout(done, ms));
+    return client === old;
+  };
   try {
-    const entered = await ask(wish.watch);
+    const entered = await untilAnswered(() => ask(watch), pause);
+    backAt = performance.now();
     if (client === old) start(entered, old.me?.state.seat ?? null);
   } catch (e) {
     if (client === old) leave(`${words} ${e instanceof EntryError ? e.message : ""}`.trim());

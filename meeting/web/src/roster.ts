@@ -16,7 +16,8 @@ import { assignSeats } from "./seats";
 import { PoseStream } from "./stream";
 import { parseTopic } from "./topics";
 
-export const MAX_PARTICIPANTS = 128;
+/** As many as a meeting can have (`telemime meeting --most`), and some who have just left. */
+export const MAX_PARTICIPANTS = 512;
 /** A participant without presence is here while frames arrive, with gaps up to this, s. */
 const FRAME_GAP = 5;
 /** A participant that has been silent for this number of its promised intervals has gone. */

@@ -26,7 +26,12 @@ struct OpenArguments {
   bool quiet = false;
 };
 
-void print_links(const MeetingHost& host, const std::string& title) {
+void print_links(const MeetingHost& host, const std::string& title, bool quiet) {
+  if (quiet) {
+    std::cout << "to speak: " << host.speak_link() << "\nto watch: " << host.watch_link()
+              << "\nto chair: " << host.chair_link() << std::endl;
+    return;
+  }
   const std::string ca =
       host.page().starts_with("https://") ? "  (?ca=FILE before # names an authority)" : "";
   std::cout << "Meeting \"" << title << "\" is open: " << host.page() << " (press Ctrl-C to close it)\n"
@@ -52,20 +57,18 @@ void run_meeting(OpenArguments arguments, const OpenFiles& open_files) {
   options.file = std::move(files.get);
 
   std::mutex mutex;
-  const auto report = [&mutex, quiet = arguments.quiet](MeetingHost::Level level, const std::string& text) {
-    if (!quiet || level != MeetingHost::Level::info) {
-      const std::lock_guard lock(mutex);
-      std::cerr << text << '\n';
-    }
+  const auto report = [&mutex](const std::string& text) {
+    const std::lock_guard lock(mutex);
+    std::cerr << text << '\n';
   };
 
   note_interrupts();
   const MeetingHost host(options, report);
-  print_links(host, options.title);
+  print_links(host, options.title, arguments.quiet);
   if (!options.address.starts_with("127.") && options.address != "localhost" && options.certificate.empty()) {
-    report(MeetingHost::Level::warning,
-           "Other computers can reach this meeting, and nothing is encrypted: anyone on the same network can "
-           "listen and join.\n  --certificate FILE --key FILE encrypt it.");
+    report(
+        "Other computers can reach this meeting, and nothing is encrypted: anyone on the same network can "
+        "listen and join.\n  --certificate FILE --key FILE encrypt it.");
   }
 
   const auto start = std::chrono::steady_clock::now();

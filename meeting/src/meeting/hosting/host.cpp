@@ -110,8 +110,7 @@ struct MeetingHost::State {
     if (!options.certificate.empty()) {
       web_tls(options.certificate, options.key);  // reports wrong files before anything starts
     }
-    broker.emplace(options.broker, meeting, provisioning.accounts(),
-                   [this](const std::string& text) { report(Level::warning, text); });
+    broker.emplace(options.broker, meeting, provisioning.accounts(), report);
     MeetingInfo info;
     info.title = options.title;
     info.seats = options.seats;
@@ -132,7 +131,7 @@ struct MeetingHost::State {
               service->set_chairs(std::move(chairs));
               service->forget(freed);
             },
-            [this](const std::string& text) { report(Level::warning, text); }};
+            report};
   }
 
   MeetingService::Hooks service_hooks() {

@@ -45,9 +45,8 @@ void check_name(const std::string& name);
 /// (meeting/docs/usage.md).
 class MeetingHost {
  public:
-  enum class Level { info, warning };
-  /// A message for the user, from any thread. It contains no secret.
-  using Report = std::function<void(Level, const std::string& text)>;
+  /// A warning for the user, from any thread. It contains no secret.
+  using Report = std::function<void(const std::string& text)>;
 
   /// Returns when people can join. Throws Error for options that cannot be used.
   MeetingHost(HostOptions options, Report report);

@@ -128,11 +128,9 @@ LoginDecision LoginPolicy::admit(unsigned number, bool chair, double now) {
       return decision;
     }
     found = members_.emplace(id, Member{chair, false, false, now}).first;
-    decision.changed = true;
     secrets_.next = std::max(secrets_.next, number + 1);
   }
   Member& member = found->second;
-  decision.changed = decision.changed || (chair && !member.chair);
   member.chair = member.chair || chair;
   member.last = now;
   decision.result = LoginResult::accepted;

@@ -72,7 +72,6 @@ struct LoginDecision {
   std::string participant;  ///< empty: only watches
   bool chair = false;
   std::string rejoin;              ///< the participant's token
-  bool changed = false;            ///< the accounts changed: the broker must be updated
   std::vector<std::string> freed;  ///< participants whose accounts were removed
 };
 

@@ -38,7 +38,6 @@ class MeetingService {
   /// Clears the retained messages of these participants. From any thread.
   void forget(const std::vector<std::string>& participants);
   /// Whether the broker has the message `room`.
-  bool published() const { return published_; }
 
  private:
   using Clock = std::chrono::steady_clock;

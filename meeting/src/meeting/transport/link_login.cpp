@@ -211,17 +211,12 @@ bool is_topic(std::string_view topic) {
 }
 
 Credentials credentials_in(const JsonField& json) {
-  Credentials credentials{.broker = field(json, "tcp"),
-                          .user = field(json, "user"),
-                          .password = field(json, "password"),
-                          .topic = field(json, "topic"),
-                          .participant = field(json, "participant"),
-                          .roles = {},
-                          .rejoin = field(json, "return")};
-  for (std::size_t i = 0; json.has("roles") && i < json["roles"].size(); ++i) {
-    credentials.roles.push_back(json["roles"][i].text());
-  }
-  return credentials;
+  return {.broker = field(json, "tcp"),
+          .user = field(json, "user"),
+          .password = field(json, "password"),
+          .topic = field(json, "topic"),
+          .participant = field(json, "participant"),
+          .rejoin = field(json, "return")};
 }
 
 Credentials credentials_of(const SendUrl& url, const std::string& body) {

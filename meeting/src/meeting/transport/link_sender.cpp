@@ -125,7 +125,6 @@ std::unique_ptr<Sender> make_link_sender(const SendUrl& url) {
                             .password = "x",
                             .topic = "r/x/x",
                             .participant = "x",
-                            .roles = {},
                             .rejoin = {}};
   LinkLogin login;
   login.link = url.scheme + "://" + host_and_port(url.host, url.port.value_or(tls ? kHttpsPort : kHttpPort)) +

@@ -16,10 +16,9 @@ namespace telemime::meeting {
 struct Credentials {
   std::string broker;  ///< its plain MQTT listener: "mqtt://host:1883" or "mqtts://host:8883"
   std::string user, password;
-  std::string topic;               ///< "r/<tenant>/<meeting>"
-  std::string participant;         ///< empty: may only watch
-  std::vector<std::string> roles;  ///< "speak", "board", "chair", "watch"
-  std::string rejoin;              ///< token for the same seat (the answer's "return")
+  std::string topic;        ///< "r/<tenant>/<meeting>"
+  std::string participant;  ///< empty: may only watch
+  std::string rejoin;       ///< token for the same seat (the answer's "return")
 };
 
 /// A login by the link of a meeting (meeting/docs/protocol.md, "Login").

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meeting/transport/replay_participant.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -19,6 +20,11 @@ constexpr milliseconds kLongestWrite{5000};
 constexpr milliseconds kForever = std::chrono::hours(1);
 
 }  // namespace
+
+std::size_t ReplayParticipant::Pending::frames() const {
+  return static_cast<std::size_t>(
+      std::count_if(poses.begin(), poses.end(), [](const std::string& p) { return !is_pose_detail(p); }));
+}
 
 ReplayParticipant::ReplayParticipant(BrokerLogin login, std::uint16_t session)
     : login_(std::move(login)),
@@ -47,7 +53,7 @@ void ReplayParticipant::publish(ReplayStep step) {
   {
     const std::lock_guard lock(mutex_);
     if (step.session != pending_.session) {  // a new run starts from nothing
-      status_.dropped += pending_.poses.size();
+      status_.dropped += pending_.frames();
       pending_.session = step.session;
       pending_.here = false;
       pending_.state.clear();
@@ -72,9 +78,12 @@ void ReplayParticipant::publish(ReplayStep step) {
         }
         break;
       case TopicKind::pose:
-        if (pending_.poses.size() == kQueuedPoses) {
-          status_.dropped += is_pose_detail(pending_.poses.front()) ? 0 : 1;
-          pending_.poses.pop_front();
+        // A frame is followed by its detail: they go together.
+        if (!is_pose_detail(step.payload) && pending_.frames() == kQueuedPoses) {
+          do {
+            status_.dropped += is_pose_detail(pending_.poses.front()) ? 0 : 1;
+            pending_.poses.pop_front();
+          } while (!pending_.poses.empty() && is_pose_detail(pending_.poses.front()));
         }
         pending_.poses.push_back(std::move(step.payload));
         break;

@@ -19,8 +19,8 @@
 
 namespace telemime::meeting {
 
-/// Maximum number of poses and chat messages of a participant that wait for the broker; the newest poses
-/// stay.
+/// Maximum number of frames, each with its detail, and of chat messages of a participant that wait for the
+/// broker; the newest frames stay.
 inline constexpr std::size_t kQueuedPoses = 4;
 inline constexpr std::size_t kQueuedChats = 100;
 
@@ -63,8 +63,9 @@ class ReplayParticipant {
     std::set<int> new_pages;
     bool new_presence = false;
     bool new_state = false;
-    std::deque<std::string> poses;
+    std::deque<std::string> poses;  ///< frames, and after each its detail if it has one
     std::deque<std::string> chats;
+    std::size_t frames() const;  ///< in `poses`
     bool has_work() const {
       return new_presence || new_state || !new_pages.empty() || !poses.empty() || !chats.empty();
     }

@@ -12,9 +12,9 @@ import type { AvatarChoice } from "../messages";
 const MOST_BYTES = 256 * 1024 * 1024;
 const PAUSE = 20; // ms between avatars that are built
 
-/** Equal for equal files. */
+/** Equal for equal files from the same place: a place that fails or lies affects only those who name it. */
 export const keyOf = (choice: AvatarChoice): string =>
-  "look" in choice ? `look:${choice.look}` : `file:${choice.sha256}`;
+  "look" in choice ? `look:${choice.look}` : `file:${choice.sha256} ${choice.url}`;
 
 interface Entry {
   data: Promise<ArrayBuffer>;

@@ -61,6 +61,21 @@ beforeEach(async () => {
   roster.receive(`${TOPIC}/p/p01/state`, toBytes(state), 0);
 });
 
+describe("a participant", () => {
+  it("who leaves and joins again and again costs one avatar at a time", async () => {
+    for (let i = 0; i < 100; i++) {
+      for (const here of [false, true]) {
+        roster.receive(`${TOPIC}/p/p01/presence`, toBytes({ here, session: 5 }), 0);
+        cast.follow(roster, null);
+        await wait(10);
+      }
+    }
+    expect(asked.length).toBeLessThanOrEqual(2);
+    await wait(5000);
+    expect(cast.dressed("p01")).toBe(true);
+  });
+});
+
 describe("an avatar that cannot be downloaded", () => {
   it("is tried again after a while", async () => {
     cast.follow(roster, null);

@@ -31,8 +31,6 @@ interface Member {
   /** Those of them that could not be downloaded: they are tried again later. */
   unreachable: Set<string>;
   complaint: string;
-  /** A choice is being loaded, or the pause after it is not over. */
-  busy: boolean;
 }
 
 export interface CastOptions {
@@ -44,6 +42,9 @@ export interface CastOptions {
 
 export class Cast {
   private readonly all = new Map<string, Member>();
+  /** For these an avatar is being loaded, or the pause after it is not over; leaving does not end it. */
+  private readonly busy = new Set<string>();
+  private roster: Roster | null = null;
   private lastShow = 0;
   private hidden: string | null = null;
   private underWay = 0;
@@ -59,6 +60,7 @@ export class Cast {
 
   /** Call it after a change of participants, seats or avatars. */
   follow(roster: Roster, me: string | null): void {
+    this.roster = roster;
     const seats = roster.seats;
     const names = roster.names;
     for (const id of [...this.all.keys()]) if (!seats.has(id)) this.remove(id);
@@ -103,7 +105,6 @@ export class Cast {
       failed: new Map(),
       unreachable: new Set(),
       complaint: "",
-      busy: false,
     };
     this.all.set(id, member);
     this.stage.add(id, figure);
@@ -134,7 +135,7 @@ export class Cast {
   }
 
   private dress(id: string, member: Member, roster: Roster): void {
-    if (member.busy) return; // it is called again when that is done
+    if (this.busy.has(id)) return; // it is called again when that is done
     const { choice, why } = this.choiceFor(member, roster.get(id)?.state ?? null);
     member.complaint = why;
     const wanted = choice ? keyOf(choice) : "";
@@ -145,7 +146,7 @@ export class Cast {
       this.put(member, null);
       return;
     }
-    member.busy = true;
+    this.busy.add(id);
     this.count(1);
     const here = (): boolean => this.all.get(id) === member;
     this.library
@@ -166,8 +167,9 @@ export class Cast {
       .finally(() => {
         this.count(-1);
         window.setTimeout(() => {
-          member.busy = false;
-          if (here()) this.dress(id, member, roster);
+          this.busy.delete(id);
+          const now = this.all.get(id);
+          if (now && this.roster) this.dress(id, now, this.roster);
         }, CHANGE_PAUSE);
       });
   }

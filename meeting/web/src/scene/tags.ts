@@ -21,7 +21,7 @@ export class Tags {
 
   constructor(private readonly layer: HTMLElement) {}
 
-  set(id: string, name: string, note: "" | "me" | "away"): void {
+  set(id: string, name: string, note: "" | "me"): void {
     const tag = this.all.get(id) ?? this.make(id);
     if (tag.name.textContent !== name) tag.name.textContent = name;
     tag.box.dataset.note = note;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small drawn portraits of the project's looks, in their colours (src/telemime/avatar/look.h).
+// Small drawn portraits of the project's looks, in their colours (apps/avatars/outfit.cpp).
 
 import { drawing } from "#web/shared/icons";
 
