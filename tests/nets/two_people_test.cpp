@@ -124,12 +124,18 @@ TEST_F(TwoPeople, WhoSitsDownInFrontIsFollowed) {
     return out;
   };
   // One person at the back of the room; somebody walks past, then somebody stays.
+  double switched = 0.0;
   for (double time = 0.0; time < 8.0; time += 0.5) {
     const bool near = (time > 0.6 && time < 2.1) || time > 3.1;
     const auto person = finder_.find(at_work(static_cast<std::size_t>(time), near), time);
     ASSERT_TRUE(person) << time;
     EXPECT_EQ(place_of(*person).shoulders.x() < 200, time > 5.9) << time;
+    if (finder_.switched()) {
+      EXPECT_EQ(switched, 0.0) << time << ": once";
+      switched = time;
+    }
   }
+  EXPECT_EQ(switched, 6.0);
 }
 
 TEST_F(TwoPeople, AMaskIsKeptForOnePicture) {

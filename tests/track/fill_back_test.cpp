@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "telemime/core/scratch_folder.h"
+#include "telemime/likelihood/testing_landmarks.h"
 #include "telemime/offline/choose_poses.h"
 #include "telemime/offline/track_file.h"
 #include "track/quick_run.h"
@@ -169,6 +170,32 @@ TEST(FillBack, StopsWhereTheBodyNoLongerFits) {
   ASSERT_EQ(records.size(), 6U);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(records[i].estimate.motion.state, TrackState::lost) << i;
+  }
+}
+
+TEST(FillBack, LandmarksVouchForFramesWithoutColours) {
+  for (const bool landmarks : {true, false}) {
+    Tracked t(filling(10));
+    for (std::size_t i = 0; i + 1 < kPersonFrames; ++i) {
+      FrameRecord record = t.lost(i);
+      PreparedFrame& frame = *record.estimate.prepared;
+      frame = [&] {
+        FrameFeatures grey;
+        grey.labels = frame.labels.clone();
+        grey.labels.setTo(static_cast<unsigned char>(Label::ignore), frame.labels != 0);
+        grey.distance = frame.distance;
+        grey.has_colour_model = false;
+        PreparedFrame prepared = prepare(grey, frame.camera);
+        if (landmarks) {
+          prepared.landmarks = testing_landmarks::perfect_landmarks(
+              t.run.state.model.body, t.tracked(i).estimate.motion.pose, frame.camera);
+        }
+        return prepared;
+      }();
+      t.push(std::move(record));
+    }
+    const std::size_t filled = t.push(t.tracked(kPersonFrames - 1));
+    EXPECT_EQ(filled > 0, landmarks) << filled;
   }
 }
 

@@ -52,61 +52,21 @@ TEST(Tracker, TracksThePerson) {
   }
 }
 
-// Where neither colours nor landmarks show anything, the last pose stays for the patience alone.
-TEST(Tracker, PersonWhomNothingShowsIsLost) {
-  for (const bool present : {true, false}) {
+TEST(Tracker, WithoutColoursTheirOverlapSaysNothingOfTheSpread) {
+  const auto deviation = [](bool has_colours) {
     TrackingRun run = learned_run();
     track_frame(clip().person[0], run);
-    ASSERT_EQ(run.state.phase, Phase::tracking);
-    std::string states;
-    for (std::size_t i = 1; i < 4; ++i) {
-      FrameFeatures features = extract(clip().person[i], ColourRequest::keep, run.scene);
-      features.has_colour_model = false;
-      features.person_present = present;
-      const FrameEstimate unseen = estimate(features, run.tracker, run.state);
-      states += unseen.motion.state == TrackState::tracking ? 't' : 'l';
-      EXPECT_TRUE(unseen.note.empty() || states.back() == 'l') << unseen.note;
-    }
-    EXPECT_EQ(states, present ? "tll" : "lll");
-  }
-}
-
-TEST(Tracker, HeadAloneDoesNotVouchForABody) {
-  const auto state_with = [](std::size_t seen) {
-    TrackingRun run = learned_run();
-    track_frame(clip().person[0], run);
-    FrameFeatures features = extract(clip().person[1], ColourRequest::keep, run.scene);
-    FrameEstimate result;
-    result.prepared = prepare(features, run.tracker.working_camera);
-    result.motion.region_score = 1.0;  // the labels say that nothing fits
-    result.prepared->landmarks.emplace();
-    for (std::size_t i = 0; i < seen; ++i) {
-      result.prepared->landmarks->points[i].seen = true;
-    }
-    Score score;
-    score.costs[cue::kLandmarks] = 0.5;
-    for (int i = 0; i < 3 && run.state.phase == Phase::tracking; ++i) {
-      check_fit(features, score, run.tracker, run.state, result);
-    }
-    return run.state.phase;
+    PreparedFrame frame =
+        prepare(extract(clip().person[1], ColourRequest::keep, run.scene), run.tracker.working_camera);
+    frame.has_colours = has_colours;
+    FilterResult found;
+    found.pose = run.state.pose;
+    found.score.costs[cue::kRegion] = 0.7;
+    return std::sqrt(spread_of_filter(run.tracker, run.state, frame, run.state.filter, found)
+                         .covariance[static_cast<std::size_t>(Joint::l_elbow)]
+                         .trace());
   };
-  EXPECT_EQ(state_with(kLandmarkCount), Phase::tracking);
-  EXPECT_EQ(state_with(5), Phase::lost);
-}
-
-TEST(Tracker, WhoeverComesBackLaterHasANewFaceAndHands) {
-  for (const double away : {1.0, 6.0}) {  // s
-    TrackingRun run = learned_run();
-    track_frame(clip().person[0], run);
-    ASSERT_EQ(run.state.phase, Phase::tracking);
-    run.state.hands.frames = 100.0;
-    run.state.phase = Phase::lost;
-    run.state.lost_for = kUnitsPerSecond * away;
-    track_frame(clip().person[1], run);
-    ASSERT_EQ(run.state.phase, Phase::tracking);
-    EXPECT_EQ(run.state.hands.frames, away < 3.0 ? 100.0 : 0.0);
-    EXPECT_EQ(run.state.lost_for, 0.0);
-  }
+  EXPECT_LT(deviation(false), 0.8 * deviation(true));
 }
 
 TEST(Tracker, UsesItsIterations) {
@@ -248,11 +208,11 @@ TEST(Tracker, LosesAndFindsThePerson) {
   const std::size_t gone = kPersonFrames + 7;  // the last frame without the person
   EXPECT_EQ(results[kPersonFrames - 1].motion.state, TrackState::tracking);
   EXPECT_EQ(results[gone].motion.state, TrackState::lost);
-  EXPECT_FALSE(results[gone].note.empty()) << "the note has a reason";
   EXPECT_EQ(results.back().motion.state, TrackState::tracking);
   EXPECT_TRUE(results.back().note.empty());
   for (const FrameEstimate& r : results) {
     EXPECT_TRUE(r.motion.pose.vector().allFinite());
+    EXPECT_EQ(r.note.empty(), r.motion.state == TrackState::tracking) << "why nobody is tracked";
   }
 }
 

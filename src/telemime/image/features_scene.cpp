@@ -310,6 +310,7 @@ void FeatureExtractor::update_status(const WorkingImages& p, const FrameFeatures
   const bool outline = status_.silhouette_share > kLeastOutline && status_.silhouette_share < kMostOutline;
   status_.person = shows_something(status_) && (features.head.has_value() || outline);
   status_.people = features.landmarks ? finder_.people() : 0;
+  status_.other_person = features.landmarks && finder_.switched();
   const double coloured = coloured_share_of(p.bgr);
   // A camera that has switched to infrared delivers no colours at all: the average would be late.
   grey_for_ = time_since(grey_for_, !is_coloured(coloured), elapsed_);

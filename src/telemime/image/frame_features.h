@@ -61,6 +61,7 @@ struct FrameFeatures {
   bool has_colour_model = true;       ///< the person's colours are known: the labels can be trusted
   bool face_learned = false;          ///< the colours were learned in this frame
   bool person_present = false;        ///< a person is in the image
+  bool other_person = false;          ///< somebody else is followed than in the frame before
   std::string note;                   ///< why the person's colours are not known
   std::vector<std::string> warnings;  ///< what breaks the assumptions of the method (light, sleeves, camera)
   double ms = 0.0;                    ///< time that the image side took

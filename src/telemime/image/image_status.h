@@ -26,6 +26,7 @@ struct ImageStatus {
   double detail = 255.0;          ///< 99th percentile of the gradient (detail_of)
   double coloured_share = 1.0;    ///< pixels with a colour of their own, averaged over time
   int people = 0;                 ///< in the picture, as far as networks see
+  bool other_person = false;      ///< the finder went over to somebody else in this frame
   double skin_share = 0.0;        ///< pixels of arms over those of arms and clothes, averaged over time
   std::vector<std::string> warnings;  ///< messages with a remedy; empty if all assumptions hold
 };

@@ -86,7 +86,7 @@ std::optional<SeenPerson> PersonFinder::detected(const cv::Mat& picture, double 
 
 std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time) {
   constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
-  found_ = false;
+  found_ = switched_ = false;
   if (!networks_) {
     return std::nullopt;
   }
@@ -128,7 +128,9 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
   if (count(picture, followed_->place, time)) {
     // Somebody sits in front of the person who is followed: from now on, they are the person.
     reset();
-    return find(picture, time);
+    auto nearer = find(picture, time);
+    switched_ = nearer.has_value();
+    return nearer;
   }
   return landmarks;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "telemime/core/time_base.h"
+#include "telemime/tracker/lost_and_found.h"
 
 namespace telemime {
 namespace {
@@ -15,8 +16,13 @@ bool may_be_filled(const FrameRecord& record) {
   return !is_tracked(record) && record.estimate.prepared && record.features.person_present;
 }
 
-// The estimate of one more frame, going back in time from `later`.
-FrameEstimate follow_back(const Tracker& tracker, const TrackerState& state, const FrameRecord& record,
+struct FollowedFrame {
+  FrameEstimate estimate;
+  bool fits = false;
+};
+
+// One more frame, going back in time.
+FollowedFrame follow_back(const Tracker& tracker, const TrackerState& state, const FrameRecord& record,
                           double steps, FilterState& filter) {
   FrameEstimate result;
   result.motion = record.estimate.motion;
@@ -46,7 +52,8 @@ FrameEstimate follow_back(const Tracker& tracker, const TrackerState& state, con
     result.heading = found.heading;
     result.modes = mode_poses(tracker.config.filter, filter.particles, state.model.body, found.pose);
   }
-  return result;
+  const bool fitting = fits(found.score, *record.estimate.prepared, tracker);
+  return {.estimate = std::move(result), .fits = fitting};
 }
 
 // Goes back from the record at the end of the queue; returns how many records before it became tracked.
@@ -72,11 +79,11 @@ std::size_t fill_from_end(const Tracker& tracker, const TrackerState& state, Ran
   for (std::size_t t = found; t-- > queue.filled && may_be_filled(records[t]) && goes_on(t);) {
     const double before = records[t].estimate.motion.time;
     const double now = records[t + 1].estimate.motion.time;
-    followed.push_back(follow_back(tracker, state, records[t], steps_between(before, now), filter));
-    const bool fits = followed.back().motion.region_score <= config.lost_region;
-    good = fits ? followed.size() : good;
-    bad_for = fits ? 0.0 : bad_for + units_between(before, now);
-    bad_frames = fits ? 0 : bad_frames + 1;
+    FollowedFrame next = follow_back(tracker, state, records[t], steps_between(before, now), filter);
+    followed.push_back(std::move(next.estimate));
+    good = next.fits ? followed.size() : good;
+    bad_for = next.fits ? 0.0 : bad_for + units_between(before, now);
+    bad_frames = next.fits ? 0 : bad_frames + 1;
   }
   for (std::size_t i = 0; i < good; ++i) {
     FrameEstimate& estimate = records[found - 1 - i].estimate;

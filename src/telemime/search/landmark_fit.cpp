@@ -9,6 +9,7 @@
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/kinematic_rates.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -26,6 +27,7 @@ PoseVector prior_deviations() {
   return s;
 }
 
+constexpr Eigen::Index kTorsion = 3;  // of the root: a person may turn all the way round
 constexpr std::size_t kFollowed = 4;
 constexpr double kMostFollowed = 8.0;  // that one followed joint costs, however far it is from its prediction
 constexpr std::array<Joint, kFollowed> kFollowedJoints = {Joint::l_elbow, Joint::r_elbow, Joint::l_wrist,
@@ -59,7 +61,9 @@ struct Problem {
     for (std::size_t i = 0; i < kLandmarkBoneCount; ++i) {
       r[at++] = bone_error(landmarks.bones[i], landmarks.ray, bones[i]);
     }
-    r.segment<static_cast<Eigen::Index>(kPoseSize)>(at) = (x - mean).cwiseQuotient(deviations);
+    PoseVector change = x - mean;
+    change[kTorsion] = wrap_angle(change[kTorsion]);
+    r.segment<static_cast<Eigen::Index>(kPoseSize)>(at) = change.cwiseQuotient(deviations);
     at += static_cast<Eigen::Index>(kPoseSize);
     for (const Joint j : kFollowedJoints) {
       const Eigen::Vector3d way = k.joints[j] - followed[j];

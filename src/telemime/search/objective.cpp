@@ -52,8 +52,9 @@ constexpr double kTrunkWeight = 0.3, kWristWeight = 0.5, kTwistWeight = 0.1;
 
 double trunk_change(const Pose& pose, const Pose& predicted) {
   double sum = (pose.root - predicted.root).squaredNorm() / square(kRootChange);
-  for (const Angle a : {Angle::root_torsion, Angle::root_roll, Angle::root_tilt, Angle::neck_torsion,
-                        Angle::neck_roll, Angle::neck_tilt}) {
+  sum += square(wrap_angle(pose[Angle::root_torsion] - predicted[Angle::root_torsion]) / kBendChange);
+  for (const Angle a :
+       {Angle::root_roll, Angle::root_tilt, Angle::neck_torsion, Angle::neck_roll, Angle::neck_tilt}) {
     sum += square((pose[a] - predicted[a]) / kBendChange);
   }
   return sum;
@@ -190,8 +191,11 @@ Prior prior_at(const Body& body, const Pose& pose, double heading) {
 Prior prior_between(const Body& body, const Pose& before, const Pose& after, double share, double heading) {
   const JointPositions a = forward_kinematics(body, before).joints;
   const JointPositions b = forward_kinematics(body, after).joints;
-  // The objective uses only the trunk of this pose; its angles are small enough to be averaged one by one.
+  // The objective uses only the trunk of this pose. It may turn all the way round; its other angles are small
+  // enough to be averaged one by one.
   Prior::Prediction between{Pose::from_vector((1.0 - share) * before.vector() + share * after.vector()), a};
+  const double turn = wrap_angle(after[Angle::root_torsion] - before[Angle::root_torsion]);
+  between.pose[Angle::root_torsion] = wrap_angle(before[Angle::root_torsion] + share * turn);
   for (std::size_t j = 0; j < kJointCount; ++j) {
     between.joints.at[j] = (1.0 - share) * a.at[j] + share * b.at[j];
   }

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <span>
 
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
@@ -36,6 +39,36 @@ TEST(Objective, OnlyTrustedCuesAreCounted) {
   };
   EXPECT_EQ(counted(true), kCues[cue::kRegion].needs);
   EXPECT_EQ(counted(false), Reduction::none) << "without colours the regions say nothing";
+}
+
+TEST(PriorBetween, ATrunkThatTurnsThroughTheBackStaysThere) {
+  const Body body = make_body(Shape{});
+  Pose before;
+  before[Angle::root_torsion] = 3.1;
+  Pose after;
+  after[Angle::root_torsion] = -3.1;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const Pose between = prior_between(body, before, after, share, 0.0).predicted->pose;
+    const double turn = 3.1 + share * (2.0 * std::numbers::pi - 6.2);
+    EXPECT_NEAR(wrap_angle(between[Angle::root_torsion] - turn), 0.0, 1e-12) << share;
+    EXPECT_LE(std::abs(between[Angle::root_torsion]), std::numbers::pi);
+  }
+}
+
+TEST(Objective, ATrunkThatTurnsThroughTheBackHasHardlyChanged) {
+  const Model model = make_model(Shape{});
+  const JointLimits limits = anatomical_limits();
+  Asked backend;
+  const PreparedFrame frame;
+  Pose predicted;
+  predicted[Angle::root_torsion] = 3.13;
+  Objective objective(backend, frame, model, limits, prior_at(model.body, predicted));
+  const auto cost = [&](double torsion) {
+    Pose pose = predicted;
+    pose[Angle::root_torsion] = torsion;
+    return objective(pose, {.trunk = 1.0});
+  };
+  EXPECT_LT(cost(-3.13), cost(3.0));
 }
 
 TEST(PredictPose, AnArmThatWasFoundElsewhereStays) {

@@ -45,10 +45,10 @@ void start_tracking(const Pose& pose, const Score& score, TrackerState& state, F
   // Whoever comes back later may be somebody else; a face and hands are learned again in seconds.
   constexpr double kSurelyTheSame = 75.0;  // 1/25 s
   if (state.lost_for > kSurelyTheSame) {
-    state.neutral_face = {};
-    state.hands = {};
+    forget_face_and_hands(state);
   }
   state.lost_for = 0.0;
+  state.heading = 0.0;
   state.phase = Phase::tracking;
   state.previous = pose;
   adopt(pose, score, state, result);
@@ -125,6 +125,10 @@ void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerS
   start_tracking(found, score, state, result);
 }
 
+bool fits(const Score& score, const PreparedFrame& frame, const Tracker& tracker) {
+  return score.region() <= tracker.config.tracking.lost_region || landmarks_agree(score, frame, tracker);
+}
+
 void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result) {
   if (!features.person_present) {
@@ -132,8 +136,8 @@ void check_fit(const FrameFeatures& features, const Score& score, const Tracker&
     return;
   }
   const TrackingConfig& config = tracker.config.tracking;
-  const bool bad = (result.motion.region_score > config.lost_region || !features.head) &&
-                   !landmarks_agree(score, *result.prepared, tracker);
+  const bool bad = !fits(score, *result.prepared, tracker) ||
+                   (!features.head && !landmarks_agree(score, *result.prepared, tracker));
   if (is_out_of_patience(bad, config, state)) {
     mark_lost("the body no longer fits the image", tracker, state, result);
   }
@@ -146,7 +150,7 @@ void check_unseen(const FrameFeatures& features, const Tracker& tracker, Tracker
   } else if (is_out_of_patience(true, tracker.config.tracking, state)) {
     mark_lost("neither colours nor a network show the body", tracker, state, result);
   } else {
-    result.note.clear();
+    adopt(state.pose, {}, state, result);  // nothing fits it
   }
 }
 
@@ -157,6 +161,7 @@ void mark_lost(const std::string& reason, const Tracker& tracker, TrackerState& 
   state.bad_for = 0.0;
   state.filter.particles.clear();
   state.steps_until_search = tracker.config.tracking.retry_every;
+  state.reason = reason;
   result.note = reason;
 }
 

@@ -13,6 +13,10 @@ namespace telemime {
 void find_person(const FrameFeatures& features, const Tracker& tracker, TrackerState& state,
                  FrameEstimate& result);
 
+/// Whether a pose with this score may be that of the person in the frame: its regions overlap with those of
+/// the image, or its landmarks are where the networks see them.
+bool fits(const Score& score, const PreparedFrame& frame, const Tracker& tracker);
+
 /// Marks a person as lost who left the image, or whom the body has not fitted for TrackingConfig::patience.
 void check_fit(const FrameFeatures& features, const Score& score, const Tracker& tracker, TrackerState& state,
                FrameEstimate& result);

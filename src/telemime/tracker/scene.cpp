@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
 #include "telemime/tracker/set_up.h"
 
@@ -64,13 +65,14 @@ std::string learn_scene(const TrackRequest& request, const SourceInfo& info, Tra
   const double aspect = static_cast<double>(clip->info().width) * info.height /
                         (static_cast<double>(clip->info().height) * info.width);
   if (aspect < 0.98 || aspect > 1.02) {
-    throw Error(ErrorKind::input,
-                "the background clip " + request.background + " has another aspect ratio than the input",
-                "Record it with the same camera and the same settings.");
+    throw Error(
+        ErrorKind::input,
+        "the background clip " + shown_url(request.background) + " has another aspect ratio than the input",
+        "Record it with the same camera and the same settings.");
   }
   const std::vector<Frame> frames = read_frames(*clip, kBackgroundFrames, run.tracker.config.image);
   features.learn_background(frames);
-  return "background: " + std::to_string(frames.size()) + " frames of " + request.background;
+  return "background: " + std::to_string(frames.size()) + " frames of " + shown_url(request.background);
 }
 
 }  // namespace telemime

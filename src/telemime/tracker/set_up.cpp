@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 #include "telemime/capture/undistorted_source.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/files.h"
+#include "telemime/core/in_parallel.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/search/budget.h"
 #include "telemime/tracker/person_file.h"
@@ -94,9 +94,9 @@ Config with_budget(const Config& config, const Camera& camera) {
   const std::int64_t total = std::clamp<std::int64_t>(split.total(), 1, kMost - 1);
   fixed.registration.iterations = static_cast<int>(total + 1);  // the last evaluation scores the pose
   // The best mode has at most two searches in full, side by side where there are two threads, and up to three
-  // trunks are turned, two of them with a long search: together no more than the total on each thread.
-  const std::int64_t threads =
-      config.threads > 0 ? config.threads : std::max(1U, std::thread::hardware_concurrency());
+  // trunks are turned, two of them with a long search. With landmarks the second is brief, and two of their
+  // proposals are searched. Together no more than the total on each thread.
+  const std::int64_t threads = usable_threads(config.threads);
   const auto at_most = [](int number, std::int64_t most) {
     return static_cast<int>(std::clamp<std::int64_t>(number, 1, std::max<std::int64_t>(1, most)));
   };
@@ -108,6 +108,9 @@ Config with_budget(const Config& config, const Camera& camera) {
   filter.turn_evaluations = at_most(filter.turn_evaluations, std::max(kLeast, total / 10));
   filter.walk_evaluations =
       at_most(filter.walk_evaluations, std::max(kLeast, threads > 1 ? total / 5 : total / 10));
+  filter.second_evaluations = at_most(filter.second_evaluations, std::max(kLeast, total / 4));
+  filter.landmark_evaluations =
+      at_most(filter.landmark_evaluations, std::max(kLeast, threads > 1 ? total / 4 : total / 8));
   filter.particles = static_cast<int>(std::clamp<std::int64_t>(total * threads / 2, 1, kMost));
   if (!config.registration.blocks) {
     fixed.registration.region_share = split.region_share();

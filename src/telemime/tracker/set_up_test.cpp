@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/in_parallel.h"
 
 namespace telemime {
 namespace {
@@ -54,7 +55,8 @@ TEST(WithBudget, TheDearestFrameCostsNoMoreThanTheTotalOnEachThread) {
     Config config;
     config.budget_ms = 1000.0;
     config.threads = threads;
-    config.filter.mode_most = config.filter.turn_evaluations = config.filter.walk_evaluations = 100000;
+    config.filter.mode_most = config.filter.turn_evaluations = config.filter.walk_evaluations =
+        config.filter.landmark_evaluations = config.filter.second_evaluations = 100000;
     const Config fixed = with_budget(config, camera());
     const FilterConfig& filter = fixed.filter;
     // Two searches of the best mode, then one trunk by chance and two with a long search.
@@ -62,7 +64,21 @@ TEST(WithBudget, TheDearestFrameCostsNoMoreThanTheTotalOnEachThread) {
     const int total = fixed.registration.iterations - 1;
     ASSERT_GE(total, 100) << "where no least number counts";
     EXPECT_LE(dearest, threads * total + 5 * 5) << threads;
+    // With landmarks: one search of the best mode in full, one that is brief, and two of proposals.
+    const int with_landmarks = filter.mode_most + std::min(filter.mode_most, filter.second_evaluations) +
+                               filter.landmark_searches * filter.landmark_evaluations;
+    EXPECT_LE(with_landmarks, threads * total + 5 * 5) << threads;
   }
+}
+
+TEST(WithBudget, MoreThreadsThanProcessorsAreNone) {
+  Config config;
+  config.budget_ms = 1000.0;
+  const Config all = with_budget(config, camera());
+  config.threads = 100 * usable_threads(0);
+  const Config more = with_budget(config, camera());
+  // What an evaluation costs is measured again each time.
+  EXPECT_LT(more.filter.particles, 10 * all.filter.particles);
 }
 
 }  // namespace

@@ -286,6 +286,7 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   // Whether a person is present, and warnings where the assumptions of the scene model do not hold.
   features.warnings = scene.features.status().warnings;
   features.person_present = scene.features.status().person;
+  note_other_person(request == ColourRequest::keep, scene, features);
   features.note = learned.note;
   features.face_learned = learned.face_learned;
   // Without colours, skin and clothes look alike: only landmarks and outlines help.
@@ -308,6 +309,10 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
   Stopwatch watch;
   FrameEstimate result = begin_estimate(features, state);
   advance_time(features.time, tracker, state, result);
+  if (features.other_person) {
+    forget_face_and_hands(state);
+    state.region_residual.reset();
+  }
   if (features.has_colour_model || features.landmarks) {
     // Class counts, tiles and distance map in the form that the likelihood reads (thesis 3.6).
     result.prepared = prepare(features, tracker.working_camera);
@@ -333,8 +338,11 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
     // Nothing shows the body: the last pose stays for a moment.
     check_unseen(features, tracker, state, result);
   }
-  // Poses for the passes over a whole file.
   const bool tracking = state.phase == Phase::tracking;
+  if (!tracking && result.note.empty()) {
+    result.note = state.reason;  // between two searches
+  }
+  // Poses for the passes over a whole file.
   if (tracking && tracker.config.look_back) {
     result.heading = state.heading;
     result.modes = modes_of(tracker, state);
@@ -381,7 +389,7 @@ PoseSpread spread_of_filter(const Tracker& tracker, const TrackerState& state, c
   const bool height_given = state.person && state.person->height_given;
   return spread_of({.body = state.model.body,
                     .camera = tracker.working_camera,
-                    .region = found.score.region(),
+                    .region = frame.has_colours ? found.score.region() : 0.0,
                     .size = height_given ? model.size_given : model.size,
                     .landmarks = frame.landmarks.has_value()},
                    filter.particles, found.pose, model);

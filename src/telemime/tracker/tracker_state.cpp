@@ -55,13 +55,30 @@ void use_calibration(const CalibratedPerson& person, const ImageCalibration& ima
   run.scene.features.set_calibration(image);
 }
 
+void note_other_person(bool calibrated, SceneState& scene, FrameFeatures& features) {
+  features.other_person = scene.features.status().other_person;
+  if (features.other_person) {
+    scene.relearn_colours = true;
+    scene.other_body = calibrated;
+  }
+  if (scene.other_body) {
+    features.warnings.emplace_back(
+        "somebody nearer to the camera is followed now: recalibrate to fit the body to them");
+  }
+}
+
+void forget_face_and_hands(TrackerState& state) {
+  state.neutral_face = {};
+  state.hands = {};
+}
+
 void forget_person(TrackingRun& run) {
   run.scene.relearn_colours = true;
+  run.scene.other_body = false;
   TrackerState& state = run.state;
   state.phase = Phase::waiting;
   state.person.reset();
-  state.neutral_face = {};
-  state.hands = {};
+  forget_face_and_hands(state);
   state.known_start.reset();
   state.filter.particles.clear();
   state.heading = 0.0;
@@ -70,6 +87,7 @@ void forget_person(TrackingRun& run) {
   state.bad_for = 0.0;
   state.lost_for = 0.0;
   state.waited = 0.0;
+  state.reason.clear();
   state.steps_until_search = 0.0;
 }
 

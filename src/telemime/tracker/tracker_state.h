@@ -70,6 +70,7 @@ struct TrackerState {
   double bad_for = 0.0;             ///< how long that has lasted, in 1/25 s
   double steps_until_search = 0.0;  ///< while not tracking, until the next search, in 1/25 s
   double lost_for = 0.0;            ///< since the person was last tracked, pauses included, in 1/25 s
+  std::string reason;               ///< why the last search found nobody, or why the person was lost
   double waited = 0.0;              ///< with a head since the person was last tracked, in 1/25 s
 
   bool calibrated() const { return person.has_value(); }
@@ -96,6 +97,7 @@ struct SceneState {
   /// The first frame from which on a head was visible, with the colours that are known now.
   std::int64_t head_since = 0;
   bool relearn_colours = false;  ///< the known colours may be somebody else's
+  bool other_body = false;       ///< the known body is not that of the person who is followed now
 };
 
 /// A tracker and its state. `extract` changes only the scene and `estimate` only the state, so that two
@@ -111,6 +113,13 @@ TrackingRun make_tracking_run(const Config& config, const Camera& camera);
 
 /// Uses the person and the scene that another run with the same camera calibrated.
 void use_calibration(const CalibratedPerson& person, const ImageCalibration& image, TrackingRun& run);
+
+/// Where somebody who sits down nearer to the camera is followed from this frame on: their colours are
+/// learned, and if a body was calibrated, a warning says until the next calibration that it is not theirs.
+void note_other_person(bool calibrated, SceneState& scene, FrameFeatures& features);
+
+/// Forgets what is learned of a person in seconds: it may be somebody else who is seen now.
+void forget_face_and_hands(TrackerState& state);
 
 /// Forgets the person, but not the scene: the next frames calibrate the person that they show, with
 /// their colours. Neither `extract` nor `estimate` may run at the same time.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "telemime/body/rotations.h"
+
 namespace telemime {
 
 double effective_sample_size(std::span<const Particle> particles) {
@@ -40,10 +42,16 @@ std::size_t heaviest(std::span<const Particle> particles) {
 
 Pose mean_pose(std::span<const Particle> particles) {
   PoseVector sum = PoseVector::Zero();
+  // The trunk may turn all the way round: its angle is averaged about that of the heaviest.
+  const double around = particles[heaviest(particles)].pose[Angle::root_torsion];
+  double turn = 0.0;
   for (const Particle& p : particles) {
     sum += p.weight * p.pose.vector();
+    turn += p.weight * wrap_angle(p.pose[Angle::root_torsion] - around);
   }
-  return Pose::from_vector(sum);
+  Pose mean = Pose::from_vector(sum);
+  mean[Angle::root_torsion] = wrap_angle(around + turn);
+  return mean;
 }
 
 }  // namespace telemime

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "telemime/tracking/testing_scene.h"
 
@@ -50,6 +51,18 @@ TEST(EffectiveSampleSize, CountsTheParticlesThatCarry) {
   EXPECT_DOUBLE_EQ(effective_sample_size(particles), 1.0);
   particles[3].weight = particles[5].weight = 0.5;
   EXPECT_DOUBLE_EQ(effective_sample_size(particles), 2.0);
+}
+
+TEST(MeanPose, OfTrunksThatAreTurnedAwayIsTurnedAway) {
+  std::vector<Particle> particles(2);
+  particles[0].weight = 0.75;
+  particles[0].pose[Angle::root_torsion] = 3.1;
+  particles[1].weight = 0.25;
+  particles[1].pose[Angle::root_torsion] = -3.1;
+  particles[1].pose[Angle::root_roll] = 0.4;
+  const Pose mean = mean_pose(particles);
+  EXPECT_NEAR(mean[Angle::root_torsion], 3.1 + 0.25 * (2.0 * std::numbers::pi - 6.2), 1e-12);
+  EXPECT_NEAR(mean[Angle::root_roll], 0.1, 1e-12);
 }
 
 TEST(Weigh, IsPriorTimesLikelihoodNormalised) {

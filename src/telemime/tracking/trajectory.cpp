@@ -195,7 +195,10 @@ std::vector<Pose> best_trajectory(const TrajectoryContext& context, std::span<co
       Objective objective(backend, frames[t].frame, context.model, context.limits,
                           prior_between(body, earlier, later, since / (since + until), frames[t].heading));
       RegistrationConfig between = search;
-      between.region.temporal = between.edge.temporal = config.between / (0.5 * (since + until));
+      for (ObjectiveWeights* weights : {&between.region, &between.edge}) {
+        weights->temporal = config.between / (0.5 * (since + until));
+        weights->trunk /= 0.5 * (since + until);
+      }
       Random own(seed, static_cast<std::size_t>(half) * frames.size() + t);
       poses[t] = register_pose(objective, poses[t], between, own).pose;
     });

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -110,6 +111,25 @@ TEST(BestTrajectory, FramesFarApartMayDifferMore) {
   config.motion = 1.0;
   EXPECT_GT(distance_at_end(1.0), 0.2);
   EXPECT_LT(distance_at_end(8.0), 0.1);
+}
+
+TEST(BestTrajectory, ATrunkMayLeaveTheLineWhereThereIsTime) {
+  Scene scene;
+  scene.search.region.trunk = scene.search.edge.trunk = 0.2;
+  Pose aside = raised(0);
+  aside.root.x() += 0.1;
+  std::vector<TrajectoryFrame> frames = {frame_with(scene, raised(0), {raised(0)}),
+                                         frame_with(scene, aside, {aside}),
+                                         frame_with(scene, raised(0), {raised(0)})};
+  const auto pulled = [&](double step) {
+    for (TrajectoryFrame& frame : frames) {
+      frame.time_step = step;
+    }
+    Random random(1);
+    return std::abs(best_trajectory(context_of(scene, {}), frames, nullptr, random)[1].root.x() -
+                    aside.root.x());
+  };
+  EXPECT_GT(pulled(1.0), 2.0 * pulled(8.0));
 }
 
 TEST(CheapestWay, OfNoFramesIsEmpty) {
