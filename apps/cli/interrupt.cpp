@@ -22,6 +22,8 @@ void on_interrupt(int signal) {
 }  // namespace
 
 void note_interrupts() {
+  // Ctrl-C also ends a program that reads what this one prints: what was begun is still finished.
+  std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) {

@@ -53,6 +53,7 @@ std::unique_ptr<Source> open_live(LiveCommand& command, const LeftBehind& left_b
   options.input = command.live.request.input_options;
   options.left_behind = [left_behind] { *left_behind = true; };
   LiveInput input = open_live_input(command.live.request.input, options, command.loop);
+  command.live.camera = input.camera;
   command.live.ends = !input.camera && !command.loop;
   // If networks find the person, nobody needs to leave the image.
   const bool needed = !uses_networks(command.live.request.config);

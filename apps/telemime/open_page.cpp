@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <system_error>
 
@@ -53,6 +54,7 @@ bool has_display() {
     }
   }
   // No shell parses the address: it is one argument, whatever it contains.
+  ::signal(SIGPIPE, SIG_DFL);
   ::execlp(kOpener, kOpener, url, static_cast<char*>(nullptr));
   give_up(report, errno);
 }

@@ -12,6 +12,7 @@
 #include <opencv2/highgui.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cli/exit_codes.h"
@@ -55,24 +56,50 @@ struct ManyFiles {
   bool again = false;
 };
 
-ViewerRequest show_window(const Progress& progress) {
-  constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
-  if (progress.overlay != nullptr) {
-    cv::imshow(kTitle, *progress.overlay);
+// A window that shows overlays. Tracking goes on without it when the user closes it.
+class Viewer {
+ public:
+  void show(const cv::Mat& overlay) {
+    if (state_ != State::closed) {
+      cv::imshow(kTitle, overlay);
+      state_ = State::open;
+      poll();
+    }
   }
-  int key = cv::waitKey(1);
-  if (key == ' ') {
-    // A closed window receives no keys.
-    const auto is_open = [&] { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) >= 1.0; };
-    do {
-      key = cv::waitKey(50);
-    } while (key != ' ' && key != 'q' && key != 27 && is_open() && !interrupted());
+  // What the user has asked for since the last call.
+  ViewerRequest wish() {
+    poll();
+    return std::exchange(wish_, ViewerRequest::none);
   }
-  if (key == 'q' || key == 27) {
-    return ViewerRequest::stop;
+
+ private:
+  enum class State { none, open, closed };
+  static constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
+
+  // A closed window receives no keys.
+  static bool is_open() { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) >= 1.0; }
+
+  void poll() {
+    if (state_ != State::open) {
+      return;
+    }
+    int key = cv::waitKey(1);
+    if (key == ' ') {
+      do {
+        key = cv::waitKey(50);
+      } while (key != ' ' && key != 'q' && key != 27 && is_open() && !interrupted());
+    }
+    state_ = is_open() ? State::open : State::closed;
+    if (key == 'q' || key == 27) {
+      wish_ = ViewerRequest::stop;
+    } else if (key == 'r' && wish_ == ViewerRequest::none) {
+      wish_ = ViewerRequest::recalibrate;
+    }
   }
-  return key == 'r' ? ViewerRequest::recalibrate : ViewerRequest::none;
-}
+
+  State state_ = State::none;
+  ViewerRequest wish_ = ViewerRequest::none;
+};
 
 void print_summary(const TrackSummary& summary, const TrackRequest& request) {
   std::cout << summary.frames << " frames, " << summary.tracked << " tracked, in " << summary.seconds
@@ -105,7 +132,10 @@ void run_one(const TrackOptions& options) {
   ProgressBar bar(options.quiet);
   RunHooks hooks;
   const bool show = options.show && window_opens();
-  hooks.draw = show;
+  Viewer viewer;
+  if (show) {
+    hooks.picture = [&viewer](const cv::Mat& overlay) { viewer.show(overlay); };
+  }
   if (options.show && !show) {
     std::cerr << "no window can be opened here (is there a display?); tracking goes on without it\n";
   }
@@ -118,7 +148,7 @@ void run_one(const TrackOptions& options) {
   hooks.progress = [&](const Progress& progress) {
     const bool ahead = progress.motion == nullptr;
     bar.show(ahead ? "fitting the body" : "", progress.frames, progress.total, progress.seconds);
-    const ViewerRequest wish = show && !ahead ? show_window(progress) : ViewerRequest::none;
+    const ViewerRequest wish = viewer.wish();
     return interrupted() ? ViewerRequest::stop : wish;
   };
   note_interrupts();

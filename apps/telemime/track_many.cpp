@@ -122,16 +122,16 @@ std::string result_of(int status, const TrackRequest& request) {
   return code == 0 ? "results in " + request.out.string() : code == kExitInterrupted ? "stopped" : "failed";
 }
 
-// Files that are not begun count as long as the others.
+// Files that are not begun count as long as the others; those that were done before (`skipped`) do not count.
 void show_progress(ProgressBar& bar, SharedMemory& told, std::size_t begun, std::size_t count,
-                   Clock::time_point begin) {
+                   std::size_t skipped, Clock::time_point begin) {
   std::int64_t frames = 0, total = 0, known = 0;
   for (std::size_t i = 0; i < begun; ++i) {
     frames += told[i].frames;
     total += told[i].total;
     known += told[i].total > 0 ? 1 : 0;
   }
-  const std::int64_t all = known == 0 ? 0 : total * static_cast<std::int64_t>(count) / known;
+  const std::int64_t all = known == 0 ? 0 : total * static_cast<std::int64_t>(count - skipped) / known;
   bar.show("file " + std::to_string(begun) + " of " + std::to_string(count), frames, all,
            std::chrono::duration<double>(Clock::now() - begin).count());
 }
@@ -170,9 +170,10 @@ std::vector<fs::path> folders_of(const std::vector<std::string>& inputs, const f
 
 int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& options) {
   note_interrupts();
+  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, no process is seen to end
   SharedMemory told(requests.size());
   std::map<pid_t, std::size_t> running;
-  std::size_t next = 0, done = 0, found = 0, failed = 0, stopped = 0;
+  std::size_t next = 0, done = 0, found = 0, failed = 0, stopped = 0, skipped = 0;
   int code = 0;
   bool passed_on = false;
   const auto begin = Clock::now();
@@ -191,9 +192,11 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
       const FinishedRun before = options.again ? FinishedRun::none : finished_run(requests[i]);
       if (before == FinishedRun::complete) {
         ++found;
+        ++skipped;
         say(i, "done before; results in " + requests[i].out.string());
       } else if (before == FinishedRun::nobody_tracked) {
         ++failed;
+        ++skipped;
         code = code == 0 ? kExitTracking : code;
         const std::string words = "done before: nobody was tracked; results in " + requests[i].out.string();
         if (options.quiet) {
@@ -207,8 +210,12 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
     // Those that have ended.
     int status = 0;
     for (pid_t child = 0; (child = ::waitpid(-1, &status, WNOHANG)) > 0;) {
-      const std::size_t i = running.at(child);
-      running.erase(child);
+      const auto ended = running.find(child);
+      if (ended == running.end()) {
+        continue;  // not one of ours: this process may have inherited it
+      }
+      const std::size_t i = ended->second;
+      running.erase(ended);
       if (options.quiet && WIFSIGNALED(status)) {
         // A killed process has printed no error itself.
         std::cerr << shown_url(requests[i].input) << ": " << result_of(status, requests[i]) << std::endl;
@@ -222,7 +229,7 @@ int track_many(const std::vector<TrackRequest>& requests, const ManyOptions& opt
         ::kill(child, SIGINT);
       }
     }
-    show_progress(bar, told, next, requests.size(), begin);
+    show_progress(bar, told, next, requests.size(), skipped, begin);
     std::this_thread::sleep_for(std::chrono::milliseconds(running.empty() ? 0 : 50));
   }
   bar.interrupt();

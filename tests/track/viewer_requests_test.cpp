@@ -73,6 +73,29 @@ TEST(ViewerRequests, CalibratingAgainTakesTheNewBones) {
   EXPECT_GT(std::abs(forearms[29] - forearms[0]), 1e-6) << "fitted to other frames";
 }
 
+TEST(ViewerRequests, EveryPictureIsShown) {
+  const ScratchFolder folder;
+  int pictures = 0;
+  RunHooks hooks;
+  hooks.picture = [&](const cv::Mat& picture) { pictures += picture.empty() ? 0 : 1; };
+  track_file(short_run(folder), hooks);
+  EXPECT_EQ(pictures, 30);
+}
+
+// An empty room: its frames pass while the body waits to be fitted.
+TEST(ViewerRequests, StoppedBeforeAnybodyIsSeenItStops) {
+  const ScratchFolder folder;
+  TrackRequest request = short_run(folder);
+  request.input = request.background;
+  RunHooks hooks;
+  hooks.progress = [](const Progress& progress) {
+    return progress.motion != nullptr && progress.frames == 3 ? ViewerRequest::stop : ViewerRequest::none;
+  };
+  const TrackSummary summary = track_file(request, hooks);
+  EXPECT_TRUE(summary.interrupted);
+  EXPECT_LE(frames_in(folder).size(), 4U) << "the next one may be under way";
+}
+
 TEST(ViewerRequests, StoppedWhileTheBodyIsFittedItKeepsWhatItHas) {
   const ScratchFolder folder;
   int fitted = 0;

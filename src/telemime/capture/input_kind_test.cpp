@@ -2,6 +2,9 @@
 #include "telemime/capture/input_kind.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "telemime/capture/testing.h"
 
@@ -32,6 +35,15 @@ TEST(InputKind, FollowsFromTheFileSystemOtherwise) {
   EXPECT_EQ(input_kind(awkward), InputKind::pattern);
   testing::write_bytes(awkward, "x");
   EXPECT_EQ(input_kind(awkward), InputKind::video_file);
+}
+
+TEST(InputKind, NotAllBelowDevIsADevice) {
+  EXPECT_EQ(input_kind("/dev/shm"), InputKind::folder);
+  EXPECT_EQ(input_kind("/dev/shm/frame_%04d.png"), InputKind::pattern);
+  const std::string clip = "/dev/shm/telemime_input_kind_" + std::to_string(::getpid()) + ".mp4";
+  testing::write_bytes(clip, "x");
+  EXPECT_EQ(input_kind(clip), InputKind::video_file);
+  std::filesystem::remove(clip);
 }
 
 TEST(InputKind, FileUrlsArePaths) {

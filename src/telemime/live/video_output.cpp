@@ -93,6 +93,11 @@ void VideoOutput::check() {
   // A FIFO is not opened: its reader would take the end of that for the end of the pictures.
   if (!std::filesystem::is_fifo(path_, unknown) || ::access(path_.c_str(), W_OK) != 0) {
     open();
+    // An existing file keeps nothing of an earlier run.
+    struct stat facts {};
+    if (::fstat(file_, &facts) == 0 && S_ISREG(facts.st_mode)) {
+      static_cast<void>(::ftruncate(file_, 0) == 0);
+    }
     close();
   }
 }

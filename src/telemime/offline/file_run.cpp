@@ -2,6 +2,7 @@
 #include "telemime/offline/file_run.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "telemime/offline/finished_run.h"
@@ -52,7 +53,7 @@ FileRun::FileRun(const TrackRequest& request, const RunHooks& hooks, const Sourc
 
 int FileRun::picture_side() const {
   constexpr int kLongestSide = 960;
-  return outputs_.has_overlay() || hooks_.draw ? kLongestSide : 0;
+  return outputs_.has_overlay() || hooks_.picture ? kLongestSide : 0;
 }
 
 ViewerRequest FileRun::add(FrameRecord record) {
@@ -84,8 +85,7 @@ ViewerRequest FileRun::add(FrameRecord record) {
       {.frames = frames_,
        .total = frames_to_come(request_, info_),
        .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(),
-       .motion = &motion,
-       .overlay = overlay_.empty() ? nullptr : &overlay_});
+       .motion = &motion});
 }
 
 void FileRun::end_person() {
@@ -150,6 +150,23 @@ void FileRun::begin() {
   }
   person_ended_ = false;
   smoothing_ = make_two_way_smoothing(request_.config.smoothing, header.body, header.camera);
+  write_early();
+}
+
+// The frames before the first person pass the queue before those that wait there.
+void FileRun::write_early() {
+  RecordQueue later = std::exchange(queue_, {});
+  drawn_ = early_.size();
+  for (; !early_.empty(); early_.pop_front()) {
+    queue_.records.emplace_back().estimate.motion = std::move(early_.front());
+    ++queue_.filled;
+    ++queue_.chosen;
+    smooth_forward(*smoothing_, queue_);
+    write_ready(false);
+  }
+  std::move(later.records.begin(), later.records.end(), std::back_inserter(queue_.records));
+  queue_.filled += later.filled;
+  queue_.chosen += later.chosen;
 }
 
 // The passes in turn, each as far as it can go. `last`: no frame of the same person follows.
@@ -160,11 +177,12 @@ void FileRun::advance(bool last) {
     write_ready(false);
     return;
   }
-  // Nobody was found yet, maybe for a long time: the pictures are drawn as they come.
-  for (; drawn_ < queue_.chosen; ++drawn_) {
-    FrameRecord& record = queue_.records[drawn_];
+  // Nobody was found yet, maybe for a long time: of these frames only the motion is kept.
+  for (; queue_.chosen > 0; --queue_.chosen, --queue_.filled) {
+    FrameRecord& record = queue_.records.front();
     draw(record, record.estimate.motion);
-    record.frame.image.release();
+    early_.push_back(std::move(record.estimate.motion));
+    queue_.records.pop_front();
   }
 }
 
@@ -194,13 +212,16 @@ void FileRun::draw(const FrameRecord& record, const MotionFrame& motion) {
   }
   // The overlay is a side result: an image that cannot be drawn is left out.
   try {
-    overlay_ =
+    const cv::Mat overlay =
         draw_overlay(record.frame.image, {.motion = &motion,
                                           .model = &run_.state.model,
                                           .camera = run_.tracker.camera,
                                           .face = record.features.face ? &*record.features.face : nullptr,
                                           .note = record.estimate.note});
-    outputs_.write_overlay(overlay_, motion.time);
+    outputs_.write_overlay(overlay, motion.time);
+    if (hooks_.picture) {
+      hooks_.picture(overlay);
+    }
   } catch (const cv::Exception& e) {
     note(std::string("the overlay cannot be drawn: ") + e.what());
   }

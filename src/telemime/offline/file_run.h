@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,6 +54,7 @@ class FileRun {
  private:
   /// The person whose bones the joints have from now on; the outputs begin with the first.
   void begin();
+  void write_early();
   void advance(bool last);
   void write_ready(bool last);
   void draw(const FrameRecord& record, const MotionFrame& motion);
@@ -69,13 +71,13 @@ class FileRun {
   RunOutputs outputs_;       ///< after what its notes go to
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   RecordQueue queue_;
-  std::size_t drawn_ = 0;  ///< records of the queue that are drawn already
+  std::deque<MotionFrame> early_;  ///< frames before the first person, which wait for the outputs to begin
+  std::size_t drawn_ = 0;          ///< records of the queue that are drawn already: those of `early_`
   Random fill_seeds_;
   WindowState window_;
   std::optional<TwoWaySmoothing> smoothing_;  ///< since a person was calibrated
   bool person_ended_ = false;                 ///< another one is to be calibrated
   RunStatistics statistics_;
-  cv::Mat overlay_;  ///< the last one drawn
 };
 
 }  // namespace telemime

@@ -139,14 +139,16 @@ TrackSummary track_file(const TrackRequest& request, const RunHooks& hooks) {
   if (looks_ahead(request)) {
     const auto goes_on = go_on_of(hooks, frames_to_come(request, opened.source->info()));
     const auto go_on = [&](const FrameRecord& record) {
-      const bool on = goes_on(record);
-      asked = on ? asked : ViewerRequest::stop;
-      return on;
+      asked = goes_on(record) ? asked : ViewerRequest::stop;
+      return asked != ViewerRequest::stop;
     };
     LookAhead ahead =
         look_ahead({.next = next, .settle = add, .go_on = go_on, .longest_side = file.picture_side()}, run);
     if (ahead.person) {
       report_fit(*ahead.person, hooks);
+    }
+    if (asked == ViewerRequest::recalibrate) {
+      asked = ViewerRequest::none;  // that has just been done
     }
     for (FrameRecord& record : ahead.records) {
       add(std::move(record));

@@ -19,7 +19,6 @@ struct Progress {
   std::int64_t total = 0;               ///< 0: not known
   double seconds = 0.0;                 ///< since the first frame
   const MotionFrame* motion = nullptr;  ///< not smoothed; null while the program looks ahead to fit the body
-  const cv::Mat* overlay = nullptr;     ///< the last one drawn; null when none is drawn
 };
 
 /// What the viewer may ask for between frames.
@@ -30,7 +29,9 @@ struct RunHooks {
   std::function<void(const std::string&)> message;         ///< notes for the user; may be empty
   std::function<void(const StreamHeader&)> person;         ///< once, before the first frame; may be empty
   std::function<void(const MotionFrame&)> motion;          ///< each frame as it is written; may be empty
-  bool draw = false;                                       ///< make overlays even when none is written
+  /// Each overlay as it is drawn, many at a time (draw_overlay); with it they are drawn even when none is
+  /// written. May be empty.
+  std::function<void(const cv::Mat&)> picture;
 };
 
 /// Number of frames that a run takes from its input; 0: not known.
