@@ -182,8 +182,6 @@ class Retarget:
         height = (head["hips"] - obj.matrix_world.translation).z
         self.scale = height / skeleton.bones["hips"][1].z if height > 0.01 else 1.0
         self.to_bone = (frame @ bone["hips"].matrix_local.to_3x3()).inverted() @ heading.to_matrix()
-        for pose_bone in obj.pose.bones:
-            pose_bone.rotation_mode = "QUATERNION"
 
     def __call__(self, pose):
         """The rotations of the rig's bones, and the place of its hips, as pose bones take them."""
@@ -202,7 +200,8 @@ class Retarget:
     def show(self, pose):
         rotations, place = self(pose)
         for name, q in rotations.items():
-            self.obj.pose.bones[name].rotation_quaternion = q
+            bone = self.obj.pose.bones[name]
+            bone.rotation_mode, bone.rotation_quaternion = "QUATERNION", q
         self.obj.pose.bones[self.bones["hips"]].location = place
 
     def write(self, poses, name, first=1):
@@ -215,6 +214,8 @@ class Retarget:
                 tracks.setdefault((bone, "rotation_quaternion"), []).append(q)
             tracks.setdefault((self.bones["hips"], "location"), []).append(place)
         action, animation, slot = bpy.data.actions.new(name), self.obj.animation_data_create(), None
+        for take in filter(None, (action, animation.action)):
+            take.use_fake_user = True  # so that it is saved when the rig has another one
         if hasattr(action, "fcurves"):
             curves, group = action.fcurves, "action_group"
         else:  # Blender 5
@@ -222,6 +223,7 @@ class Retarget:
             strip = action.layers.new("Motion").strips.new(type="KEYFRAME")
             curves, group = strip.channelbag(slot, ensure=True).fcurves, "group_name"
         for (bone, path), values in tracks.items():
+            self.obj.pose.bones[bone].rotation_mode = "QUATERNION"
             for i in range(len(values[0])):
                 curve = curves.new(f'pose.bones["{bone}"].{path}', index=i, **{group: bone})
                 curve.keyframe_points.add(len(frames))
@@ -288,7 +290,7 @@ class Receiver:
             self.socket.close()
             raise OSError(f"Port {port} cannot be used: {e.strerror}. Another program may listen there.") from e
         self.target, self.rig, self.convention = target, target, convention
-        self.time, self.tracking, self.frames, self.offsets, self.turns = None, False, 0, {}, {}
+        self.time, self.tracking, self.moved, self.frames, self.offsets, self.turns = None, False, False, 0, {}, {}
         self.fitted, self.retarget, self.recorded = {}, None, None
 
     def poll(self):
@@ -307,24 +309,26 @@ class Receiver:
         return fresh
 
     def _take(self, messages):
-        moved = False
+        fresh = False
         for address, values in messages:
             if address == "/VMC/Ext/OK" and len(values) > 3:
                 self.tracking = values[3] == 1
             elif address == "/VMC/Ext/T" and values[0] != self.time:
-                if self.tracking and "rightFoot" in self.turns:  # all of a frame is there when the next one begins
+                # All of a frame is there when the next one, whose state has come, begins. When a lost person is back,
+                # the last pose comes once more: it is kept until then.
+                if (self.moved or self.tracking) and "rightFoot" in self.turns:
                     self.frames += 1
                     if self.recorded is not None:
                         self.recorded.append(self.pose())
-                self.time = values[0]
+                self.moved, self.time = False, values[0]
             elif address == "/VMC/Ext/Bone/Pos":
                 name, x, y, z, qx, qy, qz, qw = values
                 bone = re.sub("Thumb(Proximal|Intermediate)", lambda m: UNITY[m[0]], name[:1].lower() + name[1:])
                 finite = all(math.isfinite(v) for v in values[1:])
                 if finite and (bone in PARENT or bone == "hips"):  # Unity's frame is the mirror image of VRM's in x
                     self.offsets[bone], self.turns[bone] = up_z((-x, y, z)), Quaternion((qw, *up_z((qx, -qy, -qz))))
-                    moved = True
-        return moved
+                    self.moved = fresh = True
+        return fresh
 
     def pose(self):
         return Pose(self.time, self.offsets["hips"], dict(self.turns))
@@ -363,11 +367,12 @@ def disconnect():
 
 def tick():
     """Called by Blender's timer while the receiver is connected."""
+    before, fresh = receiver and receiver.tracking, False
     try:
         fresh = receiver and receiver.poll()
     except (ReferenceError, KeyError, ValueError, RuntimeError):  # the rig has been deleted, renamed or changed
-        return disconnect()
-    for window in bpy.context.window_manager.windows if fresh else ():
+        disconnect()
+    for window in bpy.context.window_manager.windows if fresh or (receiver and receiver.tracking) != before else ():
         for area in window.screen.areas:
             area.tag_redraw()
     return 1 / 60 if receiver else None

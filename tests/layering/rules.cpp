@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t most_lines = 400;
 // Blender installs an add-on that is one file.
 constexpr std::string_view add_on = "integrations/blender/telemime.py";
-constexpr std::size_t most_lines_of_add_on = 480;
+constexpr std::size_t most_lines_of_add_on = 490;
 // Folders without sources of this project.
 constexpr std::array<std::string_view, 6> foreign = {".git",         "build", "out",
                                                      "node_modules", "dist",  ".cache"};

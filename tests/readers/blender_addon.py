@@ -211,11 +211,43 @@ def check_errors(folder, *_):
     return True
 
 
+def check_takes(folder, *_):
+    """Times of a person who was lost; earlier actions of a rig are kept, and so are bones that are not moved."""
+    empty_scene()
+    skeleton, poses, _ = telemime.read_bvh(folder / "motion.bvh")
+    rig = lowered_rig(skeleton, 0.0)
+    bpy.ops.object.mode_set(mode="EDIT")
+    rig.data.edit_bones.new("tail").tail = (0.0, 0.0, 1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.pose.bones["tail"].rotation_mode = "XYZ"
+    receiver = telemime.Receiver(0, rig)
+    rotation = (0.0, 0.0, 0.0, 1.0)
+    def frame(t, tracked):
+        yield "/VMC/Ext/OK", (1, 3, 0, int(tracked))
+        yield "/VMC/Ext/T", (t,)
+        for name, *_ in telemime.ROWS if tracked else ():
+            yield "/VMC/Ext/Bone/Pos", (name[0].upper() + name[1:], 0.0, 0.3, 0.0, *rotation)
+        if tracked:
+            yield "/VMC/Ext/Bone/Pos", ("Hips", 0.0, 1.0, 0.0, *rotation)
+    receiver.recorded = []
+    for t, tracked in ((1.0, True), (2.0, True), (3.0, False), (6.0, False), (7.0, True), (8.0, True), (9.0, False)):
+        receiver._take(frame(t, tracked))
+    times = [pose.time for pose in receiver.recorded]
+    assert times == [1.0, 2.0, 6.0, 7.0, 8.0], times  # at 6 s once more the pose of 2 s
+    receiver.socket.close()
+    retarget = telemime.Retarget(rig, skeleton)
+    for name in ("one", "two"):
+        retarget.write(poses[:3], name)
+    assert bpy.data.actions["one"].use_fake_user and rig.animation_data.action.name == "two", "the first take is kept"
+    assert rig.pose.bones["tail"].rotation_mode == "XYZ", "a bone that is not moved"
+    return True
+
+
 def main():
     folder = Path(sys.argv[sys.argv.index("--") + 1])
     header, *lines = (json.loads(line) for line in (folder / "pose.jsonl").read_text().splitlines())
     frames = [f for f in lines if f["state"] == "tracking"]
-    checks = [check(folder, frames, header["fps"]) for check in (check_import, check_other_rig, check_errors, check_live)]
+    checks = [check(folder, frames, header["fps"]) for check in (check_import, check_other_rig, check_takes, check_errors, check_live)]
     print(f"{sum(checks)} passed, {len(checks) - sum(checks)} failed")
     sys.exit(0 if all(checks) else 1)
 
