@@ -7,6 +7,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/live/pace.h"
+#include "telemime/outputs/all.h"
 
 namespace telemime::python {
 namespace {
@@ -26,6 +27,9 @@ TrackRequest make_request(const std::string& settings, const std::string& input,
   if (rate != 0.0 && !(rate >= kLowestRate && rate <= kHighestRate)) {
     throw Error(ErrorKind::usage,
                 "rate must be between 0.001 and 1000 frames a second, or 0: as the file says");
+  }
+  for (const std::string& format : formats) {
+    output_format(format);  // throws for an unknown one
   }
   TrackRequest request;
   request.version = TELEMIME_VERSION;

@@ -50,8 +50,8 @@ Json recorded(const Recording& r) {
 
 }  // namespace
 
-std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
-                          const std::vector<std::string>& looks, SenderKinds kinds) {
+std::string hello_message(const std::string& version, const std::string& input, bool live,
+                          const Camera& camera, const std::vector<std::string>& looks, SenderKinds kinds) {
   Json formats = Json::array();
   for (const OutputFormat& format : kOutputFormats) {
     formats.push_back(format.name);
@@ -63,8 +63,8 @@ std::string hello_message(const std::string& version, const SourceInfo& info, co
   return dump({{"type", "hello"},
                {"protocol", 1},
                {"version", version},
-               {"input", info.name},
-               {"live", info.live},
+               {"input", input},
+               {"live", live},
                {"camera",
                 {{"width", camera.width},
                  {"height", camera.height},

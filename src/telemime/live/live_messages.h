@@ -20,8 +20,9 @@ enum PageTopic : int { kWords = 0, kPose = 1, kStatus = 2, kPicture = 3 };
 
 /// The messages of docs/live-protocol.md other than poses, as JSON in one line.
 
-std::string hello_message(const std::string& version, const SourceInfo& info, const Camera& camera,
-                          const std::vector<std::string>& looks, SenderKinds kinds = sender_kinds());
+std::string hello_message(const std::string& version, const std::string& input, bool live,
+                          const Camera& camera, const std::vector<std::string>& looks,
+                          SenderKinds kinds = sender_kinds());
 
 struct LiveStatus {
   LiveState state;

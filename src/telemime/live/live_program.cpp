@@ -75,7 +75,8 @@ struct LiveProgram::State {
     session = std::make_unique<LiveSession>(options.request, options.guided, std::move(source), hooks, clock);
     {
       const std::lock_guard lock(mutex);
-      hello = hello_message(options.version, info, session->camera(), avatars.looks(), senders.kinds());
+      hello = hello_message(options.version, info.name, options.camera, session->camera(), avatars.looks(),
+                            senders.kinds());
     }
     ready = session.get();
     answers.begin(*session);

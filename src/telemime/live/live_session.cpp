@@ -95,8 +95,7 @@ struct LiveSession::State {
     return frame;
   }
 
-  // Called from within next_frame().
-  void on_source_news(const SourceNews& news) {
+  void on_source_news(const SourceNews& news) {  // called from within next_frame()
     using Change = SourceNews::Kind;
     {
       const std::lock_guard lock(mutex);
@@ -178,10 +177,11 @@ struct LiveSession::State {
     }
   }
 
-  // Reports the person as lost. Only while the search is idle.
+  // Reports the person as lost, with the face at rest. Only while the search is idle.
   void report_lost() {
     if (last_motion && hooks.motion) {
       last_motion->state = TrackState::lost;
+      last_motion->face.reset();
       hooks.motion(*last_motion, last_taken);
     }
     last_motion.reset();

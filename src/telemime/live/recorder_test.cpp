@@ -246,7 +246,7 @@ TEST_F(Records, AnotherBodyGoesOnInTheNext) {
   EXPECT_EQ(r->ended()[1].frames, 10);
   const std::lock_guard lock(mutex_);
   EXPECT_NE(infos_.find("recalibrated: recording 1 ends here"), std::string::npos) << infos_;
-  EXPECT_EQ(infos_.find("recording 2 ends there"), std::string::npos) << infos_;
+  EXPECT_EQ(infos_.find("recording 2 ends here"), std::string::npos) << infos_;
 }
 
 // As the session reports a person who is lost at the end of the input.

@@ -45,7 +45,13 @@ TEST(Mirror, TwiceIsAsBefore) {
     frame.spread->covariance[j] << 1.0, 0.1 * static_cast<double>(j), 0.2, 0.1 * static_cast<double>(j), 2.0,
         0.3, 0.2, 0.3, 3.0;
   }
+  Random random(5);
+  frame.hands = testing_motion::random_hands(header.body, frame.pose, random);
+  frame.face = testing_motion::random_face(random);
   const MotionFrame once = mirrored(frame, header.camera);
+  EXPECT_EQ((*once.hands)[0].angles, (*frame.hands)[1].angles);
+  EXPECT_EQ((*once.face)[Expression::eye_blink_left], (*frame.face)[Expression::eye_blink_right]);
+  EXPECT_EQ(once.face->gaze.x(), -frame.face->gaze.x());
   const auto l_wrist = static_cast<std::size_t>(Joint::l_wrist);
   const auto r_wrist = static_cast<std::size_t>(Joint::r_wrist);
   EXPECT_DOUBLE_EQ(once.spread->covariance[l_wrist](0, 1), -frame.spread->covariance[r_wrist](0, 1));
@@ -56,6 +62,8 @@ TEST(Mirror, TwiceIsAsBefore) {
     EXPECT_LT((twice.pixels[j] - frame.pixels[j]).norm(), 1e-9);
     EXPECT_EQ(twice.spread->covariance[j], frame.spread->covariance[j]);
   }
+  EXPECT_EQ((*twice.hands)[0].angles, (*frame.hands)[0].angles);
+  EXPECT_EQ(twice.face->expressions, frame.face->expressions);
 }
 
 }  // namespace

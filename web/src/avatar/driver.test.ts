@@ -56,7 +56,7 @@ describe("the driver", () => {
   });
   it("comes to rest without poses", () => {
     const d = new PoseDriver();
-    d.setBody({ type: "body", stature: null, scaleFrom: "", bones: new Map([["hips", [0, 1, 0] as const]]) });
+    d.setBody({ type: "body", bones: new Map([["hips", [0, 1, 0] as const]]) });
     let now = follow(d, about("z", 1), 1);
     d.setPose(pose(99, about("z", 1), [0.2, 1, 0]), now);
     d.step(now);

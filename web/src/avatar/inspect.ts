@@ -24,7 +24,6 @@ export const REQUIRED_BONES = [
 
 export interface Facts {
   version: "0" | "1";
-  title: string;
   author: string;
 }
 
@@ -141,7 +140,6 @@ export function inspect(data: ArrayBuffer): Facts {
   const authors = Array.isArray(meta.authors) ? meta.authors.map(text).filter(Boolean).join(", ") : "";
   return {
     version,
-    title: text(version === "1" ? meta.name : meta.title),
     author: version === "1" ? authors : text(meta.author),
   };
 }

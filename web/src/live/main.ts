@@ -64,6 +64,7 @@ const guide = new Guide(
 
 let phase: Phase | "connecting" | "disconnected" = "connecting";
 let lastPose: Pose | null = null;
+let isCamera = false;
 const program = new VersionWatch();
 const counters = { poses: 0, lost: 0, pictures: 0 };
 
@@ -78,7 +79,7 @@ function onStatus(s: Status): void {
   recordings.setStatus(s);
   const calibrated = s.phase === "tracking" || s.phase === "lost";
   enable("recalibrate", calibrated);
-  enable("guide-again", s.phase !== "opening" && s.phase !== "ended");
+  enable("guide-again", isCamera && s.phase !== "opening" && s.phase !== "ended");
   if (!calibrated) forgetPose();
 }
 
@@ -113,6 +114,7 @@ function onMessage(m: Incoming): void {
       if (m.protocol !== PROTOCOL)
         toasts.show("error", "This page and the program have different versions. Reload the page.");
       else if (program.changed(m.version)) toasts.show("warning", "Telemime was updated. Reload the page.");
+      isCamera = m.live;
       document.title = m.input ? `Telemime · ${m.input}` : "Telemime";
       camera.setCamera(m.camera);
       top.setCamera(m.camera);

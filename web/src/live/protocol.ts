@@ -61,19 +61,16 @@ const HelloSchema = v.object({
   protocol: number,
   version: text,
   input: text,
+  /** The input is a camera, before which somebody can step aside; a file is not. */
   live: v.fallback(v.boolean(), true),
   camera: v.fallback(v.nullable(CameraSchema), null),
   /** Names of the program's avatars. A name is a part of a path: plain characters only. */
   looks: listOf(v.pipe(v.string(), v.regex(/^[A-Za-z0-9_-]+$/))),
-  formats: listOf(v.string()),
   senders: listOf(SenderSchema),
 });
 
 /** Joints of the tracked skeleton in its T-pose, m: y up, facing +z, x to its own left. */
-const BodySchema = v.pipe(
-  v.object({ type: v.literal("body"), stature: numberOrNull, scale_from: text, bones: mapOf(vec3) }),
-  v.transform(({ scale_from, ...m }) => ({ ...m, scaleFrom: scale_from })),
-);
+const BodySchema = v.object({ type: v.literal("body"), bones: mapOf(vec3) });
 export type BodyMessage = v.InferOutput<typeof BodySchema>;
 
 const FaceSchema = v.object({

@@ -116,4 +116,12 @@ describe("recording", () => {
     expect(label()).toBe("Record");
     expect(said.join()).toMatch(/no connection/);
   });
+
+  it("of a program that has died is over", () => {
+    status(0.5);
+    expect(label()).toBe("Stop 0:00");
+    recordings.disconnected();
+    expect(label()).toBe("Record");
+    expect(element("record").classes.has("on")).toBe(false);
+  });
 });

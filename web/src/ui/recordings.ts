@@ -70,7 +70,7 @@ export class Recordings {
     const { request } = this;
     const closing = request?.on === false && this.recording; // the program completes the files, which may take minutes
     if (request && !closing && performance.now() - request.at > ANSWER_TIME) this.request = null;
-    return this.request?.on ?? this.recording;
+    return this.request?.on ?? (this.status !== null && this.recording);
   }
 
   private show(): void {
@@ -91,7 +91,10 @@ export class Recordings {
       remove.setAttribute("aria-label", asking ? `${label}? Press again to delete` : label);
       remove.classList.toggle("sure", asking);
     };
-    const forget = (): void => void this.send({ type: "forget", recording: r.number });
+    const forget = (): void => {
+      if (!this.send({ type: "forget", recording: r.number }))
+        this.announce("There is no connection to Telemime.");
+    };
     const remove = trashButton(label, confirmTwice(show, forget), { "data-focus": `d${r.number}` });
     const files = r.files.map((f) => {
       const extension = f.name.split(".").pop()?.toUpperCase() ?? f.name;

@@ -47,6 +47,7 @@ class GltfMotionEncoder final : public Encoder {
   }
 
   std::string frame(const MotionFrame& raw) override {
+    head_changed_ = false;
     keys_->add(clean_(raw));
     ++frames_;
     return keys_->count() >= next_snapshot_ ? snapshot() : std::string();
@@ -54,7 +55,9 @@ class GltfMotionEncoder final : public Encoder {
 
   std::string end() override { return frames_ > 0 ? snapshot() : std::string(); }
 
-  std::optional<Patch> patch() const override { return Patch{0, head_}; }
+  std::optional<Patch> patch() const override {
+    return head_changed_ ? std::optional(Patch{0, head_}) : std::nullopt;
+  }
 
  private:
   /// All keys so far, to be appended; updates the head to refer to them.
@@ -81,6 +84,7 @@ class GltfMotionEncoder final : public Encoder {
     const std::size_t size = head_.empty() ? glb_head(document, written_).size() + kRoomToGrow : json_size_;
     json_size_ = size;
     head_ = glb_head(document, written_, size);
+    head_changed_ = true;
     next_snapshot_ = std::max(kFirstSnapshot, 2 * keys_->count());
     return std::move(document.buffer);
   }
@@ -90,6 +94,7 @@ class GltfMotionEncoder final : public Encoder {
   std::optional<MotionKeys> keys_;
   CleanFrames clean_;
   std::string head_;           ///< always of the same size
+  bool head_changed_ = false;  ///< with the last frame, or at the end
   std::size_t json_size_ = 0;  ///< of the JSON chunk
   std::size_t written_ = 0;    ///< bytes of the binary chunk
   std::size_t next_snapshot_ = kFirstSnapshot;

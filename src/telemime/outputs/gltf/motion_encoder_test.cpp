@@ -137,11 +137,13 @@ TEST_P(GltfMotionTest, IsAValidFileAfterEveryFrameWithHalfOfTheMotionAtLeast) {
   const auto frames = random_frames(150);
   const auto encoder = GetParam()();
   std::string file = encoder->begin(header_);
+  int patches = 0;
   for (std::size_t t = 0; t < frames.size(); ++t) {
     file += encoder->frame(frames[t]);
-    const auto patch = encoder->patch();
-    ASSERT_TRUE(patch);
-    file.replace(patch->offset, patch->bytes.size(), patch->bytes);
+    if (const auto patch = encoder->patch()) {
+      file.replace(patch->offset, patch->bytes.size(), patch->bytes);
+      ++patches;
+    }
     if (t % 10 == 9) {
       const Glb glb = testing_glb::parse(file);
       const auto times = testing_glb::numbers<float>(glb, glb.json["animations"][0]["samplers"][0]["input"]);
@@ -153,6 +155,7 @@ TEST_P(GltfMotionTest, IsAValidFileAfterEveryFrameWithHalfOfTheMotionAtLeast) {
       EXPECT_LT(angle_from(glb, times.back(), frames[times.size() - 1].pose), kAngle);
     }
   }
+  EXPECT_LT(patches, 10) << "the head is written again only where it has changed";
 }
 
 TEST_P(GltfMotionTest, KeepsNumbersThatAreNotFiniteOut) {
