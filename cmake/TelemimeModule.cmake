@@ -3,6 +3,8 @@
 # every *_test.cpp.
 # It may include the modules in DEPENDS, and theirs (checked by tests/layering).
 
+include("${CMAKE_CURRENT_LIST_DIR}/TelemimeDiscover.cmake")
+
 add_library(telemime_flags INTERFACE)
 target_compile_features(telemime_flags INTERFACE cxx_std_20)
 target_compile_options(telemime_flags INTERFACE -Wall -Wextra -Wpedantic
@@ -50,7 +52,7 @@ if(TELEMIME_PCH)
                          $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow$<SEMICOLON>-Wno-array-bounds>)
   set(pch_headers <algorithm> <array> <functional> <memory> <optional> <span> <string> <vector> <Eigen/Dense>
                   <nlohmann/json.hpp> <opencv2/core.hpp>)
-  file(WRITE "${PROJECT_BINARY_DIR}/pch.cpp" "int main() {}\n")
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/pch.cpp" CONTENT "int main() {}\n")  # not touched where it is the same
   # A library for the modules, a program for the tests: their code is made for different positions in memory.
   add_library(telemime_pch_flags STATIC "${PROJECT_BINARY_DIR}/pch.cpp")
   add_library(telemime_pch_waiting_flags STATIC "${PROJECT_BINARY_DIR}/pch.cpp")
@@ -134,18 +136,24 @@ function(telemime_module name)
     target_link_libraries(${name}_test PRIVATE telemime_${name} telemime_test_flags GTest::gtest GTest::gtest_main)
     telemime_pch(${name}_test test_flags)
     telemime_source_dir(${tests})
-    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                         PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "${TELEMIME_SKIPPED}")
+    telemime_discover(${name}_test ${name} PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "${TELEMIME_SKIPPED}")
   endif()
 endfunction()
 
 # A test program of more than one module, below tests/: telemime_test(laws SOURCES a_test.cpp MODULES likelihood search
-# LABELS slow). The label "slow" keeps it out of the runs under sanitizers.
+# LABELS slow). The label "slow" keeps it out of the runs under sanitizers. EACH: as for telemime_discover.
 function(telemime_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;MODULES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(TEST "EACH" "" "SOURCES;MODULES;LIBRARIES;LABELS" ${ARGN})
   set(labels)
   if(TEST_LABELS)
     set(labels LABELS "${TEST_LABELS}")
+  endif()
+  if("slow" IN_LIST TEST_LABELS)
+    list(APPEND labels COST 10)  # long ones begin first, so that the run does not end with one alone
+  endif()
+  set(each)
+  if(TEST_EACH)
+    set(each EACH)
   endif()
   add_executable(${name}_test ${TEST_SOURCES})
   telemime_unity(${name}_test ${TEST_SOURCES})
@@ -157,6 +165,6 @@ function(telemime_test name)
                                              GTest::gtest_main)
   telemime_pch(${name}_test test_flags)
   telemime_source_dir(${TEST_SOURCES})
-  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 300 SKIP_REGULAR_EXPRESSION "${TELEMIME_SKIPPED}" ${labels})
+  telemime_discover(${name}_test ${name} ${each} PROPERTIES TIMEOUT 300
+                                                          SKIP_REGULAR_EXPRESSION "${TELEMIME_SKIPPED}" ${labels})
 endfunction()

@@ -150,7 +150,7 @@ def test_other_threads_run_meanwhile(clip, quick):
 
 def test_closing_ends_a_loop_in_another_thread(clip, quick):
     for _ in range(3):
-        run = telemime.track(clip / "video.mp4", settings=quick)
+        run = telemime.track(clip / "video.mp4", settings=dict(quick, offline=False))
         next(run)
         ended = []
 

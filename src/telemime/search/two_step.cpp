@@ -41,6 +41,8 @@ Eigen::VectorXd first_steps(const SearchBlock& block, const std::vector<Vertex>*
     return block.steps;
   }
   // The extent of the last simplex, centred on the block's present start: other blocks may have moved since.
+  // That of an arm has the numbers of the last round, also where the first round of the edge step has others:
+  // kept within the steps it does as well as one of the same numbers (five seeds of the four gestures).
   Eigen::VectorXd extent = block.steps * shrink;
   for (const Vertex& v : *last) {
     extent = extent.cwiseMax((v.point - last->front().point).cwiseAbs().cwiseMin(block.steps));
