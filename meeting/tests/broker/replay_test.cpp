@@ -212,15 +212,22 @@ TEST(Replay, DetailsWaitAndGoWithTheirFrames) {
       .participant = "p01",
       .warning = {}};
   constexpr std::uint16_t kSession = 7;
-  ReplayParticipant person(nowhere, kSession);
-  for (int i = 0; i < 10; ++i) {
-    for (const char* version : {"\x01", "\x02"}) {  // a frame, its detail
+  for (const bool sent : {false, true}) {
+    ReplayParticipant person(nowhere, kSession);
+    const auto publish = [&person](const char* version) {
       person.publish({TopicKind::pose, 0, kSession, false, version});
+    };
+    if (sent) {
+      publish("\x02");  // of a frame that was taken before it came
     }
+    for (int i = 0; i < 10; ++i) {
+      publish("\x01");  // a frame
+      publish("\x02");  // its detail
+    }
+    EXPECT_EQ(person.status().dropped, 10 - kQueuedPoses);
+    person.publish({TopicKind::presence, 0, kSession + 1, true, ""});
+    EXPECT_EQ(person.status().dropped, 10U);
   }
-  EXPECT_EQ(person.status().dropped, 10 - kQueuedPoses);
-  person.publish({TopicKind::presence, 0, kSession + 1, true, ""});
-  EXPECT_EQ(person.status().dropped, 10U);
 }
 
 TEST(Replay, RestartedBrokerGetsEverythingAgain) {

@@ -5,7 +5,7 @@ import { button, byId } from "#web/shared/dom";
 import { buildFrame } from "#web/shared/frame";
 import { Banner, Toasts } from "#web/shared/notices";
 import { Panel } from "#web/shared/panel";
-import { retryDelay } from "#web/shared/retry";
+import { Pause, retryDelay } from "#web/shared/retry";
 import { Shortcuts } from "#web/shared/shortcuts";
 import { exposeMeeting } from "./debug";
 import {
@@ -78,7 +78,12 @@ const meetingTab = new MeetingTab({
   command: () => (client ? trackerCommand(client.entered, client.me?.state ?? null) : null),
   announce: (words) => status.announce(words),
 });
-const banner = new Banner(() => client?.tryNow());
+const beforeNextTry = new Pause();
+function tryNow(): void {
+  client?.tryNow();
+  beforeNextTry.end();
+}
+const banner = new Banner(tryNow);
 const panel = new Panel(settings, keepSettings);
 const scene = new SceneUi(
   rig,
@@ -150,9 +155,10 @@ async function comeBack(words: string): Promise<void> {
     return;
   }
   const pause = async (n: number): Promise<boolean> => {
+    if (client !== old) return false;
     const ms = retryDelay(n, Math.random());
     banner.setState({ kind: "lost", retryAt: performance.now() + ms, words });
-    await new Promise((done) => window.setTimeout(done, ms));
+    await beforeNextTry.wait(ms);
     return client === old;
   };
   try {
@@ -342,7 +348,7 @@ window.addEventListener("pagehide", () => client?.leave());
 window.addEventListener("pageshow", (e) => {
   if (e.persisted && client) leave("Welcome back. Join again to continue.");
 });
-window.addEventListener("online", () => client?.tryNow());
+window.addEventListener("online", tryNow);
 
 const known = invite !== null || saved.seats.length > 0;
 entryForm.open(known ? "" : "Open this page with the link of a meeting. Ask its host for one.", known);

@@ -11,3 +11,22 @@ export type ConnectionState =
 export function retryDelay(n: number, chance: number): number {
   return Math.min(10000, 500 * 2 ** n) * (0.8 + 0.4 * chance);
 }
+
+/** A pause that can be ended before its time. */
+export class Pause {
+  private over: () => void = () => undefined;
+
+  wait(ms: number): Promise<void> {
+    return new Promise((done) => {
+      const timer = setTimeout(done, ms);
+      this.over = () => {
+        clearTimeout(timer);
+        done();
+      };
+    });
+  }
+
+  end(): void {
+    this.over();
+  }
+}

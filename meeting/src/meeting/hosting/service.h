@@ -37,7 +37,6 @@ class MeetingService {
   void set_chairs(std::vector<std::string> chairs);
   /// Clears the retained messages of these participants. From any thread.
   void forget(const std::vector<std::string>& participants);
-  /// Whether the broker has the message `room`.
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -26,6 +26,24 @@ std::size_t ReplayParticipant::Pending::frames() const {
       std::count_if(poses.begin(), poses.end(), [](const std::string& p) { return !is_pose_detail(p); }));
 }
 
+void ReplayParticipant::Pending::add_pose(std::string pose, std::uint64_t& dropped) {
+  if (is_pose_detail(pose)) {
+    if (poses.size() <= 2 * kQueuedPoses) {
+      poses.push_back(std::move(pose));
+    }
+    return;
+  }
+  // A frame is followed by its detail: they go together. The first may be the detail of a frame that was
+  // sent.
+  while (frames() >= kQueuedPoses) {
+    do {
+      dropped += is_pose_detail(poses.front()) ? 0 : 1;
+      poses.pop_front();
+    } while (is_pose_detail(poses.front()));
+  }
+  poses.push_back(std::move(pose));
+}
+
 ReplayParticipant::ReplayParticipant(BrokerLogin login, std::uint16_t session)
     : login_(std::move(login)),
       loop_([this] { return stopping_.load(); }),
@@ -78,14 +96,7 @@ void ReplayParticipant::publish(ReplayStep step) {
         }
         break;
       case TopicKind::pose:
-        // A frame is followed by its detail: they go together.
-        if (!is_pose_detail(step.payload) && pending_.frames() == kQueuedPoses) {
-          do {
-            status_.dropped += is_pose_detail(pending_.poses.front()) ? 0 : 1;
-            pending_.poses.pop_front();
-          } while (!pending_.poses.empty() && is_pose_detail(pending_.poses.front()));
-        }
-        pending_.poses.push_back(std::move(step.payload));
+        pending_.add_pose(std::move(step.payload), status_.dropped);
         break;
       case TopicKind::meeting:
         return;

@@ -66,6 +66,7 @@ class ReplayParticipant {
     std::deque<std::string> poses;  ///< frames, and after each its detail if it has one
     std::deque<std::string> chats;
     std::size_t frames() const;  ///< in `poses`
+    void add_pose(std::string pose, std::uint64_t& dropped);
     bool has_work() const {
       return new_presence || new_state || !new_pages.empty() || !poses.empty() || !chats.empty();
     }
