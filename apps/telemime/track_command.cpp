@@ -76,8 +76,8 @@ class Viewer {
   enum class State { none, open, closed };
   static constexpr const char* kTitle = "telemime   space: pause   r: recalibrate   q: quit";
 
-  // A closed window receives no keys.
-  static bool is_open() { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) >= 1.0; }
+  // A closed window receives no keys. Some toolkits do not tell, which is -1.
+  static bool is_open() { return cv::getWindowProperty(kTitle, cv::WND_PROP_VISIBLE) != 0.0; }
 
   void poll() {
     if (state_ != State::open) {

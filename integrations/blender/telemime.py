@@ -367,12 +367,13 @@ def disconnect():
 
 def tick():
     """Called by Blender's timer while the receiver is connected."""
-    before, fresh = receiver and receiver.tracking, False
+    def shown(): return receiver and (receiver.tracking, receiver.time is None)
+    before, fresh = shown(), False
     try:
         fresh = receiver and receiver.poll()
     except (ReferenceError, KeyError, ValueError, RuntimeError):  # the rig has been deleted, renamed or changed
         disconnect()
-    for window in bpy.context.window_manager.windows if fresh or (receiver and receiver.tracking) != before else ():
+    for window in bpy.context.window_manager.windows if fresh or shown() != before else ():
         for area in window.screen.areas:
             area.tag_redraw()
     return 1 / 60 if receiver else None

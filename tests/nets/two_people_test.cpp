@@ -124,18 +124,21 @@ TEST_F(TwoPeople, WhoSitsDownInFrontIsFollowed) {
     return out;
   };
   // One person at the back of the room; somebody walks past, then somebody stays.
-  double switched = 0.0;
-  for (double time = 0.0; time < 8.0; time += 0.5) {
-    const bool near = (time > 0.6 && time < 2.1) || time > 3.1;
+  std::vector<double> switched;
+  for (double time = 0.0; time < 11.0; time += 0.5) {
+    const bool near = (time > 0.6 && time < 2.1) || (time > 3.1 && time < 8.1);
     const auto person = finder_.find(at_work(static_cast<std::size_t>(time), near), time);
-    ASSERT_TRUE(person) << time;
-    EXPECT_EQ(place_of(*person).shoulders.x() < 200, time > 5.9) << time;
+    if (time < 8.1 || time > 9.1) {  // who came has left: the other is found again within a second
+      ASSERT_TRUE(person) << time;
+      EXPECT_EQ(place_of(*person).shoulders.x() < 200, time > 5.9 && time < 8.1) << time;
+    }
     if (finder_.switched()) {
-      EXPECT_EQ(switched, 0.0) << time << ": once";
-      switched = time;
+      switched.push_back(time);
     }
   }
-  EXPECT_EQ(switched, 6.0);
+  ASSERT_EQ(switched.size(), 2U) << "there and back";
+  EXPECT_EQ(switched[0], 6.0);
+  EXPECT_GT(switched[1], 8.1);
 }
 
 TEST_F(TwoPeople, AMaskIsKeptForOnePicture) {

@@ -77,6 +77,24 @@ TEST(LostAndFound, WhoeverComesBackIsExpectedToFaceTheCamera) {
   EXPECT_EQ(run.state.heading, 0.0);
 }
 
+TEST(LostAndFound, SomebodyElseHasTheirOwnColoursAndTheBodyMayNotFit) {
+  TrackingRun run = learned_run();
+  const auto warnings = [&run](bool other, bool calibrated) {
+    FrameFeatures features;
+    features.other_person = other;
+    note_other_person(calibrated, run.scene, features);
+    return features.warnings.size();
+  };
+  EXPECT_EQ(warnings(false, true), 0U);
+  EXPECT_FALSE(run.scene.relearn_colours);
+  EXPECT_EQ(warnings(true, false), 0U) << "no body that could be somebody else's";
+  EXPECT_TRUE(run.scene.relearn_colours);
+  EXPECT_EQ(warnings(true, true), 1U);
+  EXPECT_EQ(warnings(false, true), 1U) << "until the next calibration";
+  forget_person(run);
+  EXPECT_EQ(warnings(false, true), 0U);
+}
+
 TEST(LostAndFound, SomebodyElseHasTheirOwnFaceAndHands) {
   for (const bool other : {false, true}) {
     TrackingRun run = learned_run();

@@ -74,13 +74,11 @@ InputKind input_kind(const std::string& input) {
   if (all_digits(input)) {
     return InputKind::camera;
   }
-  const std::string path = without_file_scheme(input);
-  std::error_code ignored;
-  // Files may lie in /dev/shm.
-  if (path.starts_with("/dev/") && !std::filesystem::is_regular_file(path, ignored) &&
-      !std::filesystem::is_directory(path, ignored) && !is_pattern(path)) {
+  if (input.starts_with("/dev/") && !input.starts_with("/dev/shm")) {  // where files may lie
     return InputKind::device;
   }
+  const std::string path = without_file_scheme(input);
+  std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     return InputKind::folder;
   }

@@ -86,6 +86,7 @@ std::optional<SeenPerson> PersonFinder::detected(const cv::Mat& picture, double 
 
 std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double time) {
   constexpr double kRemembered = 1.0;  // s: after that, anybody may be the person
+  constexpr double kError = 0.15;      // m, of a place
   found_ = switched_ = false;
   if (!networks_) {
     return std::nullopt;
@@ -107,6 +108,7 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
       mask_time = followed_->mask_time;
     }
   }
+  const bool moved_on = !found.has_value();
   if (!found) {
     found = detected(picture, time);
   }
@@ -125,11 +127,15 @@ std::optional<PoseLandmarks> PersonFinder::find(const cv::Mat& picture, double t
                .mask_time = mask_time,
                .own_mask = false,
                .facing = facing};
-  if (count(picture, followed_->place, time)) {
+  // Whoever is found where the person nearby was not may be the one who was followed before.
+  const PersonPlace place = followed_->place;
+  switched_ = went_over_ && moved_on && last_ && !may_be_same(*last_, place, 0.0, kError);
+  last_ = place;
+  if (count(picture, place, time)) {
     // Somebody sits in front of the person who is followed: from now on, they are the person.
     reset();
     auto nearer = find(picture, time);
-    switched_ = nearer.has_value();
+    went_over_ = switched_ = nearer && !may_be_same(place, place_of(*nearer), 0.0, kError);
     return nearer;
   }
   return landmarks;

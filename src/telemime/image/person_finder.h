@@ -57,14 +57,16 @@ class PersonFinder {
   /// People in the picture when they were last counted, at most 1 s ago.
   int people() const { return people_; }
 
-  /// Whether the last find() went over from the person who was followed to somebody else.
+  /// Whether the last find() went over from the person who was followed to somebody nearer, or may have come
+  /// back from them.
   bool switched() const { return switched_; }
 
   /// Forgets where the person was.
   void reset() {
     followed_.reset();
-    found_ = false;
+    found_ = went_over_ = false;
     nearer_since_.reset();
+    last_.reset();
   }
 
  private:
@@ -87,8 +89,10 @@ class PersonFinder {
 
   std::shared_ptr<PoseNetworks> networks_;
   std::optional<Followed> followed_;
-  bool found_ = false;     ///< somebody, in the last picture
-  bool switched_ = false;  ///< to somebody else, in the last picture
+  bool found_ = false;               ///< somebody, in the last picture
+  bool switched_ = false;            ///< to somebody else, in the last picture
+  bool went_over_ = false;           ///< to somebody nearer, in some picture before
+  std::optional<PersonPlace> last_;  ///< where somebody was found last
   int people_ = 0;
   std::optional<double> counted_;       ///< when the people were counted
   std::optional<double> nearer_since_;  ///< since when somebody is much nearer than the person, s

@@ -29,8 +29,8 @@ struct RunHooks {
   std::function<void(const std::string&)> message;         ///< notes for the user; may be empty
   std::function<void(const StreamHeader&)> person;         ///< once, before the first frame; may be empty
   std::function<void(const MotionFrame&)> motion;          ///< each frame as it is written; may be empty
-  /// Each overlay as it is drawn, many at a time (draw_overlay); with it they are drawn even when none is
-  /// written. May be empty.
+  /// Each overlay (draw_overlay) as it is drawn, often many in a row; with it they are drawn even when none
+  /// is written. May be empty.
   std::function<void(const cv::Mat&)> picture;
 };
 

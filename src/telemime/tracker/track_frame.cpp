@@ -286,6 +286,7 @@ FrameFeatures extract(const Frame& frame, ColourRequest request, SceneState& sce
   // Whether a person is present, and warnings where the assumptions of the scene model do not hold.
   features.warnings = scene.features.status().warnings;
   features.person_present = scene.features.status().person;
+  features.other_person = scene.features.status().other_person;
   note_other_person(request == ColourRequest::keep, scene, features);
   features.note = learned.note;
   features.face_learned = learned.face_learned;
@@ -339,8 +340,8 @@ FrameEstimate estimate(const FrameFeatures& features, const Tracker& tracker, Tr
     check_unseen(features, tracker, state, result);
   }
   const bool tracking = state.phase == Phase::tracking;
-  if (!tracking && result.note.empty()) {
-    result.note = state.reason;  // between two searches
+  if (!tracking && (result.prepared || result.note.empty()) && !state.reason.empty()) {
+    result.note = state.reason;  // also between two searches
   }
   // Poses for the passes over a whole file.
   if (tracking && tracker.config.look_back) {

@@ -56,14 +56,14 @@ void use_calibration(const CalibratedPerson& person, const ImageCalibration& ima
 }
 
 void note_other_person(bool calibrated, SceneState& scene, FrameFeatures& features) {
-  features.other_person = scene.features.status().other_person;
   if (features.other_person) {
     scene.relearn_colours = true;
-    scene.other_body = calibrated;
+    scene.other_body = scene.other_body || calibrated;
   }
   if (scene.other_body) {
     features.warnings.emplace_back(
-        "somebody nearer to the camera is followed now: recalibrate to fit the body to them");
+        "somebody else may be followed now, who is nearer to the camera: recalibrate to fit the body to "
+        "them");
   }
 }
 

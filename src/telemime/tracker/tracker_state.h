@@ -114,8 +114,9 @@ TrackingRun make_tracking_run(const Config& config, const Camera& camera);
 /// Uses the person and the scene that another run with the same camera calibrated.
 void use_calibration(const CalibratedPerson& person, const ImageCalibration& image, TrackingRun& run);
 
-/// Where somebody who sits down nearer to the camera is followed from this frame on: their colours are
-/// learned, and if a body was calibrated, a warning says until the next calibration that it is not theirs.
+/// Where somebody else is followed from this frame on (FrameFeatures::other_person), their colours are
+/// learned, and if a body was calibrated, a warning says until the next calibration that it may not be
+/// theirs.
 void note_other_person(bool calibrated, SceneState& scene, FrameFeatures& features);
 
 /// Forgets what is learned of a person in seconds: it may be somebody else who is seen now.
