@@ -19,7 +19,7 @@ namespace telemime {
 /// The request of `telemime live`.
 struct LiveRequest {
   TrackRequest request;
-  bool camera = true;             ///< the input is no file: somebody can be asked to leave the image
+  bool camera = true;             ///< or a stream, not a file: somebody can be asked to leave the image
   bool ends = false;              ///< the end of the input is not a failure: a file, also on a server
   bool guided = true;             ///< wait for the empty room
   double page_wait = 60.0;        ///< s without an open page, after which tracking starts without the guide
