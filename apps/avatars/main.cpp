@@ -3,26 +3,12 @@
 // triangles, as LOOK-light.vrm. The build runs it; the files are installed with the program.
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "avatars/avatar.h"
-
-namespace telemime {
-namespace {
-
-void write(const std::filesystem::path& file, const AvatarLook& look) {
-  std::ofstream out;
-  out.exceptions(std::ios::failbit | std::ios::badbit);
-  out.open(file, std::ios::binary);
-  out << make_avatar(Shape{}, look);
-  out.close();
-}
-
-}  // namespace
-}  // namespace telemime
+#include "telemime/core/files.h"
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
@@ -35,8 +21,8 @@ int main(int argc, char** argv) {
     std::filesystem::create_directories(folder);
     for (const telemime::AvatarLook& look : telemime::kAvatarLooks) {
       const std::string name(look.name);
-      telemime::write(folder / (name + ".vrm"), look);
-      telemime::write(folder / (name + "-light.vrm"), light(look));
+      telemime::write_whole_file(folder / (name + ".vrm"), make_avatar({}, look));
+      telemime::write_whole_file(folder / (name + "-light.vrm"), make_avatar({}, light(look)));
     }
   } catch (const std::exception& e) {
     std::cerr << "telemime-avatars: " << e.what() << '\n';

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include "live/session_events.h"
+#include "support/needs.h"
 #include "telemime/capture/playback.h"
 #include "telemime/core/scratch_folder.h"
-#include "telemime/nets/models/table.h"
 #include "telemime/offline/track_file.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/readers/jsonl.h"
@@ -139,16 +138,12 @@ TEST(LiveAndFile, FilesAreEqualWithSameSmoothing) {
   }
 }
 
+class LiveWithoutGuide : public support::WithNetworks {};
+
 // The default of `telemime live`: a room as it is, nobody steps out of the picture, no guide.
-TEST(LiveWithoutGuide, TheAvatarMovesWithinThreeSeconds) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
-  if (const std::string missing = missing_models(TELEMIME_BUILD_MODELS, names); !missing.empty()) {
-    std::cout << missing << '\n';
-    GTEST_SKIP() << missing;
-  }
+TEST_F(LiveWithoutGuide, TheAvatarMovesWithinThreeSeconds) {
   std::vector<std::filesystem::path> clips = {TELEMIME_SOURCE_DIR "/data/demo/video.mp4"};
-  const char* const variable = std::getenv("TELEMIME_DATA");
-  const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
+  const std::filesystem::path data = support::test_data();
   for (const char* other : {"dev_practical/desk_talk/video.mp4", "real/webcam_hello/clip.mp4"}) {
     if (std::filesystem::exists(data / other)) {
       clips.push_back(data / other);

@@ -5,21 +5,19 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/body/face_model.h"
 #include "telemime/capture/source.h"
 #include "telemime/evaluation/truth.h"
 #include "telemime/nets/face_landmarks.h"
 #include "telemime/nets/hand_landmarks.h"
-#include "telemime/nets/models/table.h"
 #include "telemime/nets/pose_detector.h"
 
 namespace telemime {
@@ -30,18 +28,7 @@ namespace fs = std::filesystem;
 const fs::path kModels = TELEMIME_BUILD_MODELS;
 const fs::path kDemo = TELEMIME_SOURCE_DIR "/data/demo";
 
-class FindPose : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const std::vector<std::string> names = {
-        "pose_detection",     "pose_landmark_full",         "pose_landmark_lite",          "hand_recrop",
-        "hand_landmark_full", "face_detection_short_range", "face_landmark_with_attention"};
-    if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-      std::cout << missing << '\n';
-      GTEST_SKIP() << missing;
-    }
-  }
-};
+class FindPose : public support::WithNetworks {};
 
 std::vector<cv::Mat> frames_of(const fs::path& clip, std::size_t count) {
   const std::unique_ptr<Source> source = open_source(clip.string());
@@ -248,18 +235,15 @@ TEST_F(FindPose, TheSecondLookSeesTheSameFace) {
 }
 
 TEST_F(FindPose, FindsEverybodyInTheRealClips) {
-  const char* const variable = std::getenv("TELEMIME_DATA");
-  const fs::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
-  if (!fs::exists(data / "real")) {
-    const std::string reason = "no test data: set TELEMIME_DATA";
-    std::cout << reason << '\n';
-    GTEST_SKIP() << reason;
+  const fs::path clips = support::test_data() / "real";
+  if (!fs::exists(clips)) {
+    GTEST_SKIP() << support::kNoClips;
   }
   PoseNetworks networks = load_pose_networks(kModels, PoseModel::lite);
   for (const char* clip :
        {"webcam_hello", "seated_stereo", "pose2sim_cam2", "handheld_wave", "room_wave_10fps"}) {
     std::optional<PictureRegion> region;
-    for (const cv::Mat& frame : frames_of(data / "real" / clip / "clip.mp4", 20)) {
+    for (const cv::Mat& frame : frames_of(clips / clip / "clip.mp4", 20)) {
       const auto found = find_pose(frame, networks, region);
       ASSERT_TRUE(found) << clip;
       region = found->next_region;

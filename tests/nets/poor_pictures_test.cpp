@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,10 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "support/needs.h"
+#include "support/pictures.h"
 #include "telemime/capture/source.h"
 #include "telemime/image/features.h"
 #include "telemime/image/person_finder.h"
-#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -27,16 +26,11 @@ using Index = PoseLandmarkIndex;
 
 const fs::path kModels = TELEMIME_BUILD_MODELS;
 
+class PoorPictures : public support::WithNetworks {};
+
 cv::Mat blurred(const cv::Mat& picture) {
   cv::Mat out;
   cv::GaussianBlur(picture, out, {}, picture.cols / 250.0);
-  return out;
-}
-
-cv::Mat grey(const cv::Mat& picture) {
-  cv::Mat out;
-  cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
-  cv::cvtColor(out, out, cv::COLOR_GRAY2BGR);
   return out;
 }
 
@@ -53,21 +47,13 @@ cv::Mat dark(const cv::Mat& picture) {
   return out;
 }
 
-TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
-  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
-  const char* const variable = std::getenv("TELEMIME_DATA");
-  const fs::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
-  const fs::path clip = data / "real/pose2sim_cam2/clip.mp4";
+TEST_F(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
+  const fs::path clip = support::test_data() / "real/pose2sim_cam2/clip.mp4";
   if (!fs::exists(clip)) {
-    const std::string reason = "no test data: set TELEMIME_DATA";
-    std::cout << reason << '\n';
-    GTEST_SKIP() << reason;
+    GTEST_SKIP() << support::kNoClips;
   }
   const std::vector<std::pair<std::string, std::function<cv::Mat(const cv::Mat&)>>> pictures = {
-      {"blurred", blurred}, {"grey", grey}, {"dark", dark}};
+      {"blurred", blurred}, {"grey", support::grey}, {"dark", dark}};
   for (const auto& [name, made] : pictures) {
     PersonFinder finder(kModels);
     const std::unique_ptr<Source> source = open_source(clip.string());
@@ -89,14 +75,10 @@ TEST(PoorPictures, SidesOfAPersonWhoFacesTheCameraStay) {
   }
 }
 
-TEST(PoorPictures, GreyPicturesTeachNoColours) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
-  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
+TEST_F(PoorPictures, GreyPicturesTeachNoColours) {
   Frame frame = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4")->next().value();
   Frame colourless = frame;
-  colourless.image = grey(frame.image);
+  colourless.image = support::grey(frame.image);
   ImageConfig config;
   config.models = kModels;
   FeatureExtractor features(config);
@@ -106,11 +88,7 @@ TEST(PoorPictures, GreyPicturesTeachNoColours) {
   EXPECT_TRUE(features.learn_person(frame).accepted);
 }
 
-TEST(PoorPictures, ARefusedFrameLeavesTheHead) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
-  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
+TEST_F(PoorPictures, ARefusedFrameLeavesTheHead) {
   const auto radii = [](bool refused) {
     const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");
     ImageConfig config;
@@ -137,7 +115,7 @@ TEST(PoorPictures, ARefusedFrameLeavesTheHead) {
   EXPECT_LT((radii(true) - usual).norm(), 0.1);
 }
 
-TEST(PoorPictures, OverexposureIsNamed) {
+TEST_F(PoorPictures, OverexposureIsNamed) {
   const auto warns = [](double gain) {
     ImageConfig config;
     config.landmarks = false;

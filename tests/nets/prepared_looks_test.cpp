@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/capture/source.h"
 #include "telemime/image/face_finder.h"
 #include "telemime/image/hand_finder.h"
 #include "telemime/nets/find_pose.h"
-#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -24,15 +22,12 @@ namespace {
 const std::filesystem::path kModels = TELEMIME_BUILD_MODELS;
 constexpr double kFrame = 0.04;  // s
 
-class PreparedLooks : public ::testing::Test {
+class PreparedLooks : public support::WithNetworks {
  protected:
   void SetUp() override {
-    const std::vector<std::string> names = {
-        "pose_detection",     "pose_landmark_full",         "hand_recrop",
-        "hand_landmark_full", "face_detection_short_range", "face_landmark_with_attention"};
-    if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-      std::cout << missing << '\n';
-      GTEST_SKIP() << missing;
+    WithNetworks::SetUp();
+    if (IsSkipped()) {
+      return;
     }
     constexpr std::size_t kFrames = 6;
     const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");

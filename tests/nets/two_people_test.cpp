@@ -8,11 +8,12 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "support/needs.h"
+#include "support/pictures.h"
 #include "telemime/capture/source.h"
 #include "telemime/image/face_finder.h"
 #include "telemime/image/features.h"
 #include "telemime/image/person_finder.h"
-#include "telemime/nets/models/table.h"
 
 namespace telemime {
 namespace {
@@ -24,12 +25,12 @@ constexpr int kColumns = 520;
 constexpr int kRows = 240;
 constexpr double kFrame = 0.04;  // s
 
-class TwoPeople : public ::testing::Test {
+class TwoPeople : public support::WithNetworks {
  protected:
   void SetUp() override {
-    const std::vector<std::string> names = {"pose_detection", "pose_landmark_full"};
-    if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-      GTEST_SKIP() << missing;
+    WithNetworks::SetUp();
+    if (IsSkipped()) {
+      return;
     }
     const std::unique_ptr<Source> source = open_source(TELEMIME_SOURCE_DIR "/data/demo/video.mp4");
     for (std::optional<Frame> frame = source->next(); frame && frames_.size() < 12; frame = source->next()) {
@@ -224,22 +225,15 @@ TEST_F(TwoPeople, SomebodyElseIsNoArm) {
 }
 
 TEST_F(TwoPeople, GreyPictureHasTheOutlineOfTheMask) {
-  const auto grey = [](const cv::Mat& image) {
-    cv::Mat one;
-    cv::cvtColor(image, one, cv::COLOR_BGR2GRAY);
-    cv::Mat three;
-    cv::cvtColor(one, three, cv::COLOR_GRAY2BGR);
-    return three;
-  };
   FeatureExtractor features = extractor();
-  const std::vector<Frame> empty{{grey(empty_picture()), 0, 0.0}};
+  const std::vector<Frame> empty{{support::grey(empty_picture()), 0, 0.0}};
   features.learn_background(empty);
-  const FrameFeatures seen = features.extract({grey(picture(0, true, false)), 0, 0.0});
+  const FrameFeatures seen = features.extract({support::grey(picture(0, true, false)), 0, 0.0});
   ASSERT_TRUE(seen.landmarks);
   EXPECT_EQ(cv::countNonZero(seen.silhouette != (seen.landmarks->mask > 127)), 0);
   EXPECT_GT(cv::countNonZero(seen.edges), 300);
   // It is that of each picture: a kept one would be the outline of an earlier pose.
-  const FrameFeatures next = features.extract({grey(picture(1, true, false)), 1, kFrame});
+  const FrameFeatures next = features.extract({support::grey(picture(1, true, false)), 1, kFrame});
   ASSERT_TRUE(next.landmarks);
   EXPECT_GT(cv::countNonZero(next.landmarks->mask != seen.landmarks->mask), 0);
   EXPECT_FALSE(has_colour(features.status()));
@@ -247,10 +241,6 @@ TEST_F(TwoPeople, GreyPictureHasTheOutlineOfTheMask) {
 }
 
 TEST_F(TwoPeople, AFaceBesideACoveredOneIsNotTaken) {
-  const std::vector<std::string> names = {"face_detection_short_range", "face_landmark_with_attention"};
-  if (const std::string missing = missing_models(kModels, names); !missing.empty()) {
-    GTEST_SKIP() << missing;
-  }
   cv::Mat image = frames_[0].clone();
   const auto person = finder_.find(image, 0.0);
   ASSERT_TRUE(person);

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -15,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/capture/source.h"
 #include "telemime/core/random.h"
 #include "telemime/image/hand_finder.h"
-#include "telemime/nets/models/table.h"
 #include "telemime/tracker/smoother.h"
 #include "telemime/tracker/track_frame.h"
 
@@ -27,29 +24,16 @@ namespace {
 
 constexpr std::size_t kSettled = 10;  // frames after which a face has been learned
 
-// The file, or why the test cannot run.
-struct Input {
-  std::filesystem::path file;
-  std::string missing;
-};
-Input input(const std::string& name) {
-  const char* const variable = std::getenv("TELEMIME_DATA");
-  const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
-  const std::vector<std::string> models = {
-      "pose_detection", "pose_landmark_full", "face_detection_short_range", "face_landmark_with_attention",
-      "hand_recrop",    "hand_landmark_full"};
-  Input in{.file = data / name, .missing = missing_models(TELEMIME_BUILD_MODELS, models)};
-  if (in.missing.empty() && !std::filesystem::exists(in.file)) {
-    in.missing = "no test data: set TELEMIME_DATA";
-  }
-  if (!in.missing.empty()) {
-    std::cout << in.missing << '\n';
-  }
-  return in;
-}
+// Clips of the test data.
+constexpr const char* kWebcam = "real/webcam_hello/clip.mp4";
+constexpr const char* kDeskTalk = "dev_practical/desk_talk/video.mp4";
+constexpr const char* kJoy = "dev/joy/video.mp4";
 
-std::vector<Frame> frames_of(const std::filesystem::path& file, std::size_t first, std::size_t count) {
-  const auto source = open_source(file.string());
+class CoveredFace : public support::WithClips {};
+class CoveredHands : public support::WithClips {};
+
+std::vector<Frame> frames_of(const std::string& file, std::size_t first, std::size_t count) {
+  const auto source = open_source((support::test_data() / file).string());
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < first + count; ++i) {
     auto frame = source->next();
@@ -123,9 +107,9 @@ struct Webcam {
   std::vector<Frame> frames;
   std::vector<FaceLandmarks> faces;
 };
-const Webcam& webcam(const std::filesystem::path& file) {
-  static const Webcam seen = [&] {
-    Webcam w{.frames = frames_of(file, 0, 60), .faces = {}};
+const Webcam& webcam() {
+  static const Webcam seen = [] {
+    Webcam w{.frames = frames_of(kWebcam, 0, 60), .faces = {}};
     TrackingRun run = new_run(w.frames.front().image.size(), 60.0, false);
     for (const Frame& frame : w.frames) {
       const auto found = extract(frame, ColourRequest::keep, run.scene).face;
@@ -137,8 +121,8 @@ const Webcam& webcam(const std::filesystem::path& file) {
 }
 
 // The same with parts of the face painted over.
-std::vector<Frame> webcam_with(const Covered& covered, const std::filesystem::path& file) {
-  const Webcam& seen = webcam(file);
+std::vector<Frame> webcam_with(const Covered& covered) {
+  const Webcam& seen = webcam();
   std::vector<Frame> frames = seen.frames;
   Random random(7);
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -222,12 +206,8 @@ bool is_of_eyes(std::size_t expression) {
   return kExpressionNames[expression].starts_with("eye");
 }
 
-TEST(CoveredFace, MouthUnderAMaskIsStill) {
-  const Input in = input("real/webcam_hello/clip.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  const auto motion = steadied(webcam_with({{kMask}, {150, 120, 90}}, in.file), 60.0, false);
+TEST_F(CoveredFace, MouthUnderAMaskIsStill) {
+  const auto motion = steadied(webcam_with({{kMask}, {150, 120, 90}}), 60.0, false);
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     if (is_of_mouth(i)) {
       EXPECT_LE(deviation(motion, i), 0.05) << kExpressionNames[i];
@@ -236,12 +216,8 @@ TEST(CoveredFace, MouthUnderAMaskIsStill) {
   EXPECT_LE(largest_turn(motion), 5.0);
 }
 
-TEST(CoveredFace, HalfAFaceDoesNotFlutter) {
-  const Input in = input("real/webcam_hello/clip.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  const auto motion = steadied(webcam_with({{kLeftHalf}, {60, 60, 60}}, in.file), 60.0, false);
+TEST_F(CoveredFace, HalfAFaceDoesNotFlutter) {
+  const auto motion = steadied(webcam_with({{kLeftHalf}, {60, 60, 60}}), 60.0, false);
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     if (!is_of_eyes(i)) {
       EXPECT_LE(deviation(motion, i), 0.05) << kExpressionNames[i];
@@ -250,12 +226,8 @@ TEST(CoveredFace, HalfAFaceDoesNotFlutter) {
   EXPECT_LE(largest_turn(motion), 5.0);
 }
 
-TEST(CoveredFace, SunglassesLeaveTheHeadSteady) {
-  const Input in = input("real/webcam_hello/clip.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  const auto motion = steadied(webcam_with({{kRightGlass, kLeftGlass}, {15, 15, 15}}, in.file), 60.0, false);
+TEST_F(CoveredFace, SunglassesLeaveTheHeadSteady) {
+  const auto motion = steadied(webcam_with({{kRightGlass, kLeftGlass}, {15, 15, 15}}), 60.0, false);
   EXPECT_LE(largest_turn(motion), 5.0);
   for (std::size_t i = 0; i < kExpressionCount; ++i) {
     if (is_of_mouth(i)) {
@@ -264,23 +236,15 @@ TEST(CoveredFace, SunglassesLeaveTheHeadSteady) {
   }
 }
 
-TEST(CoveredFace, FilmedMaskDoesNotSmile) {
-  const Input in = input("real/seated_stereo/clip.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  const auto motion = steadied(frames_of(in.file, 35, 60), 43.6, false);
+TEST_F(CoveredFace, FilmedMaskDoesNotSmile) {
+  const auto motion = steadied(frames_of("real/seated_stereo/clip.mp4", 35, 60), 43.6, false);
   EXPECT_LE(deviation(motion, static_cast<std::size_t>(Expression::mouth_smile_left)), 0.05);
   EXPECT_LE(deviation(motion, static_cast<std::size_t>(Expression::mouth_smile_right)), 0.05);
 }
 
-TEST(CoveredHands, FingersOfStillGlovesAreStill) {
-  const Input in = input("dev_practical/desk_talk/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
+TEST_F(CoveredHands, FingersOfStillGlovesAreStill) {
   // Skin about the hands becomes dark.
-  cv::Mat picture = frames_of(in.file, 150, 1).at(0).image.clone();
+  cv::Mat picture = frames_of(kDeskTalk, 150, 1).at(0).image.clone();
   TrackingRun run = new_run(picture.size(), 60.0, true);
   const FrameFeatures features = extract({picture, 0, 0.0}, ColourRequest::keep, run.scene);
   for (const SeenHand& hand : features.hands.value()) {
@@ -301,13 +265,9 @@ TEST(CoveredHands, FingersOfStillGlovesAreStill) {
   EXPECT_LE(largest_change(motion, kSettled), 5.0);
 }
 
-TEST(CoveredHands, HiddenHandsGoToRestGently) {
-  const Input in = input("dev_practical/desk_talk/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
+TEST_F(CoveredHands, HiddenHandsGoToRestGently) {
   // Both hands are seen; then a board is before them.
-  const cv::Mat picture = frames_of(in.file, 250, 1).at(0).image;
+  const cv::Mat picture = frames_of(kDeskTalk, 250, 1).at(0).image;
   std::vector<Frame> frames = still(picture, 50);
   TrackingRun run = new_run(picture.size(), 60.0, true);
   const FrameFeatures features = extract(frames.front(), ColourRequest::keep, run.scene);
@@ -333,23 +293,15 @@ TEST(CoveredHands, HiddenHandsGoToRestGently) {
   }
 }
 
-TEST(CoveredHands, FingersOfStillClaspedHandsAreStill) {
-  const Input in = input("dev_practical/desk_talk/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
-  const auto frames = still(frames_of(in.file, 262, 1).at(0).image, 60);
+TEST_F(CoveredHands, FingersOfStillClaspedHandsAreStill) {
+  const auto frames = still(frames_of(kDeskTalk, 262, 1).at(0).image, 60);
   EXPECT_LE(largest_change(steadied(frames, 60.0, true), kSettled), 5.0);
 }
 
-TEST(CoveredHands, HandsBehindTheHeadAreAtRest) {
-  const Input in = input("dev/joy/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
+TEST_F(CoveredHands, HandsBehindTheHeadAreAtRest) {
   // Both hands go to the face; the head of the first frame is before them.
-  const cv::Mat first = frames_of(in.file, 0, 1).at(0).image;
-  std::vector<Frame> frames = frames_of(in.file, 100, 40);
+  const cv::Mat first = frames_of(kJoy, 0, 1).at(0).image;
+  std::vector<Frame> frames = frames_of(kJoy, 100, 40);
   cv::Mat head = cv::Mat::zeros(first.size(), CV_8UC1);
   cv::ellipse(head, {317, 182}, {52, 66}, 0, 0, 360, 255, cv::FILLED);
   for (Frame& frame : frames) {
@@ -361,13 +313,9 @@ TEST(CoveredHands, HandsBehindTheHeadAreAtRest) {
   EXPECT_LE(largest_change(motion, 34), 5.0) << "at rest";
 }
 
-TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
-  const Input in = input("dev_practical/desk_talk/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
+TEST_F(CoveredHands, HandOutsideThePictureIsAtRest) {
   // Of gesturing hands the picture has only the right one; then the left one comes in, too.
-  std::vector<Frame> frames = frames_of(in.file, 158, 36);
+  std::vector<Frame> frames = frames_of(kDeskTalk, 158, 36);
   for (Frame& frame : frames) {
     frame.image = frame.image(cv::Rect(0, 0, 460, frame.image.rows)).clone();
   }
@@ -377,14 +325,10 @@ TEST(CoveredHands, HandOutsideThePictureIsAtRest) {
   }
 }
 
-TEST(CoveredHands, HandOfSomebodyElseIsNotTaken) {
-  const Input in = input("dev_practical/desk_talk/video.mp4");
-  if (!in.missing.empty()) {
-    GTEST_SKIP() << in.missing;
-  }
+TEST_F(CoveredHands, HandOfSomebodyElseIsNotTaken) {
   // Another hand is at the edge while the man's own are below the picture.
-  const cv::Mat other = frames_of(in.file, 45, 1).at(0).image(cv::Rect(500, 290, 100, 135)).clone();
-  std::vector<Frame> frames = frames_of(in.file, 220, 18);
+  const cv::Mat other = frames_of(kDeskTalk, 45, 1).at(0).image(cv::Rect(500, 290, 100, 135)).clone();
+  std::vector<Frame> frames = frames_of(kDeskTalk, 220, 18);
   for (Frame& frame : frames) {
     frame.image = frame.image.clone();
     other.copyTo(frame.image(cv::Rect(540, 180, other.cols, other.rows)));

@@ -2,12 +2,10 @@
 // The face beside the pose, on the demo clip.
 #include <gtest/gtest.h>
 
-#include <iostream>
-#include <string>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/capture/source.h"
-#include "telemime/nets/models/table.h"
 #include "telemime/tracker/track_frame.h"
 
 namespace telemime {
@@ -33,13 +31,9 @@ std::vector<MotionFrame> tracked(bool face, int threads) {
   return frames;
 }
 
-TEST(SlowFace, PoseIsTheSameWithAndWithoutIt) {
-  const std::vector<std::string> names = {"pose_detection", "pose_landmark_full",
-                                          "face_detection_short_range", "face_landmark_with_attention"};
-  if (const std::string missing = missing_models(TELEMIME_BUILD_MODELS, names); !missing.empty()) {
-    std::cout << missing << '\n';
-    GTEST_SKIP() << missing;
-  }
+class SlowFace : public support::WithNetworks {};
+
+TEST_F(SlowFace, PoseIsTheSameWithAndWithoutIt) {
   const auto without = tracked(false, 1);
   const auto with = tracked(true, 1);
   const auto parallel = tracked(true, 4);

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <utility>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/core/scratch_folder.h"
 #include "telemime/likelihood/testing_landmarks.h"
 #include "telemime/offline/choose_poses.h"
@@ -273,13 +272,9 @@ TEST(FillBack, SameSeedSamePosesForAnyThreads) {
 }
 
 TEST(FillBack, LosesNoPersonInARealClip) {
-  const char* const variable = std::getenv("TELEMIME_DATA");
-  const std::filesystem::path data = variable != nullptr ? variable : TELEMIME_SOURCE_DIR "/../shared/data";
-  const std::filesystem::path file = data / "real/seated_stereo/clip.mp4";
+  const std::filesystem::path file = support::test_data() / "real/seated_stereo/clip.mp4";
   if (!std::filesystem::exists(file)) {
-    const std::string reason = "no test data: set TELEMIME_DATA";
-    std::cout << reason << '\n';
-    GTEST_SKIP() << reason;
+    GTEST_SKIP() << support::kNoClips;
   }
   // A man with a mask walks in sideways and bends over a chair. He is found once he sits.
   const ScratchFolder folder;

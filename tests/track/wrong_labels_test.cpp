@@ -2,13 +2,11 @@
 // Labels that fit no pose: the landmarks lead, and the arms stay.
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
+#include "support/needs.h"
 #include "telemime/capture/source.h"
-#include "telemime/nets/models/table.h"
 #include "telemime/tracker/track_frame.h"
 
 namespace telemime {
@@ -66,13 +64,9 @@ Tracked track(std::size_t frames, std::size_t wrong_from) {
   return out;
 }
 
-TEST(WrongLabels, AreNotTrusted) {
-  if (const std::string missing = missing_models(
-          TELEMIME_BUILD_MODELS, std::vector<std::string>{"pose_detection", "pose_landmark_full"});
-      !missing.empty()) {
-    std::cout << missing << '\n';
-    GTEST_SKIP() << missing;
-  }
+class WrongLabels : public support::WithNetworks {};
+
+TEST_F(WrongLabels, AreNotTrusted) {
   constexpr std::size_t kFrames = 45;
   constexpr std::size_t kWrongFrom = 15;
   const Tracked right = track(kFrames, kFrames);

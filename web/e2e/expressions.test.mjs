@@ -3,11 +3,11 @@
 // and hands in them.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { about } from "../mock/motion.mjs";
 import { strangersVrm0 } from "./avatars.mjs";
 import { FINGER_BONES, fingerError } from "./bones.mjs";
-import { LIGHT, LONG, PATIENCE, drop, hasAvatar, openPage, startBrowser, startProgram } from "./program.mjs";
+import { LIGHT, LONG, PATIENCE, drop, hasAvatar, setUp } from "./program.mjs";
 
 const NAMES = "happy angry sad relaxed surprised aa ih ou ee oh blink blinkLeft blinkRight".split(" ");
 const FACES = [
@@ -34,7 +34,7 @@ const bent = (degrees) =>
 const HANDS = { open: bent(0), fist: bent(80) };
 const LARGEST_TURN = 2; // degrees
 
-let browser, program, page, close;
+let page, program;
 let face = {};
 let hands = HANDS.open;
 
@@ -49,21 +49,17 @@ function replaced(text) {
   return JSON.stringify(message);
 }
 
-before(async () => {
-  browser = await startBrowser();
-  program = await startProgram(["demo", "--loop", ...LIGHT]);
-  ({ page, close } = await openPage(browser, program));
-  await page.routeWebSocket(/./, (socket) => {
-    const server = socket.connectToServer();
-    server.onMessage((data) => socket.send(typeof data === "string" ? replaced(data) : data));
-  });
-  await page.reload();
-});
-after(async () => {
-  await close?.();
-  await browser?.close();
-  await program?.stop();
-});
+setUp(
+  async (t) => {
+    ({ page, program } = t);
+    await page.routeWebSocket(/./, (socket) => {
+      const server = socket.connectToServer();
+      server.onMessage((data) => socket.send(typeof data === "string" ? replaced(data) : data));
+    });
+    await page.reload();
+  },
+  { args: () => ["demo", "--loop", ...LIGHT], page: true },
+);
 
 /** Waits until the avatar shows the face in all of its expressions. */
 async function shows({ gaze = [0, 0], ...wanted }) {

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime {
 namespace {
@@ -169,15 +167,7 @@ Table published_values(const std::string& id) {
 void write_text(const std::filesystem::path& file, const std::string& text) {
   std::error_code failure;
   std::filesystem::create_directories(file.parent_path(), failure);
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    throw Error(ErrorKind::output,
-                "cannot write " + file.string() + ": " + std::generic_category().message(errno),
-                "Give --out a writable folder on a disk with free space.");
-  }
+  write_whole_file(file, text);
 }
 
 void write_section(const std::filesystem::path& folder, const Section& section) {

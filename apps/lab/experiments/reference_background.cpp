@@ -42,24 +42,6 @@ Features features_of(const cv::Mat& bgr) {
   return f;
 }
 
-/// Squared Mahalanobis distance of the chroma from the model, and cosine of the angle between the directions.
-struct Distances {
-  cv::Mat chroma2;
-  cv::Mat cosine;
-};
-
-Distances distances(const ReferenceBackground& model, const cv::Mat& bgr) {
-  const Features f = features_of(bgr);
-  const cv::Mat cr = f.cr - model.cr;
-  const cv::Mat cb = f.cb - model.cb;
-  Distances out;
-  out.chroma2 = model.inverse_rr.mul(cr).mul(cr) + 2.0 * model.inverse_rb.mul(cr).mul(cb) +
-                model.inverse_bb.mul(cb).mul(cb);
-  out.cosine = (f.gradient.dx.mul(model.direction_x) + f.gradient.dy.mul(model.direction_y)) / f.length;
-  out.cosine.setTo(kUnknown, (f.length <= kWeakGradient) | (model.strength <= kWeakGradient));
-  return out;
-}
-
 }  // namespace
 
 ReferenceBackground learn_reference_background(std::span<const cv::Mat> pictures) {
@@ -108,32 +90,25 @@ ReferenceBackground learn_reference_background(std::span<const cv::Mat> pictures
   return model;
 }
 
-cv::Mat reference_probability(const ReferenceBackground& model, const cv::Mat& bgr) {
-  const Distances d = distances(model, bgr);
-  cv::Mat probability;
-  cv::exp(-0.5 * d.chroma2, probability);
-  for (int r = 0; r < bgr.rows; ++r) {
-    for (int i = 0; i < bgr.cols; ++i) {
-      if (const float cosine = d.cosine.at<float>(r, i); cosine != kUnknown) {
-        const float angle = std::acos(std::clamp(cosine, -1.0F, 1.0F));
-        const float by_direction = std::erfc(angle / std::sqrt(2 * model.direction_variance.at<float>(r, i)));
-        probability.at<float>(r, i) = std::max(probability.at<float>(r, i), by_direction);
-      }
-    }
-  }
-  return probability;
-}
-
 cv::Mat reference_foreground(const ReferenceBackground& model, const cv::Mat& bgr, double threshold) {
   if (!(threshold > 0 && threshold < 1)) {
     throw Error(ErrorKind::usage, "the threshold of a probability must lie between 0 and 1");
   }
-  const Distances d = distances(model, bgr);
+  const Features f = features_of(bgr);
+  // Squared Mahalanobis distance of the chroma.
+  const cv::Mat cr = f.cr - model.cr;
+  const cv::Mat cb = f.cb - model.cb;
+  const cv::Mat chroma2 = model.inverse_rr.mul(cr).mul(cr) + 2.0 * model.inverse_rb.mul(cr).mul(cb) +
+                          model.inverse_bb.mul(cb).mul(cb);
+  // Cosine of the angle between the directions.
+  cv::Mat cosines = (f.gradient.dx.mul(model.direction_x) + f.gradient.dy.mul(model.direction_y)) / f.length;
+  cosines.setTo(kUnknown, (f.length <= kWeakGradient) | (model.strength <= kWeakGradient));
+  // Both are compared with their limits: no logarithm or exponential per pixel.
   // z with P(|N(0, 1)| > z) = threshold.
   const auto z = static_cast<float>(std::numbers::sqrt2 * boost::math::erfc_inv(threshold));
-  cv::Mat out = d.chroma2 > -2.0 * std::log(threshold);
+  cv::Mat out = chroma2 > -2.0 * std::log(threshold);
   for (int r = 0; r < bgr.rows; ++r) {
-    const auto* cosine = d.cosine.ptr<float>(r);
+    const auto* cosine = cosines.ptr<float>(r);
     const auto* variance = model.direction_variance.ptr<float>(r);
     auto* o = out.ptr<unsigned char>(r);
     for (int i = 0; i < bgr.cols; ++i) {

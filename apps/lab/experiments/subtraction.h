@@ -40,14 +40,10 @@ struct ReferenceBackground {
 /// Throws Error(usage) without pictures (CV_8UC3, one size).
 ReferenceBackground learn_reference_background(std::span<const cv::Mat> pictures);
 
-/// Probability in [0, 1], per pixel, that the background gives a value at least as far from its mean: the
-/// larger of chroma's (2 degrees of freedom) and direction's (1) - equation 3.12 with tail probabilities in
-/// the place of densities, which could not be compared. Direction counts only where image and background
-/// both have a gradient. CV_32FC1.
-cv::Mat reference_probability(const ReferenceBackground& model, const cv::Mat& bgr);
-
-/// 255 where that probability is below `threshold` in (0, 1): foreground, before any clean-up. The same
-/// answer without a logarithm or exponential per pixel.
+/// Foreground, before any clean-up: 255 where it is less probable than `threshold` in (0, 1) that the
+/// background gives a value at least as far from its mean. The probability is the larger of chroma's (2
+/// degrees of freedom) and direction's (1) - equation 3.12 with tail probabilities in the place of densities,
+/// which could not be compared. Direction counts only where image and background both have a gradient.
 cv::Mat reference_foreground(const ReferenceBackground& model, const cv::Mat& bgr, double threshold);
 
 }  // namespace telemime

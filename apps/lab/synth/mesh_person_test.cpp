@@ -247,35 +247,34 @@ TEST_F(MeshPersonTest, AMissingOrDamagedFileIsNamed) {
     people.write_json(file, kept);
     return message;
   };
-  auto changed = whole;
-  changed["faces"][1] = 100000;
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
-  changed = whole;
-  changed["faces"][0] = 64;
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
-  changed = whole;
-  changed["skinIndices"][0] = 9999;
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
-  changed = whole;
-  changed["skinIndices"][0] = -2;
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
-  changed = whole;
-  changed["materials"][1]["DbgName"] = "skin";
-  EXPECT_TRUE(names(spoilt(base, changed), "called body"));
-  changed = whole;
-  changed["bones"][1]["name"] = "finger7-1.L";
-  changed["metadata"]["joint_pos_idxs"]["finger7-1.L____head"] = {0};
-  changed["metadata"]["joint_pos_idxs"]["finger7-1.L____tail"] = {1};
-  EXPECT_TRUE(names(spoilt(base, changed), "number of bones"));
-  changed = whole;
-  changed["metadata"]["joint_pos_idxs"]["wrist.L____head"] = nlohmann::json::array();
-  EXPECT_TRUE(names(spoilt(base, changed), "wrist.L____head is nowhere"));
-  changed = whole;
-  changed["skinWeights"].erase(changed["skinWeights"].size() - 1);
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
-  changed = whole;
-  changed["bones"][0]["parent"] = 77;
-  EXPECT_TRUE(names(spoilt(base, changed), "human_full_size.json"));
+  auto too_few = whole["skinWeights"];
+  too_few.erase(too_few.size() - 1);
+  struct Fault {
+    std::vector<std::pair<std::string, nlohmann::json>> changes;  // by JSON pointers
+    std::string words;
+  };
+  const std::string joints = "/metadata/joint_pos_idxs/";
+  const std::vector<Fault> faults = {
+      {{{"/faces/1", 100000}}, "human_full_size.json"},
+      {{{"/faces/0", 64}}, "human_full_size.json"},
+      {{{"/skinIndices/0", 9999}}, "human_full_size.json"},
+      {{{"/skinIndices/0", -2}}, "human_full_size.json"},
+      {{{"/materials/1/DbgName", "skin"}}, "called body"},
+      {{{"/bones/1/name", "finger7-1.L"},
+        {joints + "finger7-1.L____head", nlohmann::json::array({0})},
+        {joints + "finger7-1.L____tail", nlohmann::json::array({1})}},
+       "number of bones"},
+      {{{joints + "wrist.L____head", nlohmann::json::array()}}, "wrist.L____head is nowhere"},
+      {{{"/skinWeights", too_few}}, "human_full_size.json"},
+      {{{"/bones/0/parent", 77}}, "human_full_size.json"},
+  };
+  for (const auto& [changes, words] : faults) {
+    auto changed = whole;
+    for (const auto& [place, value] : changes) {
+      changed[nlohmann::json::json_pointer(place)] = value;
+    }
+    EXPECT_TRUE(names(spoilt(base, changed), words)) << changes.front().first;
+  }
   EXPECT_TRUE(names(spoilt(base, {{"vertices", "none"}}), "human_full_size.json"));
   EXPECT_TRUE(names(spoilt("public/data/proxies/hair/wig/wig.json", nlohmann::json::array()), "wig.json"));
   const std::string shapes = "src/json/targets/target-list.json";

@@ -10,7 +10,7 @@
 
 #include "meeting/protocol/messages.h"
 #include "meeting/protocol/pose_frame.h"
-#include "meeting/protocol/recording_reader.h"
+#include "meeting/protocol/testing.h"
 #include "meeting/transport/recorder.h"
 #include "meeting/transport/replay.h"
 #include "subscriber.h"
@@ -64,15 +64,6 @@ class Recording {
   RecordingWriter writer_;
   std::thread thread_;
 };
-
-inline std::vector<Record> records_of(const std::string& file) {
-  RecordingReader reader(file);
-  std::vector<Record> records;
-  while (auto record = reader.next()) {
-    records.push_back(std::move(*record));
-  }
-  return records;
-}
 
 inline std::vector<std::string> recorded(const std::string& file, const std::string& participant,
                                          TopicKind kind) {

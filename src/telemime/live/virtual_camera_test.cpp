@@ -12,8 +12,8 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/scratch_folder.h"
+#include "telemime/core/testing_errors.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/testing_receivers.h"
 
@@ -90,13 +90,7 @@ cv::Mat bgr_of(const std::string& yuyv, cv::Size size) {
 }
 
 std::string words_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::output);
-    return e.what();
-  }
-  return "";
+  return error_of(ErrorKind::output, act);
 }
 
 TEST(Yuyv, DecodesToTheSameColours) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "meeting/protocol/testing.h"
 #include "telemime/body/body.h"
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
@@ -164,12 +165,7 @@ TEST(Messages, InvalidValuesAreNotWritten) {
   const auto refused = [](const auto& change) {
     ParticipantState state = ana();
     change(state);
-    try {
-      write_state(state);
-    } catch (const Error& e) {
-      return e.kind() == ErrorKind::usage;
-    }
-    return false;
+    return !error_of([&] { write_state(state); }, ErrorKind::usage).empty();
   };
   EXPECT_FALSE(refused([](ParticipantState&) {}));
   EXPECT_TRUE(refused([](ParticipantState& s) { s.session = 0; }));

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "telemime/core/errors.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/random.h"
 #include "telemime/outputs/numbers.h"
 
@@ -152,12 +152,7 @@ TEST(PoseFrame, InvalidFramesAreNotWritten) {
     frame.tracked = true;
     frame.mask = 1;
     change(frame);
-    try {
-      encode(frame);
-    } catch (const Error& e) {
-      return e.kind() == ErrorKind::usage;
-    }
-    return false;
+    return !error_of([&] { encode(frame); }, ErrorKind::usage).empty();
   };
   EXPECT_FALSE(refused([](PoseFrame&) {}));
   EXPECT_TRUE(refused([](PoseFrame& f) { f.session = 0; }));

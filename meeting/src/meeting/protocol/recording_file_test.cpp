@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "telemime/core/errors.h"
+#include "meeting/protocol/testing.h"
 #include "telemime/core/random.h"
 
 namespace telemime::meeting {
@@ -243,12 +243,7 @@ TEST(RecordingFile, NoiseIsReadOrRejected) {
 }
 
 bool refuses(RecordingEncoder& encoder, const Record& record) {
-  try {
-    encoder.encode(record);
-  } catch (const Error& e) {
-    return e.kind() == ErrorKind::usage;
-  }
-  return false;
+  return !error_of([&] { encoder.encode(record); }, ErrorKind::usage).empty();
 }
 
 TEST(RecordingFile, InvalidRecordsAreNotWritten) {

@@ -26,15 +26,6 @@ RecordedMessage message(std::uint64_t at, TopicKind kind, std::size_t size) {
   return {at, {kind, "p1", 0}, std::string(size, 'x')};
 }
 
-std::vector<Record> records_of(const std::string& file) {
-  RecordingReader reader(file);
-  std::vector<Record> records;
-  while (auto record = reader.next()) {
-    records.push_back(std::move(*record));
-  }
-  return records;
-}
-
 std::string refusal(const std::string& file) {
   return error_of([&] { inspect_recording(file); }, ErrorKind::input);
 }
@@ -165,13 +156,7 @@ TEST(RecordingWriter, FullDiskIsReportedAndKeepsTheStart) {
   for (std::uint64_t i = 0; i < 5000 && !writer.failure(); ++i) {
     writer.add(message(i, TopicKind::pose, 111));
   }
-  std::string text;
-  try {
-    writer.end(6000);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::output);
-    text = e.what();
-  }
+  const std::string text = error_of([&] { writer.end(6000); }, ErrorKind::output);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, handler);
   EXPECT_NE(text.find(file + " cannot be written"), std::string::npos) << text;

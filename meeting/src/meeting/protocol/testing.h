@@ -9,8 +9,11 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "meeting/protocol/pose_frame.h"
+#include "meeting/protocol/recording_reader.h"
 #include "telemime/core/errors.h"
 
 namespace telemime::meeting {
@@ -46,6 +49,16 @@ inline PoseFrame frame_of(const std::string& bytes) {
 inline std::string bytes_of(const PoseFrame& frame) {
   const auto bytes = encode(frame);
   return {bytes.begin(), bytes.end()};
+}
+
+/// All records of a recording.
+inline std::vector<Record> records_of(const std::string& file) {
+  RecordingReader reader(file);
+  std::vector<Record> records;
+  while (auto record = reader.next()) {
+    records.push_back(std::move(*record));
+  }
+  return records;
 }
 
 }  // namespace telemime::meeting
