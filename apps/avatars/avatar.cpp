@@ -10,6 +10,7 @@
 #include "avatars/skinning.h"
 #include "avatars/tailor.h"
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/outputs/gltf/humanoid.h"
 
 namespace telemime {
@@ -197,12 +198,8 @@ const AvatarLook& avatar_look(std::string_view name) {
   const auto found = std::find_if(kAvatarLooks.begin(), kAvatarLooks.end(),
                                   [&](const AvatarLook& look) { return look.name == name; });
   if (found == kAvatarLooks.end()) {
-    std::string names;
-    for (const AvatarLook& look : kAvatarLooks) {
-      names += (names.empty() ? "" : ", ") + std::string(look.name);
-    }
     throw Error(ErrorKind::usage, "there is no look called \"" + std::string(name) + "\"",
-                "Choose one of: " + names + ".");
+                "Choose one of: " + joined(kAvatarLooks, &AvatarLook::name) + ".");
   }
   return *found;
 }

@@ -10,6 +10,7 @@
 
 #include "avatars/avatar.h"
 #include "telemime/core/files.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
@@ -42,11 +43,8 @@ void add_avatar_command(CLI::App& app) {
   const auto arguments = std::make_shared<AvatarArguments>();
   CLI::App* const command =
       app.add_subcommand("avatar", "Write one of the bundled avatars as a VRM 1.0 file");
-  std::string names;
-  for (const AvatarLook& look : kAvatarLooks) {
-    names += (names.empty() ? "" : ", ") + std::string(look.name);
-  }
-  command->add_option("--look", arguments->look, "One of " + names + ".")->capture_default_str();
+  command->add_option("--look", arguments->look, "One of " + joined(kAvatarLooks, &AvatarLook::name) + ".")
+      ->capture_default_str();
   command->add_option("--out", arguments->out, "File to write; LOOK.vrm by default.");
   command->add_option("--height", arguments->height, "Height of the person in metres.")
       ->capture_default_str();

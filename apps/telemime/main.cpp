@@ -15,12 +15,24 @@
 #include "telemime/capture/prepare_opencv.h"
 
 #ifdef TELEMIME_MEETING
+#include "cli/data_folder.h"
 #include "meeting/commands/commands.h"
-#include "meeting_files.h"
+#include "telemime/live/live_files.h"
+#include "telemime/streaming/avatar_folder.h"
 #endif
 
 namespace telemime {
 namespace {
+
+#ifdef TELEMIME_MEETING
+/// The files that `telemime meeting` serves: the page in this program, its avatars, and those of a folder of
+/// the user (empty: none). Throws Error(usage) when the folder cannot be read.
+meeting::MeetingFiles meeting_files(const std::filesystem::path& more) {
+  const AvatarFolder avatars(avatar_folder(), more);
+  return {.looks = avatars.looks(),
+          .get = [avatars](const std::string& path) { return room_file(path, avatars); }};
+}
+#endif
 
 int exit_code_of(int argc, char** argv, const LeftBehind& left_behind) {
   CLI::App app("Telemime: 3-D motion capture of the upper body from one camera", "telemime");

@@ -2,6 +2,7 @@
 #include "open_page.h"
 
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 
 #include "telemime/core/errors.h"
 
@@ -17,7 +19,6 @@ namespace telemime {
 namespace {
 
 constexpr const char* kOpener = "xdg-open";
-constexpr int kMostDescriptors = 65536;
 
 bool has_display() {
   const auto set = [](const char* name) {
@@ -27,36 +28,41 @@ bool has_display() {
   return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
-// Ends the new process after reporting the reason to the parent.
-[[noreturn]] void give_up(int report, int why) {
-  (void)!::write(report, &why, sizeof why);
-  ::_exit(127);
-}
-
-// Runs in the new process, where only system calls are safe. It keeps nothing of this program: neither the
-// terminal's Ctrl-C nor the camera nor the server's port.
-[[noreturn]] void become_opener(const char* url, int report) {
-  ::setsid();
-  const pid_t opener = ::fork();
-  if (opener < 0) {
-    give_up(report, errno);
-  }
-  if (opener > 0) {
-    ::_exit(0);  // the parent need not wait for the browser
-  }
-  const int nowhere = ::open("/dev/null", O_RDWR);
+// Returns 0 or the error number. The new process keeps nothing of this program: neither the terminal's Ctrl-C
+// nor the camera nor the server's port.
+int start_opener(std::string url) {
+  posix_spawnattr_t attributes;
+  ::posix_spawnattr_init(&attributes);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
+  sigset_t ignored_here;
+  ::sigemptyset(&ignored_here);
+  ::sigaddset(&ignored_here, SIGPIPE);
+  ::posix_spawnattr_setsigdefault(&attributes, &ignored_here);
+  posix_spawn_file_actions_t actions;
+  ::posix_spawn_file_actions_init(&actions);
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    ::dup2(nowhere, standard);
+    ::posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0);
   }
-  for (int other = STDERR_FILENO + 1; other < kMostDescriptors; ++other) {
-    if (other != report) {
-      ::close(other);
-    }
-  }
+  ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
   // No shell parses the address: it is one argument, whatever it contains.
-  ::signal(SIGPIPE, SIG_DFL);
-  ::execlp(kOpener, kOpener, url, static_cast<char*>(nullptr));
-  give_up(report, errno);
+  std::string name = kOpener;
+  const std::array<char*, 3> arguments = {name.data(), url.data(), nullptr};
+  pid_t opener = 0;
+  const int failure = ::posix_spawnp(&opener, kOpener, &actions, &attributes, arguments.data(), environ);
+  ::posix_spawn_file_actions_destroy(&actions);
+  ::posix_spawnattr_destroy(&attributes);
+  if (failure != 0) {
+    return failure;
+  }
+  // It may run as long as the browser does. A thread waits for its end, so that it does not become a zombie.
+  try {
+    std::thread([opener] {
+      while (::waitpid(opener, nullptr, 0) < 0 && errno == EINTR) {
+      }
+    }).detach();
+  } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch): a zombie until this program ends
+  }
+  return 0;
 }
 
 }  // namespace
@@ -66,28 +72,7 @@ void open_page(const std::string& url) {
     throw Error(ErrorKind::output, "there is no display to open a browser on",
                 "Open " + url + " yourself; from another computer that needs --address.");
   }
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw Error(ErrorKind::output, "the browser could not be started", "Open " + url + " yourself.");
-  }
-  const pid_t child = ::fork();
-  if (child == 0) {
-    become_opener(url.c_str(), ends[1]);
-  }
-  int why = child < 0 ? errno : 0;
-  ::close(ends[1]);
-  if (child > 0) {
-    while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-    }
-    // The pipe closes when xdg-open starts; otherwise it reports the reason.
-    ssize_t count = 0;
-    do {
-      count = ::read(ends[0], &why, sizeof why);
-    } while (count < 0 && errno == EINTR);
-    why = count == static_cast<ssize_t>(sizeof why) ? why : 0;
-  }
-  ::close(ends[0]);
-  if (why != 0) {
+  if (const int why = start_opener(url); why != 0) {
     throw Error(ErrorKind::output,
                 std::string("the browser could not be opened: ") + kOpener +
                     " does not start: " + std::generic_category().message(why),

@@ -33,32 +33,25 @@ py::dict by_name(const py::array& rows, const Names& names) {
   return dictionary;
 }
 
-// A property of an object whose array looks into it.
-template <typename Object, typename Make>
-auto array_of(Make make) {
-  return [make](const py::object& self) { return make(self, self.cast<const Object&>()); };
+// A property: an array that looks into a member.
+template <typename Object, typename Values>
+auto array_at(Values Object::*values, std::vector<py::ssize_t> shape) {
+  return [values, shape = std::move(shape)](const py::object& self) {
+    return view(self, self.cast<const Object&>().*values, shape);
+  };
 }
 
-py::array angles_of(const py::object& self, const FrameObject& frame) {
-  return view(self, frame.angles, {kAngleCount});
+// A property: the rows of that array by their names.
+template <typename Object, typename Values, typename Names>
+auto named_rows(Values Object::*values, std::vector<py::ssize_t> shape, const Names& names) {
+  return [rows = array_at(values, std::move(shape)), &names](const py::object& self) {
+    return by_name(rows(self), names);
+  };
 }
-py::array joints_of(const py::object& self, const FrameObject& frame) {
-  return view(self, frame.joints, {kJointCount, 3});
-}
-py::array pixels_of(const py::object& self, const FrameObject& frame) {
-  return view(self, frame.pixels, {kJointCount, 2});
-}
-py::object spread_of(const py::object& self, const FrameObject& frame) {
+
+py::object spread_of(const py::object& self) {
+  const auto& frame = self.cast<const FrameObject&>();
   return frame.spread ? py::object(view(self, *frame.spread, {kJointCount, 3, 3})) : py::none();
-}
-py::array hand_angles_of(const py::object& self, const HandObject& hand) {
-  return view(self, hand.angles, {kHandAngleCount});
-}
-py::array hand_joints_of(const py::object& self, const HandObject& hand) {
-  return view(self, hand.joints, {kHandJointCount, 3});
-}
-py::array expressions_of(const py::object& self, const FaceObject& face) {
-  return view(self, face.expressions, {kExpressionCount});
 }
 
 void bind_hands(py::module_& module) {
@@ -66,44 +59,29 @@ void bind_hands(py::module_& module) {
       .def_readonly("visibility", &HandObject::visibility, "From 0 (not seen, at rest) to 1.")
       .def_readonly("spread", &HandObject::spread,
                     "Standard deviation of a joint relative to the wrist, in millimetres.")
-      .def_property_readonly("wrist",
-                             array_of<HandObject>([](const py::object& self, const HandObject& hand) {
-                               return view(self, hand.wrist, {3});
-                             }),
+      .def_property_readonly("wrist", array_at(&HandObject::wrist, {3}),
                              "Twisting, pivot and flexion of the wrist as the hand shows it, in degrees.")
-      .def_property_readonly("angles_array", array_of<HandObject>(hand_angles_of),
+      .def_property_readonly("angles_array", array_at(&HandObject::angles, {kHandAngleCount}),
                              "Angles of the fingers in degrees, in the order of HAND_ANGLES.")
-      .def_property_readonly("angles",
-                             array_of<HandObject>([](const py::object& self, const HandObject& hand) {
-                               return by_name(hand_angles_of(self, hand), kHandAngleNames);
-                             }),
+      .def_property_readonly("angles", named_rows(&HandObject::angles, {kHandAngleCount}, kHandAngleNames),
                              "The same by name.")
-      .def_property_readonly("joints_array", array_of<HandObject>(hand_joints_of),
+      .def_property_readonly("joints_array", array_at(&HandObject::joints, {kHandJointCount, 3}),
                              "Places of the joints (21, 3) in millimetres, in the order of HAND_JOINTS.")
-      .def_property_readonly("joints",
-                             array_of<HandObject>([](const py::object& self, const HandObject& hand) {
-                               return by_name(hand_joints_of(self, hand), kHandJointNames);
-                             }),
+      .def_property_readonly("joints", named_rows(&HandObject::joints, {kHandJointCount, 3}, kHandJointNames),
                              "The same by name.");
 }
 
 void bind_faces(py::module_& module) {
   py::class_<FaceObject>(module, "Face", "The face of a frame (docs/face.md).")
       .def_readonly("confidence", &FaceObject::confidence, "From 0 (not seen, at rest) to 1.")
-      .def_property_readonly("head", array_of<FaceObject>([](const py::object& self, const FaceObject& face) {
-                               return view(self, face.head, {4});
-                             }),
+      .def_property_readonly("head", array_at(&FaceObject::head, {4}),
                              "Rotation of the head in the camera frame, a quaternion x, y, z, w.")
-      .def_property_readonly("gaze", array_of<FaceObject>([](const py::object& self, const FaceObject& face) {
-                               return view(self, face.gaze, {2});
-                             }),
+      .def_property_readonly("gaze", array_at(&FaceObject::gaze, {2}),
                              "Direction of the eyes in the head, in degrees: to the person's left, and up.")
-      .def_property_readonly("expressions_array", array_of<FaceObject>(expressions_of),
+      .def_property_readonly("expressions_array", array_at(&FaceObject::expressions, {kExpressionCount}),
                              "The coefficients of ARKit (52), from 0 to 1, in the order of EXPRESSIONS.")
       .def_property_readonly("expressions",
-                             array_of<FaceObject>([](const py::object& self, const FaceObject& face) {
-                               return by_name(expressions_of(self, face), kExpressionNames);
-                             }),
+                             named_rows(&FaceObject::expressions, {kExpressionCount}, kExpressionNames),
                              "The same by name.");
 }
 
@@ -152,41 +130,29 @@ void bind_frames(py::module_& module) {
       .def_property_readonly(
           "lost", [](const FrameObject& frame) { return frame.motion.state == TrackState::lost; },
           "Whether nobody is tracked: the pose is the last known one then.")
-      .def_property_readonly("root",
-                             array_of<FrameObject>([](const py::object& self, const FrameObject& frame) {
-                               return view(self, frame.root, {3});
-                             }),
-                             "Place of the root in millimetres.")
-      .def_property_readonly("joints_array", array_of<FrameObject>(joints_of),
+      .def_property_readonly("root", array_at(&FrameObject::root, {3}), "Place of the root in millimetres.")
+      .def_property_readonly("joints_array", array_at(&FrameObject::joints, {kJointCount, 3}),
                              "Places of the joints (12, 3) in millimetres, in the order of JOINTS.")
-      .def_property_readonly("joints",
-                             array_of<FrameObject>([](const py::object& self, const FrameObject& frame) {
-                               return by_name(joints_of(self, frame), kJointNames);
-                             }),
+      .def_property_readonly("joints", named_rows(&FrameObject::joints, {kJointCount, 3}, kJointNames),
                              "The same by name: joints[\"l_wrist\"] is x, y, z.")
-      .def_property_readonly("pixels_array", array_of<FrameObject>(pixels_of),
+      .def_property_readonly("pixels_array", array_at(&FrameObject::pixels, {kJointCount, 2}),
                              "The joints in pixels (12, 2) of the input's image, in the order of JOINTS.")
-      .def_property_readonly("pixels",
-                             array_of<FrameObject>([](const py::object& self, const FrameObject& frame) {
-                               return by_name(pixels_of(self, frame), kJointNames);
-                             }),
+      .def_property_readonly("pixels", named_rows(&FrameObject::pixels, {kJointCount, 2}, kJointNames),
                              "The same by name.")
-      .def_property_readonly("angles_array", array_of<FrameObject>(angles_of),
+      .def_property_readonly("angles_array", array_at(&FrameObject::angles, {kAngleCount}),
                              "Angles of the joints (20) in degrees, in the order of ANGLES.")
-      .def_property_readonly("angles",
-                             array_of<FrameObject>([](const py::object& self, const FrameObject& frame) {
-                               return by_name(angles_of(self, frame), kAngleNames);
-                             }),
+      .def_property_readonly("angles", named_rows(&FrameObject::angles, {kAngleCount}, kAngleNames),
                              "The same by name.")
       .def_property_readonly(
-          "spread_array", array_of<FrameObject>(spread_of),
+          "spread_array", &spread_of,
           "Covariance of each joint (12, 3, 3) in square millimetres, relative to the middle of the\n"
           "shoulders, in the order of JOINTS; None if the pose has none.")
       .def_property_readonly(
-          "spread", array_of<FrameObject>([](const py::object& self, const FrameObject& frame) {
-            return frame.spread ? py::object(by_name(py::array(spread_of(self, frame)), kJointNames))
-                                : py::none();
-          }),
+          "spread",
+          [](const py::object& self) {
+            const py::object rows = spread_of(self);
+            return rows.is_none() ? rows : py::object(by_name(py::array(rows), kJointNames));
+          },
           "The same by name; None if the pose has none.")
       .def_property_readonly("second_mode", of_spread(&PoseSpread::second_mode),
                              "Weight of the second-best explanation of the image, from 0 to 1; or None.")

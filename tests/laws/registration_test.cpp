@@ -127,7 +127,7 @@ TEST(Registration, SpendsNoMoreThanItsBudget) {
   Random random(3);
   const Pose start = moved(truth, 1.0, random);
   Search search(truth);
-  for (const Method method : {Method::regions, Method::edges, Method::two_step}) {
+  for (const auto& [name, method] : kMethodNames) {
     for (const bool blocks : {true, false}) {
       for (const int iterations : {1, 2, 5, 30, 100, 400}) {
         RegistrationConfig config;
@@ -136,7 +136,7 @@ TEST(Registration, SpendsNoMoreThanItsBudget) {
         config.iterations = iterations;
         const RegistrationResult found = search.from(start, config);
         const std::string what =
-            std::string(to_string(method)) + (blocks ? " blocks " : " whole ") + std::to_string(iterations);
+            std::string(name) + (blocks ? " blocks " : " whole ") + std::to_string(iterations);
         // One evaluation scores the result; a budget of 1 still evaluates the start once.
         EXPECT_LE(search.evaluations(), std::max(2, iterations)) << what;
         EXPECT_EQ(found.region_evaluations + found.edge_evaluations + 1, search.evaluations()) << what;
@@ -174,7 +174,7 @@ TEST(Registration, EveryMethodGetsNearerToThePicture) {
   const Pose start = moved(truth, 1.0, random);
   Search search(truth);
   for (RegistrationConfig config : {RegistrationConfig{}, reference_registration()}) {
-    for (const Method method : {Method::regions, Method::edges, Method::two_step}) {
+    for (const auto& [name, method] : kMethodNames) {
       config.method = method;
       config.iterations = 600;
       const RegistrationResult found = search.from(start, config);
@@ -182,9 +182,9 @@ TEST(Registration, EveryMethodGetsNearerToThePicture) {
       none.iterations = 1;
       const RegistrationResult there = search.from(start, none);
       if (method != Method::edges) {
-        EXPECT_LT(found.score.region(), there.score.region()) << to_string(method) << config.blocks;
+        EXPECT_LT(found.score.region(), there.score.region()) << name << config.blocks;
       }
-      EXPECT_LT(found.score.contour(), there.score.contour()) << to_string(method) << config.blocks;
+      EXPECT_LT(found.score.contour(), there.score.contour()) << name << config.blocks;
     }
   }
 }

@@ -12,7 +12,7 @@
 
 #include "e2e/run_program.h"
 #include "live/page.h"
-#include "telemime/live/live_settings.h"
+#include "telemime/live/testing_settings.h"
 #include "telemime/streaming/testing_receivers.h"
 #include "telemime/streaming/testing_web_socket.h"
 
@@ -154,7 +154,7 @@ TEST_F(LiveCommand, VirtualCameraGetsPictures) {
 }
 
 TEST_F(LiveCommand, QuietKeepsWarningsAndErrors) {
-  save_settings(folder_.path() / "telemime" / "live.json", {{"vmc://localhost:39539"}});
+  save_settings(folder_.path() / "telemime" / "live.json", {"vmc://localhost:39539"});
   const e2e::Ended loud = e2e::run(live({"--seconds", "1"}));
   EXPECT_TRUE(has(loud.words, "outputs of earlier runs, off now: vmc://localhost:39539")) << loud.words;
   const e2e::Ended quiet = e2e::run(live({"--seconds", "1", "--quiet"}));

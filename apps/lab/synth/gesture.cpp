@@ -14,6 +14,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/random.h"
+#include "telemime/core/text.h"
 
 namespace telemime {
 namespace {
@@ -196,12 +197,8 @@ std::string_view gesture_note(Gesture gesture) {
 Gesture gesture_named(std::string_view name) {
   const auto found = std::find(kGestureNames.begin(), kGestureNames.end(), name);
   if (found == kGestureNames.end()) {
-    std::string names;
-    for (const auto& known : kGestureNames) {
-      names += (names.empty() ? "" : ", ") + std::string(known);
-    }
     throw Error(ErrorKind::usage, "there is no gesture \"" + std::string(name) + "\"",
-                "use one of: " + names);
+                "use one of: " + joined(kGestureNames));
   }
   return static_cast<Gesture>(found - kGestureNames.begin());
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 
 #include "telemime/body/face_eye.h"
 #include "telemime/body/rotations.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "telemime/body/face_eye.h"
 #include "telemime/body/rotations.h"

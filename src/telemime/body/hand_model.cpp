@@ -92,23 +92,11 @@ HandSizes average_proportions() {
 
 const std::array<AngleRange, kHandAngleCount>& hand_limits() {
   static const auto limits = [] {
-    constexpr AngleRange kMcp{-20, 90}, kSpread{-20, 20}, kPip{0, 110};
-    std::array<AngleRange, kHandAngleCount> table = {{{-30, 60},
-                                                      {-40, 50},
-                                                      {-15, 65},
-                                                      {-20, 85},  // thumb
-                                                      kMcp,
-                                                      kSpread,
-                                                      kPip,
-                                                      kMcp,
-                                                      kSpread,
-                                                      kPip,
-                                                      kMcp,
-                                                      kSpread,
-                                                      kPip,
-                                                      kMcp,
-                                                      kSpread,
-                                                      kPip}};
+    std::array<AngleRange, kHandAngleCount> table = {{{-30, 60}, {-40, 50}, {-15, 65}, {-20, 85}}};  // thumb
+    constexpr std::array<AngleRange, 3> kFinger = {{{-20, 90}, {-20, 20}, {0, 110}}};  // MCP, spread, PIP
+    for (std::size_t i = kFirstFingerAngle[1]; i < kHandAngleCount; ++i) {
+      table[i] = kFinger[(i - kFirstFingerAngle[1]) % kFinger.size()];
+    }
     for (AngleRange& range : table) {
       range = {range.min * kDegree, range.max * kDegree};
     }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "telemime/capture/source.h"
 
@@ -11,7 +12,27 @@ namespace telemime {
 
 /// The source with `change` of each image (CV_8UC3) in place of it; everything else is passed on. The image
 /// keeps its size. `change` is called from the thread that calls next().
-std::unique_ptr<Source> with_changed_images(std::unique_ptr<Source> source,
-                                            std::function<cv::Mat(const cv::Mat&)> change);
+class ChangedImages : public Source {
+ public:
+  ChangedImages(std::unique_ptr<Source> source, std::function<cv::Mat(const cv::Mat&)> change)
+      : source_(std::move(source)), change_(std::move(change)) {}
+
+  const SourceInfo& info() const override { return source_->info(); }
+  std::string complaint() const override { return source_->complaint(); }
+  void stop() override { source_->stop(); }
+  void attend(std::function<void(const SourceNews&)> report) override { source_->attend(std::move(report)); }
+
+  std::optional<Frame> next() override {
+    std::optional<Frame> frame = source_->next();
+    if (frame) {
+      frame->image = change_(frame->image);
+    }
+    return frame;
+  }
+
+ private:
+  std::unique_ptr<Source> source_;
+  std::function<cv::Mat(const cv::Mat&)> change_;
+};
 
 }  // namespace telemime

@@ -4,7 +4,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <opencv2/imgcodecs.hpp>
@@ -13,7 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include "telemime/capture/input_kind.h"
 #include "telemime/capture/picture.h"
 
 namespace telemime {

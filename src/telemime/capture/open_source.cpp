@@ -163,7 +163,8 @@ std::unique_ptr<Source> open_source(const std::string& input, const LiveOptions&
                 "Give a video file, a folder of images, a stream URL or a camera (0).");
   }
   auto source = open_kind(input, options);
-  return options.input.mirrored ? with_changed_images(std::move(source), mirror_image) : std::move(source);
+  return options.input.mirrored ? std::make_unique<ChangedImages>(std::move(source), mirror_image)
+                                : std::move(source);
 }
 
 }  // namespace telemime

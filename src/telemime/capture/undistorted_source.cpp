@@ -45,7 +45,8 @@ struct LensMap {
 }  // namespace
 
 std::unique_ptr<Source> undistorted(std::unique_ptr<Source> source, const Lens& lens) {
-  return lens.distorts() ? with_changed_images(std::move(source), LensMap(lens)) : std::move(source);
+  return lens.distorts() ? std::make_unique<ChangedImages>(std::move(source), LensMap(lens))
+                         : std::move(source);
 }
 
 }  // namespace telemime

@@ -6,7 +6,6 @@
 #include <opencv2/videoio/registry.hpp>
 #include <utility>
 
-#include "telemime/capture/input_kind.h"
 #include "telemime/capture/picture.h"
 #include "telemime/core/time_base.h"
 

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
@@ -22,17 +21,6 @@ ssize_t checked(ssize_t result) {
     throw std::system_error(errno, std::generic_category());
   }
   return result < 0 ? 0 : result;
-}
-
-int write_all(int file, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t count = ::write(file, content.data(), content.size());
-    if (count < 0 && errno != EINTR) {
-      return errno;
-    }
-    content.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
-  }
-  return 0;
 }
 
 /// Writes a new file and gives it the name of the old one. `descriptor` is the new file's.
@@ -99,6 +87,17 @@ SmallFile read_small_file(const fs::path& file, std::size_t most, SymbolicLinks 
   }
   read.content.resize(size);
   return read;
+}
+
+int write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t count = ::write(descriptor, content.data(), content.size());
+    if (count < 0 && errno != EINTR) {
+      return errno;
+    }
+    content.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+  }
+  return 0;
 }
 
 Error cannot_write(const fs::path& file, int error_number, const std::string& remedy) {

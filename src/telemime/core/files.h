@@ -48,6 +48,10 @@ enum class SymbolicLinks { follow, refuse };
 SmallFile read_small_file(const std::filesystem::path& file, std::size_t most,
                           SymbolicLinks links = SymbolicLinks::follow);
 
+/// Writes to an open file; repeats what was interrupted or incomplete. Returns 0 or the error number: then a
+/// part of `content` may have been written.
+int write_all(int descriptor, std::string_view content);
+
 /// The Error(output) for a file that cannot be written: the reason is that of the error number.
 Error cannot_write(
     const std::filesystem::path& file, int error_number,

@@ -9,23 +9,8 @@
 namespace telemime {
 namespace {
 
-constexpr std::array kUsualRates = {5.0,
-                                    10.0,
-                                    12.5,
-                                    15.0,
-                                    20.0,
-                                    24000.0 / 1001.0,
-                                    24.0,
-                                    25.0,
-                                    30000.0 / 1001.0,
-                                    30.0,
-                                    48.0,
-                                    50.0,
-                                    60.0,
-                                    60000.0 / 1001.0,
-                                    100.0,
-                                    120.0,
-                                    240.0};
+constexpr std::array kUsualRates = {5.0,  10.0, 12.5, 15.0, 20.0,       24e3 / 1001, 24.0,  25.0, 3e4 / 1001,
+                                    30.0, 48.0, 50.0, 60.0, 6e4 / 1001, 100.0,       120.0, 240.0};
 constexpr double kExact = 0.05;           // of 1/25 s: time stamps of cameras are not more exact
 constexpr double kLeastStep = 1e-6;       // s; no camera is as fast
 constexpr double kPause = 0.5;            // s; no step of a usual rate

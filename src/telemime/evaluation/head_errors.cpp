@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/evaluation/head_errors.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -236,7 +236,7 @@ std::optional<SharedMotion> shared_motion(const cv::Mat& before, const cv::Mat& 
   const double tolerance = std::max(0.75, reference_width(before.cols, before.rows) / 200.0);
   constexpr double kMost = 0.6;
   const auto count = static_cast<double>(steps.size());
-  SharedMotion out{.corners = static_cast<int>(steps.size())};
+  SharedMotion out;
   // The motion that explains the most corners, refined by least squares.
   Similarity motion = consensus(steps, tolerance, reference_width(before.cols, before.rows) / 8.0);
   std::vector<const Step*> explained;

@@ -10,7 +10,6 @@ namespace telemime {
 struct SharedMotion {
   double pixels = 0.0;  ///< root mean square of the displacement over the corners; 0: the camera stands still
   double share = 0.0;   ///< of the corners: how many this motion explains, [0, 1]
-  int corners = 0;      ///< that were followed
 };
 
 /// The motion of the camera between two images (CV_8UC1, same size), from corners where `scene` (CV_8UC1) is

@@ -30,22 +30,6 @@ constexpr std::size_t kPercentile = 95;
 constexpr int kGroupRounds = 6;             // of k-means for each number of groups
 constexpr std::size_t kSmallestGroup = 25;  // a group has at least one in this many samples
 
-/// A Gaussian prepared for evaluation.
-struct Prepared {
-  Eigen::Vector3f mean;
-  Eigen::Matrix3f inverse;
-  float constant;
-};
-
-std::vector<Prepared> prepare(const ColourMixture& mixture) {
-  std::vector<Prepared> out;
-  for (const ColourGaussian& g : mixture) {
-    out.push_back({g.mean, g.covariance.inverse(),
-                   std::log(g.covariance.determinant()) - 2 * std::log(std::max(g.weight, kLeastWeight))});
-  }
-  return out;
-}
-
 Eigen::Vector3f median_of(std::span<const Eigen::Vector3f> samples) {
   Eigen::Vector3f result;
   std::vector<float> values(samples.size());
@@ -191,27 +175,21 @@ ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
   return mixture;
 }
 
-float energy(const ColourMixture& mixture, const Eigen::Vector3f& colour) {
-  float best = kNever;
-  for (const Prepared& p : prepare(mixture)) {
-    const Eigen::Vector3f d = colour - p.mean;
-    best = std::min(best, d.dot(p.inverse * d) + p.constant);
-  }
-  return best;
-}
-
 cv::Mat energy(const ColourMixture& mixture, const LogColour& image) {
   cv::Mat out(image.u.size(), CV_32FC1, cv::Scalar(kNever));
-  for (const Prepared& p : prepare(mixture)) {
-    const float mu = p.mean[0];
-    const float mv = p.mean[1];
-    const float ml = p.mean[2];
-    const float uu = p.inverse(0, 0);
-    const float vv = p.inverse(1, 1);
-    const float ll = p.inverse(2, 2);
-    const float uv = 2 * p.inverse(0, 1);
-    const float ul = 2 * p.inverse(0, 2);
-    const float vl = 2 * p.inverse(1, 2);
+  for (const ColourGaussian& g : mixture) {
+    const Eigen::Matrix3f inverse = g.covariance.inverse();
+    const float constant =
+        std::log(g.covariance.determinant()) - 2 * std::log(std::max(g.weight, kLeastWeight));
+    const float mu = g.mean[0];
+    const float mv = g.mean[1];
+    const float ml = g.mean[2];
+    const float uu = inverse(0, 0);
+    const float vv = inverse(1, 1);
+    const float ll = inverse(2, 2);
+    const float uv = 2 * inverse(0, 1);
+    const float ul = 2 * inverse(0, 2);
+    const float vl = 2 * inverse(1, 2);
     for (int r = 0; r < out.rows; ++r) {
       const auto* u = image.u.ptr<float>(r);
       const auto* v = image.v.ptr<float>(r);
@@ -222,7 +200,7 @@ cv::Mat energy(const ColourMixture& mixture, const LogColour& image) {
         const float dv = v[c] - mv;
         const float dl = l[c] - ml;
         const float e =
-            du * (uu * du + uv * dv + ul * dl) + dv * (vv * dv + vl * dl) + ll * dl * dl + p.constant;
+            du * (uu * du + uv * dv + ul * dl) + dv * (vv * dv + vl * dl) + ll * dl * dl + constant;
         o[c] = e < o[c] ? e : o[c];
       }
     }

@@ -38,11 +38,8 @@ ColourGaussian fit_robust(std::span<const Eigen::Vector3f> samples, const Colour
 ColourMixture fit_mixture(std::span<const Eigen::Vector3f> samples, int most,
                           const ColourTolerance& tolerance);
 
-/// Energy of a colour: -2 ln of the density of the best component, without the constant 3 ln 2 pi. A large
-/// constant for an empty mixture.
-float energy(const ColourMixture& mixture, const Eigen::Vector3f& colour);
-
-/// Energy of each pixel (CV_32FC1); see above.
+/// Energy of each pixel (CV_32FC1): -2 ln of the density of the best component, without the constant
+/// 3 ln 2 pi. A large constant for an empty mixture.
 cv::Mat energy(const ColourMixture& mixture, const LogColour& image);
 
 /// Squared Mahalanobis distance of a colour to the nearest component; the largest float for an empty mixture.

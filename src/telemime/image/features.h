@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 #include "telemime/core/frame.h"
 #include "telemime/image/camera_motion.h"
@@ -40,8 +41,9 @@ class FeatureExtractor {
   /// Learns the background from the clip to be tracked: all frames of a file or the first second of a live
   /// input; one frame is enough. Uses an empty stretch of the clip if there is one, otherwise the area around
   /// the person, and only colours if the camera moves. At most 150 frames are searched for an empty stretch;
-  /// 20 frames spread over the clip serve for the rest. Throws Error(usage) if `clip` is empty.
-  SceneReport bootstrap(std::span<const Frame> clip);
+  /// 20 frames spread over the clip serve for the rest. Gives a sentence for the user that says how it was
+  /// learned, or why it was not. Throws Error(usage) if `clip` is empty.
+  std::string bootstrap(std::span<const Frame> clip);
 
   /// Learns the colours of skin, clothes and hair from a frame in which the face is visible. If the frame is
   /// not suitable, the report gives the reason; try the next frame. Until a person has been learned,

@@ -174,7 +174,7 @@ std::vector<SceneSample> FeatureExtractor::scene_samples(std::span<const Frame> 
   return samples;
 }
 
-SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
+std::string FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   if (clip.empty()) {
     throw Error(ErrorKind::usage, "the background cannot be learned: there are no frames");
   }
@@ -182,7 +182,6 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
   shape_ = HeadShape{};
   ImageCalibration fresh;
   fresh.colours = calibration_.colours;
-  SceneReport report;
   const std::vector<SceneSample> samples = scene_samples(clip);
   const auto with_head = std::count_if(samples.begin(), samples.end(), [](const auto& s) {
     return s.head.has_value() || (!s.mask.empty() && cv::countNonZero(s.mask) > 0);
@@ -231,40 +230,30 @@ SceneReport FeatureExtractor::bootstrap(std::span<const Frame> clip) {
     if (empty) {
       const std::size_t offset = whole || first < half ? 0 : clip.size() - 2 * half;
       const auto from = static_cast<std::size_t>(clip[first + offset].index);
-      report = {SceneSource::empty_stretch, from, count, 1.0,
-                "the background was learned from " + std::to_string(count) +
-                    " frames without a person, starting at frame " + std::to_string(from)};
-      return report;
+      return "the background was learned from " + std::to_string(count) +
+             " frames without a person, starting at frame " + std::to_string(from);
     }
   }
   // Second choice: learn around the person, as long as the camera does not move.
   if (with_head == 0 && samples.size() < kFewestSamples) {
     set_calibration(fresh);
-    report.sentence = "no face was found: the background could not be learned";
-    return report;
+    return "no face was found: the background could not be learned";
   }
   fresh.background = learn_around_person(samples);
   fresh.surroundings = learn_surroundings(samples);
   fresh.doubtful = true;
-  report.source = SceneSource::moving_person;
-  if (camera_moves(clip, samples, config_)) {
+  const bool moves = camera_moves(clip, samples, config_);
+  if (moves) {
     fresh.background.valid.setTo(0);
-    report.source = SceneSource::colours_only;
-    report.sentence = "the camera moves, so no background was learned: fix the camera for better poses";
-  }
-  report.known =
-      cv::countNonZero(fresh.background.valid) / static_cast<double>(fresh.background.valid.total());
-  if (report.source == SceneSource::moving_person) {
-    report.sentence =
-        "the background was learned around the person: " + std::to_string(std::lround(100 * report.known)) +
-        " % of the image is known";
   }
   set_calibration(std::move(fresh));
-  if (report.source == SceneSource::colours_only) {
+  if (moves) {
     constexpr double kMoves = 2.0;
     status_.camera_motion = kMoves;
+    return "the camera moves, so no background was learned: fix the camera for better poses";
   }
-  return report;
+  return "the background was learned around the person: " +
+         std::to_string(std::lround(100 * known_background_share())) + " % of the image is known";
 }
 
 double FeatureExtractor::known_background_share() const {

@@ -16,23 +16,8 @@ constexpr double kFastestTurn = 10.0;  // rad/s: more than that of a dancer's pi
 constexpr double kLongestHold = 0.5;   // s
 constexpr double kSideView = 0.2;      // rad: a trunk nearer than this to a side view may face either way
 
-// Left and right points of the body follow each other, except in the eyes, where three of a side do.
-constexpr std::array<std::pair<int, int>, 16> kPairs{{{1, 4},
-                                                      {2, 5},
-                                                      {3, 6},
-                                                      {7, 8},
-                                                      {9, 10},
-                                                      {11, 12},
-                                                      {13, 14},
-                                                      {15, 16},
-                                                      {17, 18},
-                                                      {19, 20},
-                                                      {21, 22},
-                                                      {23, 24},
-                                                      {25, 26},
-                                                      {27, 28},
-                                                      {29, 30},
-                                                      {31, 32}}};
+// The points of the left side. That of the right follows each, except in the eyes, where three of a side do.
+constexpr std::array<std::size_t, 16> kLeft{1, 2, 3, 7, 9, 11, 13, 15, 17, 19, 21, 23, 25, 27, 29, 31};
 
 // The angle of TrunkFacing by how wide the shoulders look, across the trunk; empty for a trunk without
 // length.
@@ -54,9 +39,8 @@ std::optional<double> facing_angle(const PoseLandmarks& landmarks) {
 }  // namespace
 
 PoseLandmarks facing_other_way(PoseLandmarks landmarks) {
-  for (const auto& [left, right] : kPairs) {
-    std::swap(landmarks.points[static_cast<std::size_t>(left)],
-              landmarks.points[static_cast<std::size_t>(right)]);
+  for (const std::size_t left : kLeft) {
+    std::swap(landmarks.points[left], landmarks.points[left + (left <= 3 ? 3 : 1)]);
   }
   for (PoseLandmark& point : landmarks.points) {
     point.depth = -point.depth;

@@ -2,7 +2,6 @@
 #include "telemime/image/light_change.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

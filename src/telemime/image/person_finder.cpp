@@ -2,7 +2,6 @@
 #include "telemime/image/person_finder.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
@@ -233,19 +232,13 @@ std::optional<cv::Rect2d> face_square(const PoseLandmarks& landmarks) {
 }
 
 cv::Mat mask_energy(const cv::Mat& mask, float most) {
-  std::array<float, 256> table{};
+  cv::Mat table(1, 256, CV_32FC1);
   for (int i = 0; i < 256; ++i) {
     const float odds = (static_cast<float>(i) + 1.0F) / (256.0F - static_cast<float>(i));
-    table[static_cast<std::size_t>(i)] = std::clamp(2.0F * std::log(odds), -most, most);
+    table.at<float>(i) = std::clamp(2.0F * std::log(odds), -most, most);
   }
-  cv::Mat out(mask.size(), CV_32FC1);
-  for (int r = 0; r < mask.rows; ++r) {
-    const auto* in = mask.ptr<unsigned char>(r);
-    auto* energy = out.ptr<float>(r);
-    for (int c = 0; c < mask.cols; ++c) {
-      energy[c] = table[in[c]];
-    }
-  }
+  cv::Mat out;
+  cv::LUT(mask, table, out);
   return out;
 }
 

@@ -2,7 +2,9 @@
 #include "telemime/image/person_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -22,17 +24,16 @@ constexpr double kTorsoTop = 1.6;
 constexpr double kTorsoBottom = 7.0;  // hips
 constexpr double kArmUp = 3.5;        // an arm above the head
 constexpr double kArmAside = 9.0;     // an arm to the side
-// Prior of each place, 1: surely the person, -1: surely not.
-constexpr float kCorePrior = 1.0F;
-constexpr float kLikelyPrior = 0.4F;
-constexpr float kOpenPrior = -0.2F;
-constexpr float kFarPrior = -1.0F;
-constexpr double kCutWidth = 160.0;  // px: a graph cut takes as long as it has pixels
-constexpr int kHalfCut = 127;        // of 255
+constexpr double kCutWidth = 160.0;   // px: a graph cut takes as long as it has pixels
+constexpr int kHalfCut = 127;         // of 255
 
 /// Position relative to the body: core is the head and the middle of the chest, likely are the shoulders and
 /// the rest of the torso, open is where arms can be, far is out of reach.
-enum class Place { core, likely, open, far };
+enum class Place : std::size_t { core, likely, open, far };
+
+// By place: where the graph cut starts, and the prior (1: surely the person, -1: surely not).
+constexpr std::array<unsigned char, 4> kCut{cv::GC_FGD, cv::GC_PR_FGD, cv::GC_PR_BGD, cv::GC_BGD};
+constexpr std::array<float, 4> kPrior{1.0F, 0.4F, -0.2F, -1.0F};
 
 /// The place of a point given in half widths (x) and half heights (y) of the head from its centre.
 Place place_of(double x, double y) {
@@ -75,21 +76,7 @@ cv::Mat cut_person(const cv::Mat& bgr, const HeadRegion& head) {
     for (int c = 0; c < mask.cols; ++c) {
       const double x = ((c + 0.5) / scale - 0.5 - head.centre.x()) / head.radii.x();
       const double y = ((r + 0.5) / scale - 0.5 - head.centre.y()) / head.radii.y();
-      unsigned char start = cv::GC_PR_BGD;
-      switch (place_of(x, y)) {
-        case Place::core:
-          start = cv::GC_FGD;
-          break;
-        case Place::likely:
-          start = cv::GC_PR_FGD;
-          break;
-        case Place::open:
-          break;
-        case Place::far:
-          start = cv::GC_BGD;
-          break;
-      }
-      mask.at<unsigned char>(r, c) = start;
+      mask.at<unsigned char>(r, c) = kCut[static_cast<std::size_t>(place_of(x, y))];
     }
   }
   // Graph cut, and the result at the size of the image.
@@ -109,20 +96,8 @@ cv::Mat body_prior(const cv::Size& size, const HeadRegion& head) {
     auto* p = prior.ptr<float>(r);
     const double y = (r - head.centre.y()) / head.radii.y();
     for (int c = 0; c < size.width; ++c) {
-      switch (place_of((c - head.centre.x()) / head.radii.x(), y)) {
-        case Place::core:
-          p[c] = kCorePrior;
-          break;
-        case Place::likely:
-          p[c] = kLikelyPrior;
-          break;
-        case Place::open:
-          p[c] = kOpenPrior;
-          break;
-        case Place::far:
-          p[c] = kFarPrior;
-          break;
-      }
+      const Place place = place_of((c - head.centre.x()) / head.radii.x(), y);
+      p[c] = kPrior[static_cast<std::size_t>(place)];
     }
   }
   return prior;

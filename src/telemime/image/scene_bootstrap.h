@@ -4,7 +4,6 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,23 +20,6 @@ struct SceneSample {
   /// Where a network sees the person: CV_8UC1, 255 is certain; zeros: it sees nobody. Empty: no network
   /// looked.
   cv::Mat mask;
-};
-
-/// How the background was learned without a background clip.
-enum class SceneSource {
-  nothing,        ///< neither a face nor an empty stretch: nothing was learned
-  empty_stretch,  ///< from frames before the person enters or after the person leaves
-  moving_person,  ///< around a person who is in every image
-  colours_only,   ///< the camera moves: only colours of person and surroundings are known
-};
-
-/// Result of FeatureExtractor::bootstrap.
-struct SceneReport {
-  SceneSource source = SceneSource::nothing;
-  std::size_t first = 0;  ///< index of the first frame of the empty stretch
-  std::size_t count = 0;  ///< frames in the empty stretch
-  double known = 0.0;     ///< share of the image whose background is known
-  std::string sentence;   ///< the same as a message for the user
 };
 
 /// Start and length [first, count] of the run of images at the start (or, failing that, at the end) of

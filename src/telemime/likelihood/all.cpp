@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/likelihood/gpu/device_backend.h"
 #include "telemime/likelihood/simd/simd_backend.h"
 
@@ -54,20 +55,12 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::string backend_names() {
-  std::string names;
-  for (const BackendKind& kind : kBackends) {
-    names += (names.empty() ? "" : ", ") + std::string(kind.name);
-  }
-  return names;
-}
-
 std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options) {
   const auto kind = std::find_if(kBackends.begin(), kBackends.end(),
                                  [&](const BackendKind& candidate) { return candidate.name == name; });
   if (kind == kBackends.end()) {
     throw Error(ErrorKind::usage, "unknown back end " + std::string(name),
-                "Choose one of: " + backend_names() + ".");
+                "Choose one of: " + joined(kBackends, &BackendKind::name) + ".");
   }
   const std::string missing = kind->missing();
   if (!missing.empty()) {

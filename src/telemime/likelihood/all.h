@@ -33,9 +33,6 @@ struct BackendKind {
 inline constexpr std::size_t kBackendCount = 5;
 extern const std::array<BackendKind, kBackendCount> kBackends;
 
-/// "simd, opencl, ...".
-std::string backend_names();
-
 /// Makes a back end by name. Throws Error(usage) for an unknown name, with the choices, and for a back end
 /// that cannot run here, with the reason.
 std::unique_ptr<Backend> make_backend(std::string_view name, const BackendOptions& options = {});

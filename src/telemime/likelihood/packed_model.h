@@ -8,6 +8,7 @@
 
 #include "telemime/body/body.h"
 #include "telemime/body/mesh.h"
+#include "telemime/likelihood/gpu/device.h"
 
 namespace telemime {
 
@@ -26,17 +27,6 @@ struct PackedSegment {
   LaneSet quads{};           ///< lanes with a quadrilateral
   LaneSet top{};             ///< those at the top end: they have no triangle (a, b, c)
   LaneSet bottom{};          ///< those at the bottom end: they have no triangle (b, d, c)
-};
-
-/// Distances of the skeleton (m, body frame; see Body).
-struct PackedSkeleton {
-  std::array<float, 3> neck_from_root{};
-  std::array<std::array<float, 3>, 2> shoulder_from_root{};  ///< with hanging arms
-  float clavicle_lift = 0.0F;
-  float clavicle_reach = 0.0F;
-  std::array<float, 2> upper_arm{};
-  std::array<float, 2> forearm{};
-  bool operator==(const PackedSkeleton&) const = default;
 };
 
 /// All data of a person that an evaluation needs.

@@ -2,7 +2,6 @@
 #include "telemime/live/commands.h"
 
 #include <array>
-#include <cstdint>
 #include <utility>
 
 #include "telemime/core/json_field.h"

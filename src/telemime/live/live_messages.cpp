@@ -10,7 +10,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "telemime/outputs/all.h"
-#include "telemime/streaming/all.h"
 
 namespace telemime {
 namespace {

@@ -10,7 +10,6 @@
 #include <thread>
 #include <utility>
 
-#include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
 #include "telemime/live/live_answers.h"
 #include "telemime/live/live_files.h"

@@ -197,7 +197,7 @@ struct LiveSession::State {
       run->scene.features.learn_background(frames);
       report("background: the empty room, from " + std::to_string(frames.size()) + " pictures");
     } else {
-      report("background: " + run->scene.features.bootstrap(frames).sentence);
+      report("background: " + run->scene.features.bootstrap(frames));
     }
     const std::lock_guard lock(mutex);
     phase = LivePhase::person;
@@ -387,10 +387,6 @@ LiveState LiveSession::state() const {
     state.words = state_->camera_words.empty() ? "the camera delivers no images now" : state_->camera_words;
   }
   return state;
-}
-
-const SourceInfo& LiveSession::info() const {
-  return state_->source->info();
 }
 
 const Camera& LiveSession::camera() const {

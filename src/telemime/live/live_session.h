@@ -40,8 +40,8 @@ class LiveSession {
   LiveSession& operator=(const LiveSession&) = delete;
   ~LiveSession();  ///< stop()
 
-  /// After it returns, no hook is called; state() and info() may still be used. Waits for the work in
-  /// progress, not for the camera.
+  /// After it returns, no hook is called; state() may still be used. Waits for the work in progress,
+  /// not for the camera.
   void stop();
 
   /// The next three may be called from any thread; they take effect at the next frame.
@@ -49,7 +49,6 @@ class LiveSession {
   void recalibrate();
   LiveState state() const;
 
-  const SourceInfo& info() const;
   const Camera& camera() const;  ///< of the input's images
 
  private:

@@ -79,17 +79,13 @@ Json read(const fs::path& file) {
   return json;
 }
 
-LiveSettings settings_of(const Json& json) {
-  return {json.value("outputs", std::vector<std::string>())};
-}
-
 }  // namespace
 
-LiveSettings load_settings(const fs::path& file) {
-  return settings_of(read(file));
+std::vector<std::string> load_settings(const fs::path& file) {
+  return read(file).value("outputs", std::vector<std::string>());
 }
 
-void update_settings(const fs::path& file, const std::function<void(LiveSettings&)>& change) {
+void update_settings(const fs::path& file, const std::function<void(std::vector<std::string>&)>& change) {
   std::error_code failed;
   const fs::path target = at_end_of_links(fs::absolute(file, failed));
   make_private_folders(target.parent_path());
@@ -105,9 +101,8 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
     unusable = fs::is_regular_file(target, failed);
     json = Json::object();
   }
-  LiveSettings settings = settings_of(json);
-  change(settings);
-  std::vector<std::string>& urls = settings.outputs;
+  auto urls = json.value("outputs", std::vector<std::string>());
+  change(urls);
   if (urls.size() > kMostOutputs) {
     urls.erase(urls.begin(), urls.end() - static_cast<std::ptrdiff_t>(kMostOutputs));
   }
@@ -126,10 +121,6 @@ void update_settings(const fs::path& file, const std::function<void(LiveSettings
     }
     throw;
   }
-}
-
-void save_settings(const fs::path& file, const LiveSettings& settings) {
-  update_settings(file, [&](LiveSettings& kept) { kept = settings; });
 }
 
 }  // namespace telemime

@@ -14,7 +14,6 @@
 #include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
 #include "telemime/offline/resampler.h"
-#include "telemime/outputs/file_output.h"
 
 namespace telemime {
 namespace {
@@ -34,21 +33,8 @@ struct Task {
 struct Open {
   Recording recording;
   Resampler resampler;
-  struct File {
-    std::unique_ptr<FileOutput> output;
-    bool own_times = false;
-  };
-  std::vector<File> files;
+  MotionFiles files;
   std::int64_t last = -1;  // number of the last frame
-
-  // Frames with their own times go to the formats that have them, resampled ones to the others.
-  void write(const MotionFrame& frame, bool own_times) {
-    for (const File& file : files) {
-      if (file.own_times == own_times) {
-        file.output->write(frame);
-      }
-    }
-  }
 };
 
 }  // namespace
@@ -136,10 +122,10 @@ struct Recorder::State {
     // Whoever is lost at the end of the input is so in a frame that was written already.
     if (frame.frame > open->last) {
       open->last = frame.frame;
-      open->write(frame, true);
+      open->files.write(frame, true);
     }
     open->resampler.push(frame, [this](const MotionFrame& made) {
-      open->write(made, false);
+      open->files.write(made, false);
       const std::lock_guard lock(mutex);
       open->recording.frames = made.frame + 1;
       open->recording.seconds = static_cast<double>(made.frame + 1) / header->fps;
@@ -172,9 +158,7 @@ struct Recorder::State {
     }
     Open made{recording, Resampler(header->body, header->camera, header->fps), {}};
     for (const OutputFormat& format : formats) {
-      made.files.push_back(
-          {std::make_unique<FileOutput>(recording.folder / format.file_name, format.make(options), *header),
-           format.own_times});
+      made.files.open(recording.folder, format, options, *header);
     }
     open.emplace(std::move(made));
   }
@@ -195,7 +179,7 @@ struct Recorder::State {
       const std::lock_guard lock(mutex);
       missing = std::exchange(lost, 0);  // later losses count for the next recording
     }
-    for (Open::File& file : last.files) {
+    for (MotionFiles::File& file : last.files.all) {
       const std::filesystem::path path = file.output->path();
       try {
         file.output->close();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "telemime/core/errors.h"
 #include "telemime/live/live_settings.h"
@@ -31,7 +30,7 @@ void SavedOutputs::offer(bool resume) {
     return;
   }
   try {
-    for (const std::string& url : load_settings(file_).outputs) {
+    for (const std::string& url : load_settings(file_)) {
       offer(url, resume);
     }
   } catch (const Error& e) {
@@ -94,10 +93,9 @@ void SavedOutputs::save() {
     changes = std::exchange(changes_, {});
   }
   try {
-    update_settings(file_, [&](LiveSettings& settings) {
+    update_settings(file_, [&](std::vector<std::string>& urls) {
       for (const Change& change : changes) {
         const std::string meaning = meaning_or_text(change.url, senders_.kinds());
-        std::vector<std::string>& urls = settings.outputs;
         const auto same = [&](const std::string& url) {
           return meaning_or_text(url, senders_.kinds()) == meaning;
         };

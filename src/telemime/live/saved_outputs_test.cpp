@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "telemime/core/scratch_folder.h"
-#include "telemime/live/live_settings.h"
+#include "telemime/live/testing_settings.h"
 
 namespace telemime {
 namespace {
@@ -89,11 +89,11 @@ TEST_F(Saved, DamagedFileIsReported) {
   EXPECT_EQ(run.worst, MessageLevel::warning);
   EXPECT_NE(run.reported.find(file_.string()), std::string::npos) << run.reported;
   run.add("vmc://localhost");
-  EXPECT_EQ(load_settings(file_).outputs.size(), 1U);
+  EXPECT_EQ(load_settings(file_).size(), 1U);
 }
 
 TEST_F(Saved, UnknownOutputDoesNotBlockTheOthers) {
-  save_settings(file_, {{"carrier-pigeon://coop", "vmc://localhost", "vmc://localhost?bundle=7"}});
+  save_settings(file_, {"carrier-pigeon://coop", "vmc://localhost", "vmc://localhost?bundle=7"});
   const OneRun run(file_, /*resume=*/true);
   EXPECT_EQ(run.worst, MessageLevel::warning);
   EXPECT_NE(run.reported.find("carrier-pigeon"), std::string::npos) << run.reported;
@@ -101,32 +101,32 @@ TEST_F(Saved, UnknownOutputDoesNotBlockTheOthers) {
 }
 
 TEST_F(Saved, ConcurrentRunsPreserveChanges) {
-  save_settings(file_, {{"vmc://old", "carrier-pigeon://coop"}});
+  save_settings(file_, {"vmc://old", "carrier-pigeon://coop"});
   OneRun one(file_);
   OneRun other(file_);
   one.add("vmc://one");
   other.add("vmc://other");
   other.add("vmc://one:39539");
-  EXPECT_EQ(load_settings(file_).outputs,
+  EXPECT_EQ(load_settings(file_),
             (std::vector<std::string>{"vmc://old", "carrier-pigeon://coop", "vmc://one", "vmc://other"}));
   one.remove("vmc://old:39539");
   other.remove("vmc://other");
-  EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"carrier-pigeon://coop", "vmc://one"}));
+  EXPECT_EQ(load_settings(file_), (std::vector<std::string>{"carrier-pigeon://coop", "vmc://one"}));
 }
 
 TEST_F(Saved, MoreThanTheLimitArePreserved) {
-  LiveSettings many;
+  std::vector<std::string> many;
   for (int i = 0; i < 20; ++i) {
-    many.outputs.push_back("vmc://h" + std::to_string(i));
+    many.push_back("vmc://h" + std::to_string(i));
   }
   save_settings(file_, many);
   OneRun run(file_);
   EXPECT_EQ(run.senders.status().size(), 16U);
   run.remove("vmc://h3");
   run.add("vmc://new");
-  many.outputs.erase(many.outputs.begin() + 3);
-  many.outputs.emplace_back("vmc://new");
-  EXPECT_EQ(load_settings(file_).outputs, many.outputs);
+  many.erase(many.begin() + 3);
+  many.emplace_back("vmc://new");
+  EXPECT_EQ(load_settings(file_), many);
 }
 
 TEST_F(Saved, FailedWriteIsRepeatedAtTheNextChange) {
@@ -139,15 +139,15 @@ TEST_F(Saved, FailedWriteIsRepeatedAtTheNextChange) {
   EXPECT_EQ(run.reported, "") << "it is reported once";
   std::filesystem::remove(folder_.file("telemime"));
   run.add("vmc://two");
-  EXPECT_EQ(load_settings(file_).outputs, (std::vector<std::string>{"vmc://one", "vmc://two"}));
+  EXPECT_EQ(load_settings(file_), (std::vector<std::string>{"vmc://one", "vmc://two"}));
 }
 
 TEST_F(Saved, PasswordIsNotSaved) {
   OneRun run(file_);
   run.saved.keep("other://anna:secret@host/x");
   run.saved.save();
-  ASSERT_EQ(load_settings(file_).outputs.size(), 1U);
-  EXPECT_EQ(load_settings(file_).outputs[0].find("secret"), std::string::npos);
+  ASSERT_EQ(load_settings(file_).size(), 1U);
+  EXPECT_EQ(load_settings(file_)[0].find("secret"), std::string::npos);
 }
 
 TEST_F(Saved, FailedWriteIsReported) {

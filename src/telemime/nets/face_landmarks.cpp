@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "telemime/nets/models/table.h"
 #include "telemime/nets/single_shot.h"

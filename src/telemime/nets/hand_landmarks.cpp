@@ -46,12 +46,10 @@ PictureRegion rough_region(const PoseLandmarks& pose, HandSide side) {
 
 }  // namespace
 
-HandNetworks load_hand_networks(const std::filesystem::path& models, HandModel model) {
+HandNetworks load_hand_networks(const std::filesystem::path& models) {
   const std::vector<std::string> outputs = {"Identity", "Identity_1", "Identity_2", "Identity_3"};
   return {.cropper = load_network(models, "hand_recrop"),
-          .landmarker =
-              load_network(models, model == HandModel::lite ? "hand_landmark_lite" : "hand_landmark_full",
-                           {.inputs = {}, .outputs = outputs})};
+          .landmarker = load_network(models, "hand_landmark_full", {.inputs = {}, .outputs = outputs})};
 }
 
 std::optional<PictureRegion> hand_region(const cv::Mat& picture, const PoseLandmarks& pose, HandSide side,

@@ -39,10 +39,8 @@ struct HandNetworks {
   Network landmarker;
 };
 
-enum class HandModel { lite, full };
-
-/// Reads hand_recrop and hand_landmark_lite or _full. Throws Error(config) if one is missing.
-HandNetworks load_hand_networks(const std::filesystem::path& models, HandModel model = HandModel::full);
+/// Reads hand_recrop and hand_landmark_full. Throws Error(config) if one is missing.
+HandNetworks load_hand_networks(const std::filesystem::path& models);
 
 /// Where the pose says that a hand is: a square about it, turned so that the fingers point up in it. Empty if
 /// the hand would be smaller than a few pixels. BGR picture (CV_8UC3); no palm detector is needed.

@@ -95,10 +95,6 @@ const TensorShape& Network::input_shape(std::size_t input) const {
   return runtime_->graph.tensors[runtime_->graph.inputs.at(input)].shape;
 }
 
-const TensorShape& Network::output_shape(std::size_t output) const {
-  return runtime_->graph.tensors[runtime_->graph.outputs.at(output)].shape;
-}
-
 std::span<const std::span<const float>> Network::run(std::span<const std::span<const float>> inputs) {
   bool fits = inputs.size() == runtime_->inputs.size();
   for (std::size_t i = 0; fits && i < inputs.size(); ++i) {

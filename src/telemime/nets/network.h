@@ -21,7 +21,6 @@ class Network {
   ~Network();
 
   const TensorShape& input_shape(std::size_t input = 0) const;
-  const TensorShape& output_shape(std::size_t output) const;
 
   /// Computes the outputs: for each its numbers, row-major, valid until the next run. Throws Error(usage)
   /// unless there is one span for each input, of the size of its input_shape().

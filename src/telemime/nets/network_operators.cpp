@@ -21,7 +21,7 @@ constexpr int kDensify = 124;
               "Use the models that Telemime was built with.");
 }
 
-void require(bool fits, const std::string& what) {
+void require_supported(bool fits, const std::string& what) {
   if (!fits) {
     unsupported(what);
   }
@@ -35,20 +35,20 @@ Number option(const FileOperator& from, int field, Number otherwise = {}) {
 int small_option(const FileOperator& from, int field, int otherwise) {
   const int value = option<std::int32_t>(from, field, otherwise);
   constexpr int kMost = 4096;
-  require(value >= 1 && value <= kMost, "a stride, dilation or block of " + std::to_string(value));
+  require_supported(value >= 1 && value <= kMost, "a stride, dilation or block of " + std::to_string(value));
   return value;
 }
 
 // The numbers in a constant, such as the axes of a mean.
 const std::vector<int>& integers(const NetworkGraph& graph, const FileOperator& from, std::size_t input) {
-  require(input < from.inputs.size(), "an operator without its sizes");
+  require_supported(input < from.inputs.size(), "an operator without its sizes");
   return graph.tensors[from.inputs[input]].integers;
 }
 
 void clip(NetworkNode& node, int activation) {
   constexpr int kNone = 0, kRelu = 1, kRelu6 = 3;
-  require(activation == kNone || activation == kRelu || activation == kRelu6,
-          "activation function " + std::to_string(activation));
+  require_supported(activation == kNone || activation == kRelu || activation == kRelu6,
+                    "activation function " + std::to_string(activation));
   if (activation != kNone) {
     node.lowest = 0.0F;
   }
@@ -58,7 +58,7 @@ void clip(NetworkNode& node, int activation) {
 }
 
 NetworkNode node_of(NodeKind kind, const FileOperator& from, std::size_t inputs) {
-  require(from.inputs.size() >= inputs, "an operator without its inputs");
+  require_supported(from.inputs.size() >= inputs, "an operator without its inputs");
   NetworkNode node;
   node.kind = kind;
   node.inputs.assign(from.inputs.begin(), from.inputs.begin() + static_cast<std::ptrdiff_t>(inputs));
@@ -68,7 +68,7 @@ NetworkNode node_of(NodeKind kind, const FileOperator& from, std::size_t inputs)
 
 const TensorShape& image_shape(const NetworkGraph& graph, int tensor) {
   const TensorShape& shape = graph.tensors[tensor].shape;
-  require(shape.size() == 4, "a window over an array that is not an image");
+  require_supported(shape.size() == 4, "a window over an array that is not an image");
   return shape;
 }
 
@@ -125,7 +125,7 @@ void append_fully_connected(const FileOperator& from, NetworkGraph& graph) {
   NetworkNode node = node_of(NodeKind::fully_connected, from,
                              std::min<std::size_t>(std::max<std::size_t>(from.inputs.size(), 2), 3));
   clip(node, option<std::int8_t>(from, 0));
-  require(option<std::int8_t>(from, 1) == 0, "a shuffled weight format");
+  require_supported(option<std::int8_t>(from, 1) == 0, "a shuffled weight format");
   graph.nodes.push_back(node);
 }
 
@@ -149,7 +149,8 @@ void append_pool(const FileOperator& from, NetworkGraph& graph) {
 
 void append_mean(const FileOperator& from, NetworkGraph& graph) {
   NetworkNode node = node_of(NodeKind::average_pool, from, 1);
-  require(integers(graph, from, 1) == std::vector<int>{1, 2}, "a mean over other axes than height and width");
+  require_supported(integers(graph, from, 1) == std::vector<int>{1, 2},
+                    "a mean over other axes than height and width");
   if (option<std::int8_t>(from, 0) == 0) {  // the averages come out as a vector
     NetworkNode flatten;
     flatten.kind = NodeKind::reshape;
@@ -172,8 +173,9 @@ void append_pad(const FileOperator& from, NetworkGraph& graph) {
   const std::vector<int>& amounts = integers(graph, from, 1);
   constexpr int kMost = 4096;
   for (std::size_t i = 0; i + 1 < amounts.size(); i += 2) {
-    require(amounts[i] >= 0 && amounts[i] <= kMost && amounts[i + 1] >= 0 && amounts[i + 1] <= kMost,
-            "a negative or very large padding");
+    require_supported(
+        amounts[i] >= 0 && amounts[i] <= kMost && amounts[i + 1] >= 0 && amounts[i + 1] <= kMost,
+        "a negative or very large padding");
     node.before.push_back(amounts[i]);
     node.after.push_back(amounts[i + 1]);
   }
@@ -181,8 +183,8 @@ void append_pad(const FileOperator& from, NetworkGraph& graph) {
 }
 
 void append_resize(const FileOperator& from, NetworkGraph& graph) {
-  require(option<std::int8_t>(from, 2) == 0 && option<std::int8_t>(from, 3) != 0,
-          "a resize that does not keep the centres of pixels");
+  require_supported(option<std::int8_t>(from, 2) == 0 && option<std::int8_t>(from, 3) != 0,
+                    "a resize that does not keep the centres of pixels");
   graph.nodes.push_back(node_of(NodeKind::resize_bilinear, from, 1));
 }
 
@@ -193,8 +195,8 @@ void append_depth_to_space(const FileOperator& from, NetworkGraph& graph) {
 }
 
 void append_concatenation(const FileOperator& from, NetworkGraph& graph) {
-  require(option<std::int32_t>(from, 0) == 1 && option<std::int8_t>(from, 1) == 0,
-          "a concatenation along another axis than the second");
+  require_supported(option<std::int32_t>(from, 0) == 1 && option<std::int8_t>(from, 1) == 0,
+                    "a concatenation along another axis than the second");
   graph.nodes.push_back(node_of(NodeKind::concatenate, from, std::max<std::size_t>(from.inputs.size(), 1)));
 }
 
@@ -210,10 +212,11 @@ void append_slice(const FileOperator& from, NetworkGraph& graph) {
   NetworkNode node = node_of(NodeKind::convolution, from, 1);
   const TensorShape in = image_shape(graph, node.inputs[0]);
   const TensorShape out = image_shape(graph, node.output);
-  require(out[1] == in[1] && out[2] == in[2] && out[3] <= in[3] && integers(graph, from, 1).size() == 4 &&
-              integers(graph, from, 1) == std::vector<int>(4, 0) &&
-              integers(graph, from, 3) == std::vector<int>(4, 1),
-          "a slice of something else than the first channels");
+  require_supported(out[1] == in[1] && out[2] == in[2] && out[3] <= in[3] &&
+                        integers(graph, from, 1).size() == 4 &&
+                        integers(graph, from, 1) == std::vector<int>(4, 0) &&
+                        integers(graph, from, 3) == std::vector<int>(4, 1),
+                    "a slice of something else than the first channels");
   NetworkTensor weights{.shape = {out[3], 1, 1, in[3]}, .values = {}, .integers = {}, .name = {}};
   weights.values.assign(element_count(weights.shape), 0.0F);
   for (int channel = 0; channel < out[3]; ++channel) {

@@ -26,4 +26,15 @@ bool copies_constant(const FileOperator& from);
 /// or an option is not supported or its constants cannot be used.
 void append_nodes(const FileOperator& from, NetworkGraph& graph);
 
+/// A tensor of a TensorFlow Lite file. Constants in half precision or sparse form become plain numbers.
+/// Throws Error(config) if its shape is unusable or its numbers do not fill it.
+NetworkTensor read_tensor(const FlatTable& from, const std::vector<FlatTable>& buffers);
+
+/// Throws Error(config) unless the shape of the node's output and those of its weights follow from its
+/// inputs.
+void check_shapes(const NetworkGraph& graph, const NetworkNode& node);
+
+/// Throws Error(config) with what is wrong with the file unless it fits.
+void require(bool fits, const char* what);
+
 }  // namespace telemime

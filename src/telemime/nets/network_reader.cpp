@@ -7,20 +7,11 @@
 #include "telemime/nets/flat_table.h"
 #include "telemime/nets/network_graph.h"
 #include "telemime/nets/network_operators.h"
-#include "telemime/nets/network_shapes.h"
-#include "telemime/nets/network_tensor.h"
 
 namespace telemime {
 namespace {
 
 constexpr std::size_t kMostElements = std::size_t{1} << 27U;  // of all arrays of a network
-
-void require(bool fits, const char* what) {
-  if (!fits) {
-    throw Error(ErrorKind::config, std::string("the network file is damaged: ") + what,
-                "Install the models again.");
-  }
-}
 
 struct OperatorCode {
   int code = 0;

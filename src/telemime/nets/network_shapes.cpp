@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/nets/network_shapes.h"
+#include "telemime/nets/network_operators.h"
 
 #include <algorithm>
 
-#include "telemime/core/errors.h"
-
 namespace telemime {
 namespace {
-
-void require(bool fits, const char* what) {
-  if (!fits) {
-    throw Error(ErrorKind::config, std::string("the network file is damaged: ") + what,
-                "Install the models again.");
-  }
-}
 
 void require_image(const TensorShape& shape) {
   require(shape.size() == 4 && shape[0] == 1, "an operator on images has another input");

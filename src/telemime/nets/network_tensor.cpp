@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "telemime/nets/network_tensor.h"
+#include "telemime/nets/network_operators.h"
 
 #include <cstring>
 #include <opencv2/core.hpp>
@@ -10,13 +10,6 @@ namespace telemime {
 namespace {
 
 constexpr std::size_t kMostElements = std::size_t{1} << 24U;  // of one array
-
-void require(bool fits, const char* what) {
-  if (!fits) {
-    throw Error(ErrorKind::config, std::string("the network file is damaged: ") + what,
-                "Install the models again.");
-  }
-}
 
 enum class NumberFormat : std::int8_t { float32 = 0, float16 = 1, int32 = 2 };
 
@@ -90,6 +83,13 @@ std::vector<int> read_integers(std::span<const std::byte> bytes) {
 }
 
 }  // namespace
+
+void require(bool fits, const char* what) {
+  if (!fits) {
+    throw Error(ErrorKind::config, std::string("the network file is damaged: ") + what,
+                "Install the models again.");
+  }
+}
 
 std::size_t element_count(const TensorShape& shape) {
   std::size_t count = 1;

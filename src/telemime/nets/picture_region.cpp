@@ -33,16 +33,9 @@ Eigen::Vector2d PictureRegion::pixel(const Eigen::Vector2d& own) const {
   return centre + rotation() * Eigen::Vector2d((own.x() - 0.5) * width, (own.y() - 0.5) * height);
 }
 
-PictureRegion whole_picture(const cv::Mat& picture) {
-  return {.centre = {0.5 * (picture.cols - 1), 0.5 * (picture.rows - 1)},
-          .width = static_cast<double>(picture.cols),
-          .height = static_cast<double>(picture.rows)};
-}
-
 PictureRegion square_around(const cv::Mat& picture) {
-  PictureRegion region = whole_picture(picture);
-  region.width = region.height = std::max(region.width, region.height);
-  return region;
+  const double side = std::max(picture.cols, picture.rows);
+  return {.centre = {0.5 * (picture.cols - 1), 0.5 * (picture.rows - 1)}, .width = side, .height = side};
 }
 
 PictureRegion region_of_axis(const Eigen::Vector2d& centre, const Eigen::Vector2d& top) {

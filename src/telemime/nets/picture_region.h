@@ -20,9 +20,6 @@ struct PictureRegion {
   Eigen::Matrix2d rotation() const;
 };
 
-/// The whole picture.
-PictureRegion whole_picture(const cv::Mat& picture);
-
 /// The smallest square about the middle of the picture that contains it.
 PictureRegion square_around(const cv::Mat& picture);
 

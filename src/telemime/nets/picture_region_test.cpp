@@ -25,9 +25,15 @@ cv::Mat coordinates(int width, int height) {
 const InputFormat kBytes{.size = {8, 6}, .black = 0.0F, .white = 255.0F};
 
 TEST(PictureRegion, OwnCoordinatesGoFromEdgeToEdge) {
-  const PictureRegion region = whole_picture(cv::Mat(6, 8, CV_8UC3));
+  const PictureRegion region{.centre = {3.5, 2.5}, .width = 8.0, .height = 6.0};
   EXPECT_TRUE(region.pixel({0.0, 0.0}).isApprox(Eigen::Vector2d(-0.5, -0.5)));
   EXPECT_TRUE(region.pixel({1.0, 1.0}).isApprox(Eigen::Vector2d(7.5, 5.5)));
+}
+
+TEST(PictureRegion, SquareContainsAWidePicture) {
+  const PictureRegion region = square_around(cv::Mat(6, 8, CV_8UC3));
+  EXPECT_TRUE(region.pixel({0.0, 0.0}).isApprox(Eigen::Vector2d(-0.5, -1.5)));
+  EXPECT_TRUE(region.pixel({1.0, 1.0}).isApprox(Eigen::Vector2d(7.5, 6.5)));
 }
 
 TEST(PictureRegion, QuarterTurnByHand) {
@@ -45,8 +51,8 @@ TEST(PictureRegion, UprightAxisHasNoAngle) {
 }
 
 TEST(NetworkInput, WholePictureIsItselfAsRgb) {
-  const cv::Mat picture = coordinates(8, 6);
-  const std::vector<float> input = network_input(picture, whole_picture(picture), kBytes);
+  const PictureRegion whole{.centre = {3.5, 2.5}, .width = 8.0, .height = 6.0};
+  const std::vector<float> input = network_input(coordinates(8, 6), whole, kBytes);
   ASSERT_EQ(input.size(), 8U * 6U * 3U);
   constexpr std::size_t kPixel = 3U * (2U * 8U + 5U);  // row 2, column 5
   EXPECT_FLOAT_EQ(input[kPixel], 7.0F);
@@ -66,7 +72,7 @@ TEST(NetworkInput, BorderIsRepeatedOrBlack) {
 TEST(NetworkInput, RefusesOtherPictures) {
   EXPECT_THROW(network_input(cv::Mat(), PictureRegion{}, kBytes), Error);
   const cv::Mat grey(4, 4, CV_8UC1, cv::Scalar(9));
-  EXPECT_THROW(network_input(grey, whole_picture(grey), kBytes), Error);
+  EXPECT_THROW(network_input(grey, square_around(grey), kBytes), Error);
 }
 
 TEST(PictureMask, RowsThatThePictureShows) {

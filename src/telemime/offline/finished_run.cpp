@@ -2,7 +2,6 @@
 #include "telemime/offline/finished_run.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -2,7 +2,6 @@
 #include "telemime/offline/look_ahead.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 

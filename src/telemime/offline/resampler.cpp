@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/offline/resampler.h"
 
-#include <algorithm>
-
 #include "telemime/tracker/joint_rotations.h"
 #include "telemime/tracker/smoother.h"
 

@@ -133,26 +133,17 @@ void RunOutputs::begin(const StreamHeader& known) {
   resampler_.emplace(header.body, header.camera, header.fps);
   for (const OutputFormat& format : kOutputFormats) {
     if (is_asked_for(formats_, format)) {
-      outputs_.push_back({std::make_unique<FileOutput>(folder_ / std::string(format.file_name),
-                                                       format.make(options_), header),
-                          format.own_times});
+      outputs_.open(folder_, format, options_, header);
     }
   }
 }
 
 void RunOutputs::write(const MotionFrame& frame) {
-  const auto write_to = [this](bool own_times, const MotionFrame& motion) {
-    for (const Output& output : outputs_) {
-      if (output.own_times == own_times) {
-        output.file->write(motion);
-      }
-    }
-  };
   if (!resampler_) {
     return;
   }
-  write_to(true, frame);
-  resampler_->push(frame, [&](const MotionFrame& made) { write_to(false, made); });
+  outputs_.write(frame, true);
+  resampler_->push(frame, [this](const MotionFrame& made) { outputs_.write(made, false); });
 }
 
 void RunOutputs::write_overlay(const cv::Mat& picture, double time) {
@@ -168,8 +159,8 @@ void RunOutputs::close_overlay() {
 }
 
 void RunOutputs::close(const nlohmann::json& report) {
-  for (const Output& output : outputs_) {
-    output.file->close();
+  for (const MotionFiles::File& file : outputs_.all) {
+    file.output->close();
   }
   if (folder_.empty()) {
     return;
@@ -180,8 +171,8 @@ void RunOutputs::close(const nlohmann::json& report) {
 
 std::vector<std::string> RunOutputs::files() const {
   std::vector<std::string> names;
-  for (const Output& output : outputs_) {
-    names.push_back(output.file->path().string());
+  for (const MotionFiles::File& file : outputs_.all) {
+    names.push_back(file.output->path().string());
   }
   if (video_ && !video_->file().empty()) {
     names.push_back(video_->file());

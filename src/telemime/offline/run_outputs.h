@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -9,7 +8,6 @@
 
 #include "telemime/offline/overlay_video.h"
 #include "telemime/offline/resampler.h"
-#include "telemime/outputs/file_output.h"
 #include "telemime/tracker/track_request.h"
 
 namespace telemime {
@@ -52,15 +50,10 @@ class RunOutputs {
   std::vector<std::string> files() const;
 
  private:
-  struct Output {
-    std::unique_ptr<FileOutput> file;
-    bool own_times;
-  };
-
   std::filesystem::path folder_;
   std::vector<std::string> formats_;
   OutputOptions options_;
-  std::vector<Output> outputs_;
+  MotionFiles outputs_;
   std::optional<Resampler> resampler_;
   std::optional<OverlayVideo> video_;
 };

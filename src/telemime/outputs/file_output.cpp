@@ -46,16 +46,8 @@ void FileOutput::close() {
 }
 
 void FileOutput::append(std::string_view bytes) {
-  std::size_t written = 0;
-  while (written < bytes.size()) {
-    const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
-    if (count < 0 && errno == EINTR) {
-      continue;
-    }
-    if (count < 0) {
-      fail(errno);
-    }
-    written += static_cast<std::size_t>(count);
+  if (const int error = write_all(descriptor_, bytes); error != 0) {
+    fail(error);
   }
   size_ += bytes.size();
 }

@@ -18,16 +18,20 @@
 /// Reads the BVH files that the encoder writes. Readers of others are in tests/readers.
 namespace telemime::testing_bvh {
 
+/// Positions and rotations, each along x, y and z in this order.
+inline constexpr std::array<std::string_view, 6> kChannels = {"Xposition", "Yposition", "Zposition",
+                                                              "Xrotation", "Yrotation", "Zrotation"};
+
 struct BvhFile {
-  std::vector<BvhJoint> joints;             ///< parents before their children, one root
+  std::vector<BvhJoint> joints;  ///< parents before their children, one root
+  /// Of each joint, by place in kChannels; rotations multiply in this order, leftmost first.
+  std::vector<std::vector<std::size_t>> channels;
   double frame_time = 0.04;                 ///< s
   std::vector<std::vector<double>> frames;  ///< (frames x channels), cm and degrees
 };
 
 /// Checks that the file has the number of frames that it states, and every frame a value for each channel.
 inline BvhFile parse_bvh(const std::string& text) {
-  static constexpr std::array<std::string_view, 6> kChannels = {"Xposition", "Yposition", "Zposition",
-                                                                "Xrotation", "Yrotation", "Zrotation"};
   std::istringstream in(text);
   BvhFile file;
   std::vector<int> open;
@@ -40,6 +44,7 @@ inline BvhFile parse_bvh(const std::string& text) {
       joint.parent = open.empty() ? -1 : open.back();
       open.push_back(static_cast<int>(file.joints.size()));
       file.joints.push_back(joint);
+      file.channels.emplace_back();
     } else if (word == "OFFSET") {
       Eigen::Vector3d offset;
       in >> offset.x() >> offset.y() >> offset.z();
@@ -55,7 +60,7 @@ inline BvhFile parse_bvh(const std::string& text) {
       for (std::string name; count > 0 && in >> name; --count) {
         const auto* const found = std::find(kChannels.begin(), kChannels.end(), name);
         EXPECT_NE(found, kChannels.end()) << name;
-        file.joints.back().channels.push_back(static_cast<BvhChannel>(found - kChannels.begin()));
+        file.channels.back().push_back(static_cast<std::size_t>(found - kChannels.begin()));
       }
     } else if (word == "End") {
       in_end_site = true;
@@ -82,11 +87,12 @@ inline BvhFile parse_bvh(const std::string& text) {
 inline std::vector<Eigen::Isometry3d> bvh_world(const BvhFile& file, std::size_t frame) {
   std::vector<Eigen::Isometry3d> world;
   auto value = file.frames.at(frame).begin();
-  for (const BvhJoint& joint : file.joints) {
+  for (std::size_t j = 0; j < file.joints.size(); ++j) {
+    const BvhJoint& joint = file.joints[j];
     Eigen::Isometry3d local(Eigen::Translation3d(joint.offset));
-    for (const BvhChannel channel : joint.channels) {
-      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(channel) % 3);
-      if (channel <= BvhChannel::z_position) {
+    for (const std::size_t channel : file.channels[j]) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(channel % 3));
+      if (channel < 3) {
         local.pretranslate(*value++ * axis);
       } else {
         local.rotate(Eigen::AngleAxisd(*value++ / kDegreesPerRadian, axis));

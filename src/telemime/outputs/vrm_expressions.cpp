@@ -38,25 +38,17 @@ std::array<double, kVrmExpressionCount> vrm_expressions(const FaceMotion& face) 
   for (double& vowel : vowels) {
     vowel /= std::max(sum, 1.0);
   }
-  const double blink = std::min(face[eye_blink_left], face[eye_blink_right]);
+  const auto [a, i, u, e, o] = vowels;
+  const double left = face[eye_blink_left];
+  const double right = face[eye_blink_right];
+  const double blink = std::min(left, right);
   constexpr double kFarthest = 0.52;  // rad, of the gaze
-  return {happy,
-          angry,
-          sad,
-          relaxed,
-          surprised,
-          vowels[0],
-          vowels[1],
-          vowels[2],
-          vowels[3],
-          vowels[4],
-          blink,
-          face[eye_blink_left] - blink,
-          face[eye_blink_right] - blink,
-          ramp(face.gaze.y(), 0.0, kFarthest),
-          ramp(-face.gaze.y(), 0.0, kFarthest),
-          ramp(face.gaze.x(), 0.0, kFarthest),
-          ramp(-face.gaze.x(), 0.0, kFarthest)};
+  const double up = ramp(face.gaze.y(), 0.0, kFarthest);
+  const double down = ramp(-face.gaze.y(), 0.0, kFarthest);
+  const double to_left = ramp(face.gaze.x(), 0.0, kFarthest);
+  const double to_right = ramp(-face.gaze.x(), 0.0, kFarthest);
+  return {happy, angry, sad,          relaxed,       surprised, a,    i,       u,       e,
+          o,     blink, left - blink, right - blink, up,        down, to_left, to_right};
 }
 
 }  // namespace telemime

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "telemime/body/interpenetration.h"
-#include "telemime/search/blocks.h"
 
 namespace telemime {
 namespace {
@@ -18,11 +16,6 @@ constexpr int kMostAttempts = 20;  // to draw an arm inside the limits that does
 constexpr double kRandomSlack = 0.05;
 constexpr double kFanSlack = 0.15;  // clamped by this much, a forearm still points near the wanted direction
 constexpr double kBehind = 0.25;    // directions of the fan that point backward, of the unit sphere's radius
-
-struct Candidate {
-  Pose pose;
-  double cost = 0.0;
-};
 
 }  // namespace
 
@@ -88,28 +81,32 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
   return fan;
 }
 
+ScoredPose searched(Objective& objective, const ScoredPose& from, const SearchBlock& block,
+                    const ObjectiveWeights& weights, int evaluations) {
+  SimplexOptions options;
+  options.max_evaluations = evaluations;
+  const SimplexResult found =
+      minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
+               axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
+  return found.best().cost < from.cost ? ScoredPose{block.decode(found.best().point), found.best().cost}
+                                       : from;
+}
+
 Pose search_arm(Objective& objective, const Pose& pose, Side side, const ObjectiveWeights& weights,
                 const ArmSearchConfig& config, Random& random) {
   const Body& body = objective.model().body;
-  std::vector<Candidate> candidates = {{pose, objective(pose, weights)}};
+  std::vector<ScoredPose> candidates = {{pose, objective(pose, weights)}};
   for (int i = 0; i < config.samples; ++i) {
     const Pose arm = random_arm(body, pose, side, objective.limits(), random);
     candidates.push_back({arm, objective(arm, weights)});
   }
   const auto kept = std::min(candidates.size(), static_cast<std::size_t>(std::max(1, config.kept)));
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  Candidate best = candidates.front();
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; });
+  ScoredPose best = candidates.front();
   for (std::size_t i = 0; i < kept; ++i) {
     const SearchBlock block = arm_block(body, candidates[i].pose, side, objective.limits(), 3.0);
-    SimplexOptions options;
-    options.max_evaluations = config.refine;
-    const SimplexResult found =
-        minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
-                 axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
-    if (found.best().cost < best.cost) {
-      best = {block.decode(found.best().point), found.best().cost};
-    }
+    best = searched(objective, best, block, weights, config.refine);
   }
   return best.pose;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "telemime/core/random.h"
+#include "telemime/search/blocks.h"
 #include "telemime/search/objective.h"
 
 namespace telemime {
@@ -25,6 +26,11 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
 /// body are dropped.
 std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                               int count, Random& random);
+
+/// The best pose that a simplex finds in a block if it costs less than `from`, otherwise `from`. Spends at
+/// most `evaluations`, but at least one.
+ScoredPose searched(Objective& objective, const ScoredPose& from, const SearchBlock& block,
+                    const ObjectiveWeights& weights, int evaluations);
 
 /// Searches one arm globally, for the first frame and for recovery: random arms, of which the best are
 /// refined by a simplex. Never costs more than the arm of `pose`.

@@ -2,7 +2,6 @@
 #include "telemime/search/blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -29,11 +28,10 @@ double high_of(const JointLimits& limits, std::size_t i) {
   return i < 2 ? kMostAsideSearched : i == 2 ? kFarthestSearched : limits.max[i - 3];
 }
 
-SearchBlock numbers_block(std::string_view name, const Pose& pose, const JointLimits& limits, double factor,
+SearchBlock numbers_block(const Pose& pose, const JointLimits& limits, double factor,
                           const std::vector<std::size_t>& which) {
   const auto n = static_cast<Eigen::Index>(which.size());
   SearchBlock block;
-  block.name = name;
   block.start.resize(n);
   block.steps.resize(n);
   block.bounds = {Eigen::VectorXd(n), Eigen::VectorXd(n)};
@@ -62,7 +60,7 @@ SearchBlock whole_block(const Pose& pose, const JointLimits& limits, double fact
   for (std::size_t i = 0; i < kPoseSize; ++i) {
     which[i] = i;
   }
-  return numbers_block("whole", pose, limits, factor, which);
+  return numbers_block(pose, limits, factor, which);
 }
 
 Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& target,
@@ -93,7 +91,7 @@ Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& 
 }
 
 SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& limits, double factor) {
-  SearchBlock block = numbers_block("trunk", pose, limits, factor, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  SearchBlock block = numbers_block(pose, limits, factor, {0, 1, 2, 3, 4, 5, 6, 7, 8});
   block.decode = [&body, &limits, move = block.decode, left = arm_target(body, pose, Side::left),
                   right = arm_target(body, pose, Side::right)](const Eigen::VectorXd& x) {
     const Pose moved = with_wrist(body, move(x), Side::left, left, limits);
@@ -111,10 +109,8 @@ std::array<Angle, 3> hand_angles(Side side) {
 namespace {
 
 // A block of 7 numbers whose last three are the hand's angles; the first four are the caller's.
-SearchBlock with_hand(std::string_view name, const Pose& pose, Side side, const JointLimits& limits,
-                      double factor) {
+SearchBlock with_hand(const Pose& pose, Side side, const JointLimits& limits, double factor) {
   SearchBlock block;
-  block.name = name;
   block.start.resize(7);
   block.steps.resize(7);
   block.bounds = {Eigen::VectorXd(7), Eigen::VectorXd(7)};
@@ -158,7 +154,7 @@ SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const Joi
   const Eigen::Vector3d wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
   const Eigen::Vector3d upper = elbow - shoulder;
   const Eigen::Vector3d fore = wrist - elbow;
-  SearchBlock block = with_hand(left ? "left bones" : "right bones", pose, side, limits, factor);
+  SearchBlock block = with_hand(pose, side, limits, factor);
   constexpr double kMost = 1.2;       // rad, of a bone from its start
   constexpr double kUpperTurn = 4.0;  // degrees: typical turns of the upper arm from frame to frame,
   constexpr double kUpperLift = 6.0;  // across and along its plane,
@@ -183,7 +179,6 @@ SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const Joi
 
 SearchBlock part_of(const SearchBlock& block, Eigen::Index first, Eigen::Index count) {
   SearchBlock part;
-  part.name = block.name;
   part.start = block.start.segment(first, count);
   part.steps = block.steps.segment(first, count);
   part.bounds = {block.bounds.low.segment(first, count), block.bounds.high.segment(first, count)};
@@ -198,7 +193,7 @@ SearchBlock part_of(const SearchBlock& block, Eigen::Index first, Eigen::Index c
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor) {
   const ArmTarget target = arm_target(body, pose, side);
-  SearchBlock block = with_hand(side == Side::left ? "left arm" : "right arm", pose, side, limits, factor);
+  SearchBlock block = with_hand(pose, side, limits, factor);
   constexpr double kNearestWrist = 0.02;  // m: one that reaches for the camera stays on its viewing ray
   const double z = std::max(kNearestWrist, target.wrist.z());
   constexpr double kAcross = 0.025;  // m, typical change of a wrist from frame to frame

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
-#include <string_view>
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/limits.h"
@@ -14,7 +13,6 @@ namespace telemime {
 
 /// One part of the pose as a search space. The other parts keep the values of the pose it was made from.
 struct SearchBlock {
-  std::string_view name;
   Eigen::VectorXd start;
   Eigen::VectorXd steps;  ///< extent of the initial simplex: factor x typical frame-to-frame change
   Bounds bounds;

@@ -46,7 +46,7 @@ TEST(Blocks, StartDecodesToThePose) {
     }
     for (const SearchBlock& block : all_blocks(body, pose, limits)) {
       ASSERT_LT(farthest_joint(body, block.decode(block.start), pose), kTenthOfMillimetre)
-          << block.name << " " << i;
+          << "block of " << block.start.size() << ", pose " << i;
     }
   }
 }
@@ -74,12 +74,12 @@ TEST(Blocks, SizesAndBoundsFit) {
   const Eigen::Index sizes[] = {23, 9, 7, 7, 7, 7};
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const SearchBlock& b = blocks[i];
-    EXPECT_EQ(b.start.size(), sizes[i]) << b.name;
-    EXPECT_EQ(b.steps.size(), sizes[i]) << b.name;
-    EXPECT_TRUE((b.steps.array() > 0.0).all()) << b.name;
-    EXPECT_TRUE((b.bounds.low.array() < b.bounds.high.array()).all()) << b.name;
-    EXPECT_TRUE((b.start.array() >= b.bounds.low.array()).all()) << b.name;
-    EXPECT_TRUE((b.start.array() <= b.bounds.high.array()).all()) << b.name;
+    EXPECT_EQ(b.start.size(), sizes[i]) << i;
+    EXPECT_EQ(b.steps.size(), sizes[i]) << i;
+    EXPECT_TRUE((b.steps.array() > 0.0).all()) << i;
+    EXPECT_TRUE((b.bounds.low.array() < b.bounds.high.array()).all()) << i;
+    EXPECT_TRUE((b.start.array() >= b.bounds.low.array()).all()) << i;
+    EXPECT_TRUE((b.start.array() <= b.bounds.high.array()).all()) << i;
   }
 }
 

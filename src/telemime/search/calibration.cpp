@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "telemime/core/errors.h"
 #include "telemime/search/landmark_fit.h"
 
 namespace telemime {

@@ -7,7 +7,6 @@
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
-#include "telemime/body/interpenetration.h"
 #include "telemime/body/kinematic_rates.h"
 #include "telemime/body/rotations.h"
 

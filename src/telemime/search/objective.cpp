@@ -12,10 +12,6 @@
 namespace telemime {
 namespace {
 
-double square(double x) {
-  return x * x;
-}
-
 double outside_limits(const JointLimits& limits, const Pose& pose) {
   double sum = 0.0;
   for (std::size_t i = 0; i < kAngleCount; ++i) {

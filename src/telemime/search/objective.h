@@ -76,6 +76,12 @@ double share_of_motion(double velocity, double time_step, double time_step_befor
 double add_cue_costs(double cost, const Backend& backend, const PreparedFrame& frame,
                      const CueValues& weights, const Score& score);
 
+/// A pose and what it costs.
+struct ScoredPose {
+  Pose pose;
+  double cost = 0.0;
+};
+
 /// What is known about a pose before the image is evaluated.
 struct Prior {
   struct Prediction {

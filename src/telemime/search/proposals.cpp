@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "telemime/body/arm_flips.h"
-#include "telemime/core/errors.h"
 #include "telemime/search/arm_search.h"
 #include "telemime/search/blocks.h"
 
@@ -20,26 +19,11 @@ constexpr int kFlips = 3;
 // searched.
 constexpr double kAway = 0.15;
 constexpr double kApart = 0.10;
-constexpr double kTolerance = 1e-4;
 
-struct Candidate {
-  Pose pose;
-  double cost = 0.0;
-};
-
-Candidate searched(Objective& objective, const Candidate& from, const SearchBlock& block,
-                   const ObjectiveWeights& weights, int evaluations) {
-  if (evaluations < 2) {
-    return from;
-  }
-  SimplexOptions options;
-  options.tolerance = kTolerance;
-  options.max_evaluations = evaluations;
-  const SimplexResult found =
-      minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
-               axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
-  return found.best().cost < from.cost ? Candidate{block.decode(found.best().point), found.best().cost}
-                                       : from;
+// The same as searched(); one evaluation would only repeat the start.
+ScoredPose improved(Objective& objective, const ScoredPose& from, const SearchBlock& block,
+                    const ObjectiveWeights& weights, int evaluations) {
+  return evaluations < 2 ? from : searched(objective, from, block, weights, evaluations);
 }
 
 Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
@@ -47,14 +31,14 @@ Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
 }
 
 // The cheapest candidates whose wrists are kAway from that of `here` and kApart from each other.
-std::vector<Candidate> distinct(std::vector<Candidate> candidates, const Body& body, const Pose& here,
-                                Side side, int count) {
+std::vector<ScoredPose> distinct(std::vector<ScoredPose> candidates, const Body& body, const Pose& here,
+                                 Side side, int count) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+                   [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; });
   const Eigen::Vector3d own = wrist_of(body, here, side);
   std::vector<Eigen::Vector3d> wrists;
-  std::vector<Candidate> kept;
-  for (const Candidate& c : candidates) {
+  std::vector<ScoredPose> kept;
+  for (const ScoredPose& c : candidates) {
     if (static_cast<int>(kept.size()) == count) {
       break;
     }
@@ -157,16 +141,16 @@ Pose propose_upright(Objective& objective, const Pose& start, const ObjectiveWei
   // The arms fit the trunk with which they were tracked: both candidates get a short search before the
   // comparison.
   const auto settled = [&](const Pose& pose) {
-    Candidate best = {pose, objective(pose, weights)};
+    ScoredPose best = {pose, objective(pose, weights)};
     for (const Side side : {Side::left, Side::right}) {
       best =
-          searched(objective, best, part_of(bones_block(body, best.pose, side, limits, simplex_factor), 0, 4),
+          improved(objective, best, part_of(bones_block(body, best.pose, side, limits, simplex_factor), 0, 4),
                    weights, evaluations / 4);
     }
     return best;
   };
-  const Candidate rival = settled(limits.clamp(upright));
-  const Candidate own = settled(start);
+  const ScoredPose rival = settled(limits.clamp(upright));
+  const ScoredPose own = settled(start);
   return rival.cost < own.cost ? rival.pose : own.pose;
 }
 
@@ -178,13 +162,13 @@ Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeight
   if (!both) {
     sides = {random.uniform() < 0.5 ? Side::left : Side::right};
   }
-  Candidate best = {start, objective(start, weights)};
+  ScoredPose best = {start, objective(start, weights)};
   const auto bones = [&](const Pose& pose, Side side) {
     return bones_block(body, pose, side, limits, simplex_factor);
   };
   for (const Side side : sides) {
     // Evaluate all proposals and keep the best that differ.
-    std::vector<Candidate> others;
+    std::vector<ScoredPose> others;
     for (const Pose& arm : proposed_arms(objective, best.pose, side, config, random)) {
       others.push_back({arm, objective(arm, weights)});
     }
@@ -193,13 +177,14 @@ Pose propose_arms(Objective& objective, const Pose& start, const ObjectiveWeight
       continue;
     }
     // Turn their forearms, then search the best one and the present arm further.
-    for (Candidate& other : others) {
-      other = searched(objective, other, part_of(bones(other.pose, side), 2, 2), weights, config.turns);
+    for (ScoredPose& other : others) {
+      other = improved(objective, other, part_of(bones(other.pose, side), 2, 2), weights, config.turns);
     }
-    const Candidate other = *std::min_element(
-        others.begin(), others.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    const Candidate rival = searched(objective, other, bones(other.pose, side), weights, config.refine);
-    best = searched(objective, best, bones(best.pose, side), weights, config.refine / 2);
+    const ScoredPose other =
+        *std::min_element(others.begin(), others.end(),
+                          [](const ScoredPose& a, const ScoredPose& b) { return a.cost < b.cost; });
+    const ScoredPose rival = improved(objective, other, bones(other.pose, side), weights, config.refine);
+    best = improved(objective, best, bones(best.pose, side), weights, config.refine / 2);
     if (rival.cost + config.margin < best.cost) {
       best = rival;
     }

@@ -14,10 +14,6 @@
 namespace telemime {
 namespace {
 
-double square(double x) {
-  return x * x;
-}
-
 struct Candidate {
   Shape shape;
   Pose pose;

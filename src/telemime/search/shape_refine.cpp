@@ -7,18 +7,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
-#include "telemime/search/blocks.h"
-#include "telemime/search/simplex.h"
+#include "telemime/search/arm_search.h"
 
 namespace telemime {
 namespace {
-
-double square(double x) {
-  return x * x;
-}
 
 using ArmPoints = Eigen::Matrix<double, 3, 4>;
 
@@ -116,8 +110,10 @@ class Refiner {
     std::vector<int> evaluations(keyframes_.size());
     tbb::parallel_for(std::size_t{0}, keyframes_.size(), [&](std::size_t i) {
       Objective objective(*backends_[i], keyframes_[i].frame, model, limits_);
-      std::tie(fitted.poses[i], costs[i]) = best_pose(
+      const ScoredPose best = best_pose(
           objective, {from.poses[i], carry_pose(old_body, model.body, from.poses[i], limits_)}, iterations);
+      fitted.poses[i] = best.pose;
+      costs[i] = best.cost;
       evaluations[i] = objective.evaluations();
     });
     fitted.cost = prior(shape);
@@ -147,28 +143,20 @@ class Refiner {
     return config_.prior_weight * sum;
   }
 
-  std::pair<Pose, double> best_pose(Objective& objective, const std::array<Pose, 2>& starts,
-                                    int iterations) const {
+  ScoredPose best_pose(Objective& objective, const std::array<Pose, 2>& starts, int iterations) const {
     ObjectiveWeights weights{.cues = step_weights(objective.cues(), &Cue::edge_step),
                              .natural = config_.natural_weight};
     weights.cues[cue::kContour] = spreads_.contour_weight;
-    std::pair<Pose, double> best = {starts[0], objective(starts[0], weights)};
-    if (const double other = objective(starts[1], weights); other < best.second) {
+    ScoredPose best = {starts[0], objective(starts[0], weights)};
+    if (const double other = objective(starts[1], weights); other < best.cost) {
       best = {starts[1], other};
     }
     if (iterations == 0) {
       return best;
     }
     for (const Side side : {Side::left, Side::right}) {
-      const SearchBlock block = bones_block(objective.model().body, best.first, side, limits_, 1.0);
-      SimplexOptions options;
-      options.max_evaluations = iterations;
-      const SimplexResult found =
-          minimise([&](const Eigen::VectorXd& x) { return objective(block.decode(x), weights); },
-                   axis_simplex(block.start, block.steps, block.bounds), block.bounds, options);
-      if (found.best().cost < best.second) {
-        best = {block.decode(found.best().point), found.best().cost};
-      }
+      const SearchBlock block = bones_block(objective.model().body, best.pose, side, limits_, 1.0);
+      best = searched(objective, best, block, weights, iterations);
     }
     return best;
   }

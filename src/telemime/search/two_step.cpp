@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/stopwatch.h"
 
 namespace telemime {
 namespace {
@@ -125,10 +125,6 @@ Pose propose(Objective& objective, const Pose& start, const RegistrationConfig& 
              : from;
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 SettingTable settings_of(RegistrationConfig& c) {
@@ -207,24 +203,23 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
   step.simplexes.resize(kParts);
   // Region step: minimise F (thesis equation 2.5) from the best proposal.
   int before = objective.evaluations();
-  auto clock = std::chrono::steady_clock::now();
+  Stopwatch stopwatch;
   if (region_budget > 0) {
     const Pose from = propose(objective, start, config, region_budget, random);
     const int spent = objective.evaluations() - before;
     step = run_step(objective, from, config, config.region, region_budget - spent, nullptr, random);
   }
   result.region_evaluations = objective.evaluations() - before;
-  result.region_ms = milliseconds_since(clock);
+  result.region_ms = stopwatch.lap();
 
   // Edge step: minimise D_C (thesis equation 3.13) from the extent of the last simplex (thesis 3.5.4).
   before = objective.evaluations();
-  clock = std::chrono::steady_clock::now();
   if (budget - region_budget > 0) {
     step = run_step(objective, step.pose, config, config.edge, budget - region_budget,
                     region_budget > 0 ? &step : nullptr, random);
   }
   result.edge_evaluations = objective.evaluations() - before;
-  result.edge_ms = milliseconds_since(clock);
+  result.edge_ms = stopwatch.lap();
   result.pose = objective.limits().clamp(step.pose);
   result.score = objective.score(result.pose, objective.cues().needs());
   result.converged = step.converged;
@@ -232,24 +227,12 @@ RegistrationResult register_pose(Objective& objective, const Pose& start, const 
 }
 
 Method parse_method(const std::string& name) {
-  for (const Method m : {Method::regions, Method::edges, Method::two_step}) {
-    if (name == to_string(m)) {
-      return m;
+  for (const auto& [known, method] : kMethodNames) {
+    if (name == known) {
+      return method;
     }
   }
   throw Error(ErrorKind::usage, "unknown method '" + name + "'", "Use regions, edges or two-step.");
-}
-
-std::string_view to_string(Method method) {
-  switch (method) {
-    case Method::regions:
-      return "regions";
-    case Method::edges:
-      return "edges";
-    case Method::two_step:
-      break;
-  }
-  return "two-step";
 }
 
 }  // namespace telemime

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <array>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "telemime/core/random.h"
 #include "telemime/search/blocks.h"
@@ -12,6 +14,10 @@
 namespace telemime {
 
 enum class Method { regions, edges, two_step };
+
+/// The methods by their names.
+inline constexpr std::array<std::pair<std::string_view, Method>, 3> kMethodNames{
+    {{"regions", Method::regions}, {"edges", Method::edges}, {"two-step", Method::two_step}}};
 
 /// Settings of the local search; the table (settings_of) gives the meaning, unit and range of each.
 struct RegistrationConfig {
@@ -66,7 +72,7 @@ struct RegistrationResult {
 RegistrationResult register_pose(Objective& objective, const Pose& start, const RegistrationConfig& config,
                                  Random& random);
 
+/// The method of this name (kMethodNames). Throws Error(usage) for an unknown name, with the choices.
 Method parse_method(const std::string& name);
-std::string_view to_string(Method method);
 
 }  // namespace telemime

@@ -11,10 +11,9 @@ namespace telemime {
 namespace {
 
 TEST(RegistrationConfig, MethodsHaveNames) {
-  for (const Method m : {Method::regions, Method::edges, Method::two_step}) {
-    EXPECT_EQ(parse_method(std::string(to_string(m))), m);
-  }
-  EXPECT_EQ(to_string(Method::two_step), "two-step");
+  EXPECT_EQ(parse_method("regions"), Method::regions);
+  EXPECT_EQ(parse_method("edges"), Method::edges);
+  EXPECT_EQ(parse_method("two-step"), Method::two_step);
   const std::string message = testing_errors::message_of(ErrorKind::usage, [] { parse_method("telepathy"); });
   EXPECT_TRUE(testing_errors::names(message, "telepathy")) << message;
   EXPECT_TRUE(testing_errors::names(message, "two-step")) << "no remedy: " << message;

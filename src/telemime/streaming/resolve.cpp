@@ -3,7 +3,6 @@
 
 #include <netdb.h>
 
-#include <algorithm>
 #include <array>
 #include <boost/asio/ip/address.hpp>
 #include <future>

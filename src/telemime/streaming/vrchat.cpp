@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "telemime/core/errors.h"
-#include "telemime/core/text.h"
 #include "telemime/outputs/euler.h"
 #include "telemime/streaming/all.h"
 #include "telemime/streaming/udp_link.h"

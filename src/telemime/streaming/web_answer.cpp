@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <exception>
-#include <optional>
-#include <utility>
 
 #include "telemime/streaming/web_file.h"
 #include "telemime/streaming/web_path.h"

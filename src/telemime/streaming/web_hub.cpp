@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <exception>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "telemime/streaming/web_client.h"
 
@@ -44,7 +43,6 @@ std::optional<std::uint64_t> WebHub::join(const std::shared_ptr<WebClient>& clie
     return std::nullopt;
   }
   clients_[++last_id_] = client;
-  count_ = clients_.size();
   const std::lock_guard lock(mutex_);
   turned_off_[last_id_];
   if (from_here) {
@@ -57,18 +55,9 @@ void WebHub::leave(std::uint64_t id) {
   if (clients_.erase(id) == 0) {
     return;
   }
-  count_ = clients_.size();
-  {
-    const std::lock_guard lock(mutex_);
-    turned_off_.erase(id);
-    from_here_.erase(id);
-  }
-  try {
-    if (handlers_.closed) {
-      handlers_.closed(id);
-    }
-  } catch (...) {  // NOLINT(bugprone-empty-catch): nobody is left to notify
-  }
+  const std::lock_guard lock(mutex_);
+  turned_off_.erase(id);
+  from_here_.erase(id);
 }
 
 void WebHub::leave_all() {
@@ -76,6 +65,11 @@ void WebHub::leave_all() {
     leave(clients_.begin()->first);
   }
   held_.clear();
+}
+
+std::size_t WebHub::clients() const {
+  const std::lock_guard lock(mutex_);
+  return turned_off_.size();
 }
 
 bool WebHub::wanted(int topic) const {

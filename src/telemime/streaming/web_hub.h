@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <atomic>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/context.hpp>
@@ -76,7 +75,7 @@ class WebHub {
   /// Registers a client and returns its number; nothing if there are too many. `from_here`: it is connected
   /// over loopback.
   std::optional<std::uint64_t> join(const std::shared_ptr<WebClient>& client, bool from_here);
-  /// Removes a client and notifies the handlers, once.
+  /// Removes a client, if it is still registered.
   void leave(std::uint64_t id);
   /// Calls leave() for all.
   void leave_all();
@@ -91,9 +90,9 @@ class WebHub {
   void drain();
   void set_topic(std::uint64_t client, int topic, bool on);
 
-  std::size_t clients() const { return count_; }  ///< from any thread
-  bool wanted(int topic) const;                   ///< from any thread
-  bool from_here(std::uint64_t client) const;     ///< from any thread; false after it left
+  std::size_t clients() const;                 ///< from any thread
+  bool wanted(int topic) const;                ///< from any thread
+  bool from_here(std::uint64_t client) const;  ///< from any thread; false after it left
 
  private:
   const WebServerOptions options_;
@@ -104,7 +103,6 @@ class WebHub {
   std::set<std::shared_ptr<void>> held_;
   std::map<std::uint64_t, std::weak_ptr<WebClient>> clients_;
   std::uint64_t last_id_ = 0;
-  std::atomic<std::size_t> count_ = 0;
   std::shared_ptr<std::size_t> connections_ = std::make_shared<std::size_t>(0);
 
   mutable std::mutex mutex_;                           ///< guards the members below

@@ -66,7 +66,7 @@ void WebServer::stop() {
   if (state_->stopped.exchange(true)) {
     return;
   }
-  // All connections end with the io_context; the handlers are notified from the server's thread.
+  // All connections end with the io_context.
   boost::asio::post(state_->io, [state = state_.get()] {
     state->hub->leave_all();
     state->io.stop();

@@ -72,7 +72,6 @@ struct WebHandlers {
   std::function<std::vector<std::string>(std::uint64_t client)> opened;
   /// A text message, which may be any valid UTF-8; the reply, if any, is sent only to that client.
   std::function<std::optional<std::string>(std::uint64_t client, std::string_view text)> text;
-  std::function<void(std::uint64_t client)> closed;
 };
 
 /// Serves the page over HTTP (or HTTPS, see `certificate`) and a WebSocket at /ws, by default only to

@@ -44,7 +44,6 @@ class WebStream {
   boost::asio::ip::tcp::socket& socket() { return tcp_.socket(); }
   void expires_after(std::chrono::nanoseconds time) { tcp_.expires_after(time); }
   void expires_never() { tcp_.expires_never(); }
-  void close() { tcp_.close(); }
   /// Moves the stream out of a plain connection.
   boost::beast::tcp_stream take() { return std::move(tcp_); }
 

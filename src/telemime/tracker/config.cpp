@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/likelihood/all.h"
 #include "telemime/nets/models/table.h"
 
@@ -46,14 +47,6 @@ std::vector<std::string> back_end_choices() {
   return names;
 }
 
-std::string cue_list() {
-  std::string names;
-  for (const Cue& cue : kCues) {
-    names.append(names.empty() ? "" : ", ").append(cue.name);
-  }
-  return names;
-}
-
 // Which of the built-in cues a list names. Throws Error(usage) for an unknown name or an empty list.
 std::array<bool, kCues.size()> named_cues(const std::string& names) {
   std::array<bool, kCues.size()> named{};
@@ -63,12 +56,13 @@ std::array<bool, kCues.size()> named_cues(const std::string& names) {
         std::find_if(kCues.begin(), kCues.end(), [&](const Cue& cue) { return cue.name == name; });
     if (found == kCues.end()) {
       throw Error(ErrorKind::usage, "unknown cue '" + name + "'",
-                  "Choose from " + cue_list() + ", separated by commas.");
+                  "Choose from " + joined(kCues, &Cue::name) + ", separated by commas.");
     }
     named[static_cast<std::size_t>(found - kCues.begin())] = true;
   }
   if (std::none_of(named.begin(), named.end(), [](bool n) { return n; })) {
-    throw Error(ErrorKind::usage, "no cue is named", "Choose from " + cue_list() + ", separated by commas.");
+    throw Error(ErrorKind::usage, "no cue is named",
+                "Choose from " + joined(kCues, &Cue::name) + ", separated by commas.");
   }
   return named;
 }
@@ -131,7 +125,7 @@ SettingTable settings_of(Config& c) {
       number("threads", &c.threads, {0, 1024}, "",
              "Threads of the search and of the image side; 0: one for each processor."),
       text("cues", c.cue_names, {},
-           "Cues that the image is compared by, separated by commas: " + cue_list() + "."),
+           "Cues that the image is compared by, separated by commas: " + joined(kCues, &Cue::name) + "."),
       flag("hands", c.hands, "Track the fingers, where networks find the person."),
       text("backend", c.backend, back_end_choices(), "Implementation that evaluates poses."),
       text("limits", c.limits, {}, "Joint limits: anatomical, reference (of the thesis) or a JSON file."),
@@ -230,18 +224,6 @@ SettingValues read_settings(const std::filesystem::path& file) {
                 "Check the path and its permissions.");
   }
   return parse_settings(std::string(std::istreambuf_iterator<char>(in), {}), file);
-}
-
-std::string explain_quality() {
-  std::string lines = "| setting | fast | balanced | best |\n| --- | --- | --- | --- |\n";
-  for (const Preset& preset : kPresets) {
-    lines += "| `" + std::string(preset.setting) + "` |";
-    for (std::size_t quality = 0; quality < kQualities.size(); ++quality) {
-      lines += " " + preset_value(preset, quality).dump() + " |";
-    }
-    lines += "\n";
-  }
-  return lines;
 }
 
 }  // namespace telemime

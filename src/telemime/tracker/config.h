@@ -98,7 +98,4 @@ SettingValues read_settings(const std::filesystem::path& file);
 /// The same from the text of a file; `name` is for messages.
 SettingValues parse_settings(std::string_view text, const std::filesystem::path& name);
 
-/// The presets as a Markdown table: one row for each setting that `quality` changes.
-std::string explain_quality();
-
 }  // namespace telemime

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/hand_smoother.h"
 
-#include <algorithm>
-
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {

@@ -2,7 +2,6 @@
 #include "telemime/tracker/scene.h"
 
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "telemime/capture/input_kind.h"
 #include "telemime/core/errors.h"
@@ -58,7 +57,7 @@ std::vector<Frame> sample_of_clip(const TrackRequest& request, const ImageConfig
 std::string learn_scene(const TrackRequest& request, const SourceInfo& info, TrackingRun& run) {
   FeatureExtractor& features = run.scene.features;
   if (request.background.empty()) {
-    return "background: " + features.bootstrap(sample_of_clip(request, run.tracker.config.image)).sentence;
+    return "background: " + features.bootstrap(sample_of_clip(request, run.tracker.config.image));
   }
   const auto clip = without_distortion(
       open_source(request.background, {.mirrored = request.input_options.mirrored}), request);

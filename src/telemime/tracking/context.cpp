@@ -15,14 +15,6 @@
 #include "telemime/likelihood/all.h"
 
 namespace telemime {
-namespace {
-
-double squared(double x) {
-  return x * x;
-}
-
-}  // namespace
-
 Evaluators::Evaluators(const std::string& backend, int threads, const CueTable& cues)
     : threads_(usable_threads(threads)) {
   batch_ = make_backend(backend, {.threads = threads_, .cues = cues});
@@ -88,10 +80,10 @@ double log_likelihood(const FilterContext& c, const Pose& pose, const Score& sco
   for (std::size_t i = 0; i < cues.size(); ++i) {
     if (const double reliability = reliability_of(cues[i], c.frame); reliability > 0.0) {
       const double sigma = in_cost_units(cues[i], c.numbers.sigma[i], c.frame.camera);
-      const double square = squared(score.costs[i] / sigma);
-      const double usual = squared(c.numbers.usual[i] / c.numbers.sigma[i]);
+      const double cost = square(score.costs[i] / sigma);
+      const double usual = square(c.numbers.usual[i] / c.numbers.sigma[i]);
       const bool known = !c.frame.landmarks || usual == 0.0;
-      squares += reliability * (known ? square : square_of_unknown_noise(square, usual));
+      squares += reliability * (known ? cost : square_of_unknown_noise(cost, usual));
     }
   }
   double sum = -0.5 * c.config.trust * squares;

@@ -31,10 +31,6 @@ std::string name_of(std::size_t index) {
 
 }  // namespace
 
-FilterModel default_filter_model() {
-  return load_filter_model("");
-}
-
 FilterModel parse_filter_model(const std::string& text, const std::string& name, const CueTable& cues) {
   const JsonSource source{name, ErrorKind::config, "`telemime-lab learn` writes such files."};
   const auto json = parse_json(text, source);

@@ -47,9 +47,6 @@ struct FilterModel {
   SpreadModel spread;
 };
 
-/// The numbers of data/filter.json.
-FilterModel default_filter_model();
-
 /// Reads the JSON text; each cue without a sigma_key has its own sigma. `name` is for messages. Throws
 /// Error(config) that names what is missing or wrong.
 FilterModel parse_filter_model(const std::string& json, const std::string& name, const CueTable& cues = {});

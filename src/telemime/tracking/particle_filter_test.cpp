@@ -55,7 +55,7 @@ TEST(ParticleFilter, CondensationFollowsASlowlyRaisedArm) {
   // With the narrow likelihood and wide diffusion learned from tracked sequences, so few particles would soon
   // lose the arm.
   const ScratchFolder folder;
-  FilterModel numbers = default_filter_model();
+  FilterModel numbers = load_filter_model("");
   numbers.sigma[cue::kRegion] = 0.03;
   numbers.sigma[cue::kContour] = 0.004;
   numbers.change.head<3>().setConstant(0.005);

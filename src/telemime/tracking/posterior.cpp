@@ -2,7 +2,6 @@
 #include "telemime/tracking/posterior.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -18,10 +17,6 @@ ArmPoints arm_points(const Body& body, const Pose& pose) {
   ArmPoints points;
   points << j[Joint::l_elbow], j[Joint::l_wrist], j[Joint::r_elbow], j[Joint::r_wrist];
   return points;
-}
-
-double square(double x) {
-  return x * x;
 }
 
 // Largest standard deviation of a bone's end outside the image, as a share of the bone's length.

@@ -19,7 +19,7 @@ using testing_scene::particle;
 constexpr double kRadius = 0.08;
 
 const SpreadModel& numbers() {
-  static const SpreadModel model = default_filter_model().spread;
+  static const SpreadModel model = load_filter_model("").spread;
   return model;
 }
 

@@ -43,7 +43,6 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
   const Eigen::Index n = plain + 7 * static_cast<Eigen::Index>(layout.arms.size());
   SearchSpace result;
   SearchBlock& space = result.block;
-  space.name = "moving parts";
   space.start.resize(n);
   space.steps.resize(n);
   space.bounds = {Eigen::VectorXd(n), Eigen::VectorXd(n)};

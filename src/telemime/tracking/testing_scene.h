@@ -30,7 +30,7 @@ struct Scene {
   Camera camera = camera_from_field_of_view(120, 90, 60.0);
   JointLimits limits = anatomical_limits();
   FilterConfig config;
-  FilterModel numbers = default_filter_model();
+  FilterModel numbers = load_filter_model("");
   RegistrationConfig search;
   Evaluators evaluators{"scalar", 1};
   Pose estimate = both_arms_seen();

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "telemime/body/arm_flips.h"
-#include "telemime/core/errors.h"
 #include "telemime/search/arm_exchange.h"
 #include "telemime/search/two_step.h"
 

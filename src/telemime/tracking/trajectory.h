@@ -43,14 +43,9 @@ struct TrajectoryContext {
   Evaluators& evaluators;
 };
 
-/// A candidate pose of a frame and its cost without the neighbouring frames.
-struct ScoredPose {
-  Pose pose;
-  double cost = 0.0;
-};
-
-/// Candidate poses of a frame, the cheapest first: those of the searches, the estimate's flips in depth, and
-/// the arms of all these combined on the trunks of the cheapest pose and of both estimates.
+/// Candidate poses of a frame with their costs without the neighbouring frames, the cheapest first: those of
+/// the searches, the estimate's flips in depth, and the arms of all these combined on the trunks of the
+/// cheapest pose and of both estimates.
 std::vector<ScoredPose> combine(const TrajectoryContext& context, const TrajectoryFrame& frame,
                                 Backend& backend);
 

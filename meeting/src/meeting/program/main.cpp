@@ -4,28 +4,17 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <array>
 #include <filesystem>
 #include <iostream>
-#include <string_view>
-#include <utility>
 
 #include "cli/exit_codes.h"
 #include "meeting/commands/commands.h"
 #include "telemime/core/errors.h"
 #include "telemime/streaming/avatar_folder.h"
+#include "telemime/streaming/web_path.h"
 
 namespace telemime::meeting {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes = {
-    {{".html", "text/html; charset=utf-8"},
-     {".js", "text/javascript; charset=utf-8"},
-     {".css", "text/css; charset=utf-8"},
-     {".svg", "image/svg+xml"},
-     {".png", "image/png"},
-     {".wasm", "application/wasm"},
-     {".json", "application/json"}}};
 
 /// The file at a path of the page, which is the file meeting.html of the folder. WebHandlers::get promises
 /// that the path does not leave the folder.
@@ -36,10 +25,7 @@ std::optional<WebContent> page_file(const std::filesystem::path& folder, const s
     return std::nullopt;
   }
   WebContent content;
-  content.type = "application/octet-stream";
-  for (const auto& [ending, type] : kTypes) {
-    content.type = file.extension() == ending ? type : content.type;
-  }
+  content.type = web_type(file.string());
   content.file = file;
   return content;
 }

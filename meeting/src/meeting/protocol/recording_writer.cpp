@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "telemime/core/errors.h"
+#include "telemime/core/files.h"
 
 namespace telemime::meeting {
 namespace {
@@ -40,15 +40,9 @@ class NewFile {
   NewFile& operator=(const NewFile&) = delete;
 
   void append(std::string_view bytes) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-      const ssize_t count = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
-      if (count < 0 && errno != EINTR) {
-        const int error = errno;
-        undo();
-        fail(error);
-      }
-      done += count > 0 ? static_cast<std::size_t>(count) : 0;
+    if (const int error = write_all(descriptor_, bytes); error != 0) {
+      undo();
+      fail(error);
     }
     size_ += static_cast<off_t>(bytes.size());
     synced_ = synced_ && bytes.empty();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,6 +15,17 @@ struct DeviceTimes {
   double upload = 0.0;    ///< poses, frame and model to the device
   double kernel = 0.0;    ///< counting there
   double download = 0.0;  ///< counts back
+};
+
+/// Distances of the skeleton (m, body frame; see Body), in the layout of the kernel's Frame.
+struct PackedSkeleton {
+  std::array<float, 3> neck_from_root{};
+  std::array<std::array<float, 3>, 2> shoulder_from_root{};  ///< with hanging arms
+  float clavicle_lift = 0.0F;
+  float clavicle_reach = 0.0F;
+  std::array<float, 2> upper_arm{};
+  std::array<float, 2> forearm{};
+  bool operator==(const PackedSkeleton&) const = default;
 };
 
 }  // namespace telemime
@@ -33,11 +45,7 @@ struct FrameNumbers {
   std::int32_t width = 0, height = 0;
   std::int32_t vertices = 0;
   std::int32_t terms = 0;
-  float neck[3] = {};
-  float shoulder[6] = {};
-  float lift = 0.0F, reach = 0.0F;
-  float upper_arm[2] = {};
-  float forearm[2] = {};
+  PackedSkeleton skeleton;
 };
 struct PoseCounts {
   std::int32_t model[3];  ///< by surface class

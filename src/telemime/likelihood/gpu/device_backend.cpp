@@ -57,15 +57,7 @@ void pack_frame(const PreparedFrame& frame, const PackedSkeleton& skeleton, Redu
   numbers.width = frame.camera.width;
   numbers.height = frame.camera.height;
   numbers.terms = static_cast<std::int32_t>(terms);
-  std::copy(skeleton.neck_from_root.begin(), skeleton.neck_from_root.end(), numbers.neck);
-  for (std::size_t i = 0; i < 2; ++i) {
-    std::copy(skeleton.shoulder_from_root[i].begin(), skeleton.shoulder_from_root[i].end(),
-              numbers.shoulder + 3 * i);
-    numbers.upper_arm[i] = skeleton.upper_arm[i];
-    numbers.forearm[i] = skeleton.forearm[i];
-  }
-  numbers.lift = skeleton.clavicle_lift;
-  numbers.reach = skeleton.clavicle_reach;
+  numbers.skeleton = skeleton;
   input.labels = {frame.labels.ptr<std::uint8_t>(), frame.labels.total()};
   input.distance = {frame.distance.ptr<float>(), frame.distance.total()};
 }

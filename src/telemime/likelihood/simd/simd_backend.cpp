@@ -11,6 +11,7 @@
 #include "telemime/core/errors.h"
 #include "telemime/core/in_parallel.h"
 #include "telemime/core/loop_order.h"
+#include "telemime/core/text.h"
 #include "telemime/likelihood/simd/kernel.h"
 
 namespace telemime {
@@ -27,12 +28,8 @@ simd::InstructionSet chosen(const std::string& name) {
   const auto found = std::find_if(sets.begin(), sets.end(),
                                   [&](const simd::InstructionSet& set) { return set.name == name; });
   if (found == sets.end()) {
-    std::string all;
-    for (const simd::InstructionSet& set : sets) {
-      all += (all.empty() ? "" : ", ") + std::string(set.name);
-    }
     throw Error(ErrorKind::usage, "the instruction set " + name + " is not available",
-                "Choose one of: " + all + ".");
+                "Choose one of: " + joined(sets, &simd::InstructionSet::name) + ".");
   }
   return *found;
 }

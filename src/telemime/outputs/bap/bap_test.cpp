@@ -10,7 +10,6 @@
 #include "telemime/core/random.h"
 #include "telemime/outputs/all.h"
 #include "telemime/outputs/bap/profile.h"
-#include "telemime/outputs/bap/table.h"
 #include "telemime/outputs/testing_bap.h"
 #include "telemime/outputs/testing_motion.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "telemime/body/rotations.h"
 #include "telemime/core/errors.h"
@@ -11,6 +12,14 @@
 
 namespace telemime {
 namespace {
+
+constexpr SignedAxis axis(std::string_view text) {
+  return {text[1] - 'X', text[0] == '-' ? -1 : 1};
+}
+
+constexpr std::array<Bap, kBapCount> kBapTable = {{
+#include "bap_rows.inc"
+}};
 
 constexpr AxisOrder kXzy = {0, 2, 1};
 constexpr AxisOrder kZxy = {2, 0, 1};
@@ -108,6 +117,18 @@ EulerAngles player_angles(const BapProfile& profile, const BapJoint& joint, cons
 }
 
 }  // namespace
+
+std::span<const Bap> bap_table() {
+  return kBapTable;
+}
+
+const Bap& bap(int id) {
+  if (id < 1 || id > kBapCount) {
+    throw Error(ErrorKind::usage, "there is no body animation parameter " + std::to_string(id),
+                "ids are 1 to 186");
+  }
+  return kBapTable[static_cast<std::size_t>(id - 1)];
+}
 
 std::span<const BapProfile> bap_profiles() {
   return kProfiles;

@@ -6,10 +6,34 @@
 #include <string_view>
 
 #include "telemime/body/pose.h"
-#include "telemime/outputs/bap/table.h"
 #include "telemime/outputs/euler.h"
 
 namespace telemime {
+
+enum class BapKind { rotation, translation };
+
+/// Axis of the body frame of H-Anim that a positive value turns about or moves along.
+struct SignedAxis {
+  int axis = 0;  ///< 0 = x (avatar's left), 1 = y (up), 2 = z (forward)
+  int sign = 1;  ///< +1 or -1
+};
+
+/// One body animation parameter of MPEG-4.
+struct Bap {
+  int id = 0;  ///< 1 to 186
+  std::string_view name;
+  BapKind kind = BapKind::rotation;
+  SignedAxis visage;  ///< as in the header of the Visage FBA library
+  SignedAxis greta;   ///< as in the Greta platform
+};
+
+inline constexpr int kBapCount = 186;
+
+/// All of them, by id; element 0 is id 1. The rows come from data/bap.csv.
+std::span<const Bap> bap_table();
+
+/// The parameter with this id, 1 to 186. Throws Error(usage) outside.
+const Bap& bap(int id);
 
 /// How three angles of the pose reach a player: the parameters that carry the rotation about x, y and z, and
 /// the order in which the player multiplies them (outermost first).

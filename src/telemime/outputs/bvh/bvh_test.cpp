@@ -117,11 +117,8 @@ TEST(Bvh, RestIsAnUprightTPoseFacingForward) {
   const Body body = make_body(Shape{});
   BvhFile file;
   file.joints = bvh_skeleton(body);
-  std::size_t channels = 0;
-  for (const BvhJoint& joint : file.joints) {
-    channels += joint.channels.size();
-  }
-  file.frames = {std::vector<double>(channels, 0.0)};
+  file.channels.resize(file.joints.size());  // at rest: nothing moves
+  file.frames.resize(1);
   const auto world = bvh_world(file, 0);
   const Eigen::Vector3d shoulder = place(world, BvhBone::l_arm);
   const Eigen::Vector3d hand = end_of(file, world, BvhBone::l_hand);
@@ -167,9 +164,11 @@ TEST(Bvh, HeadIsHeldAsTheFaceIs) {
 
 TEST(Bvh, OnlyTheHipsTranslateAndLegsStandStill) {
   const auto joints = bvh_skeleton(make_body(Shape{}));
+  const BvhFile file = parse_bvh(encoded(testing_motion::header(), {}));
   ASSERT_EQ(joints.size(), kBvhBoneCount);
+  ASSERT_EQ(file.channels.size(), kBvhBoneCount);
   for (std::size_t b = 0; b < joints.size(); ++b) {
-    EXPECT_EQ(joints[b].channels.size(), b == 0 ? 6U : 3U);
+    EXPECT_EQ(file.channels[b].size(), b == 0 ? 6U : 3U);
     EXPECT_LT(joints[b].parent, static_cast<int>(b));
   }
   Random random(4);

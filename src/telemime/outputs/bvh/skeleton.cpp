@@ -64,7 +64,6 @@ BvhJoint joint(const std::string& name, BvhBone parent, const Eigen::Vector3d& m
   result.name = name;
   result.parent = static_cast<int>(parent);
   result.offset = kCentimetresPerMetre * metres;
-  result.channels = {BvhChannel::z_rotation, BvhChannel::x_rotation, BvhChannel::y_rotation};
   return result;
 }
 
@@ -130,8 +129,6 @@ std::vector<BvhJoint> bvh_skeleton(const Body& body, const std::optional<FingerS
   std::vector<BvhJoint> joints;
   BvhJoint hips = joint("Hips", BvhBone::hips, Eigen::Vector3d::Zero());
   hips.parent = -1;
-  hips.channels.insert(hips.channels.begin(),
-                       {BvhChannel::x_position, BvhChannel::y_position, BvhChannel::z_position});
   joints.push_back(hips);
   joints.push_back(joint("Spine", BvhBone::hips, spine_from_hips(body)));
   joints.push_back(joint("Spine1", BvhBone::spine, 0.5 * body.neck_from_root));

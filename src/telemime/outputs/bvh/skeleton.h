@@ -40,15 +40,11 @@ enum class BvhBone : std::size_t {
 };
 inline constexpr std::size_t kBvhBoneCount = 21;
 
-/// Positions and rotations, each along x, y and z in this order.
-enum class BvhChannel { x_position, y_position, z_position, x_rotation, y_rotation, z_rotation };
-
 /// One joint of a BVH hierarchy, in cm. At rest all joint frames are parallel.
 struct BvhJoint {
   std::string name;
   int parent = -1;  ///< index of the parent, smaller than the own; -1 for the root
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent
-  std::vector<BvhChannel> channels;                  ///< rotations multiply in this order, leftmost first
   std::optional<Eigen::Vector3d> end_site;           ///< end of a joint without children
 };
 

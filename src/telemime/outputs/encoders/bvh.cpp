@@ -18,9 +18,7 @@ namespace {
 constexpr std::size_t kCountWidth = 10;
 constexpr std::size_t kOffsetWidth = 10;  // the head is patched: its size must not change
 constexpr int kDecimals = 4;              // cm and degrees
-constexpr AxisOrder kOrder = {2, 0, 1};
-constexpr std::array<const char*, 6> kChannelNames = {"Xposition", "Yposition", "Zposition",
-                                                      "Xrotation", "Yrotation", "Zrotation"};
+constexpr AxisOrder kOrder = {2, 0, 1};   // as in CHANNELS
 
 void append_offset(std::string& text, const std::string& indent, const Eigen::Vector3d& offset) {
   text += indent + "OFFSET";
@@ -43,11 +41,8 @@ void append_joint(std::string& text, const std::vector<BvhJoint>& joints, std::s
   const BvhJoint& joint = joints[index];
   text += outer + (joint.parent < 0 ? "ROOT " : "JOINT ") + joint.name + "\n" + outer + "{\n";
   append_offset(text, inner, joint.offset);
-  text += inner + "CHANNELS " + std::to_string(joint.channels.size());
-  for (const BvhChannel channel : joint.channels) {
-    text.append(" ").append(kChannelNames[static_cast<std::size_t>(channel)]);
-  }
-  text += '\n';
+  text += inner + (joint.parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition" : "CHANNELS 3") +
+          " Zrotation Xrotation Yrotation\n";
   for (std::size_t child = index + 1; child < joints.size(); ++child) {
     if (joints[child].parent == static_cast<int>(index)) {
       append_joint(text, joints, child, depth + 1, order);

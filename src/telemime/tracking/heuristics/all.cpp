@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "telemime/core/errors.h"
+#include "telemime/core/text.h"
 #include "telemime/tracking/heuristics/arm_exchange.h"
 #include "telemime/tracking/heuristics/end_effector.h"
 #include "telemime/tracking/heuristics/heading_search.h"
@@ -17,33 +18,21 @@
 
 namespace telemime {
 
+// In parentheses: the section of the thesis.
 const std::array<Heuristic, kHeuristicCount> kHeuristics = {{
-    {"modes", "particles of one mode count as one parent", "this program", Stage::merge, Kind::resampling,
-     merge_modes},
-    {"wd", "weight-based deterministic resampling", "thesis 4.4.2.1", Stage::resample, Kind::resampling,
-     resample_by_weight},
-    {"hpm", "hierarchical partitioned motion-based sampling", "thesis 4.4.2.2.1", Stage::partition,
-     Kind::proposal, find_moving_parts},
-    {"ee", "arms in end-effector space: wrist and swivel angle", "thesis 4.4.2.3", Stage::partition,
-     Kind::proposal, use_end_effector_space},
-    {"lo", "local optimisation of large families", "thesis 4.4.2.2.2", Stage::optimise, Kind::candidates,
-     optimise_families},
-    {"landmarks", "poses that explain the landmarks of the frame", "thesis 5.2", Stage::optimise,
-     Kind::candidates, search_landmarks},
-    {"turn", "the trunk turned towards the heading the person may have", "this program", Stage::optimise,
-     Kind::candidates, search_heading},
-    {"kf", "kinematic flipping of the best particles", "thesis 4.4.2.2.3", Stage::flip_candidates,
-     Kind::candidates, flip_best},
-    {"arms", "the best left and right arms of all particles on one trunk", "Deutscher & Reid 2005",
-     Stage::flip_candidates, Kind::candidates, exchange_best_arms},
+    {"modes", Stage::merge, merge_modes},              // particles of one mode count as one parent
+    {"wd", Stage::resample, resample_by_weight},       // weight-based deterministic resampling (4.4.2.1)
+    {"hpm", Stage::partition, find_moving_parts},      // hierarchical partitions by motion (4.4.2.2.1)
+    {"ee", Stage::partition, use_end_effector_space},  // arms by wrist and swivel angle (4.4.2.3)
+    {"lo", Stage::optimise, optimise_families},        // local optimisation of large families (4.4.2.2.2)
+    {"landmarks", Stage::optimise, search_landmarks},  // poses that explain the landmarks (5.2)
+    {"turn", Stage::optimise, search_heading},         // the trunk turned to the heading that it may have
+    {"kf", Stage::flip_candidates, flip_best},         // kinematic flipping of the best particles (4.4.2.2.3)
+    {"arms", Stage::flip_candidates, exchange_best_arms},  // Deutscher & Reid 2005: best arms on one trunk
 }};
 
 std::string heuristic_names() {
-  std::string names;
-  for (const Heuristic& h : kHeuristics) {
-    names.append(names.empty() ? "" : ", ").append(h.name);
-  }
-  return names;
+  return joined(kHeuristics, &Heuristic::name);
 }
 
 std::vector<const Heuristic*> parse_heuristics(const std::string& names) {

@@ -38,20 +38,10 @@ enum class Stage {
   flip_candidates,  ///< adds particles to those that were made and measured
 };
 
-/// Effect of a heuristic on the posterior.
-enum class Kind {
-  resampling,  ///< changes which particles survive, not where particles can be
-  proposal,    ///< changes the distribution from which particles are drawn
-  candidates,  ///< adds particles by a deterministic rule, whose density is unknown
-};
-
 /// A heuristic of the filter (thesis 4.4.2), switched on and off by its name.
 struct Heuristic {
   std::string_view name;
-  std::string_view what;  ///< for help and documentation
-  std::string_view source;
   Stage stage;
-  Kind kind;
   void (*run)(const FilterContext& context, Generation& generation);
 };
 
