@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/evaluation/error_means.h"
 
 namespace telemime {
@@ -86,25 +87,22 @@ LandmarkPlaces actor_places(const ActorKinematics& k) {
       average.neck_from_root.norm());
   set(Segment::head, {head}, between(Joint::head, Joint::head_top).norm(), average.head_top_from_head.norm());
   for (const Side side : {Side::left, Side::right}) {
-    const bool left = side == Side::left;
     const auto i = static_cast<std::size_t>(side);
-    const Joint elbow = left ? Joint::l_elbow : Joint::r_elbow;
-    const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
-    const Vector3d upper = between(left ? Joint::l_shoulder : Joint::r_shoulder, elbow);
-    const Vector3d fore = between(elbow, wrist);
+    const ArmParts& parts = arm_parts(side);
+    const Vector3d upper = between(parts.shoulder, parts.elbow);
+    const Vector3d fore = between(parts.elbow, parts.wrist);
     const Rotated arm = arm_axes(-upper, fore);
-    set(left ? Segment::l_upper_arm : Segment::r_upper_arm, arm, upper.norm(), average.upper_arm_length[i]);
+    set(parts.upper_arm, arm, upper.norm(), average.upper_arm_length[i]);
     // The forearm has the same hinge.
     Rotated forearm = arm;
     forearm.axes.col(1) = -fore.normalized();
     forearm.axes.col(2) = forearm.axes.col(0).cross(forearm.axes.col(1));
-    set(left ? Segment::l_forearm : Segment::r_forearm, forearm, fore.norm(), average.forearm_length[i]);
+    set(parts.forearm, forearm, fore.norm(), average.forearm_length[i]);
     // At rest the fingers point down and the thumb forward.
     const Matrix3d own = k.camera_from_hand[i];
     Rotated hand;
     hand.axes << (-own.col(1)).cross(own.col(0)), -own.col(1), own.col(0);
-    set(left ? Segment::l_hand : Segment::r_hand, hand,
-        between(wrist, left ? Joint::l_hand : Joint::r_hand).norm(), average.hand_length[i]);
+    set(parts.hand, hand, between(parts.wrist, parts.knuckle).norm(), average.hand_length[i]);
   }
   LandmarkPlaces places;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {

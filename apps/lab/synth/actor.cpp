@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -83,9 +85,6 @@ ActorKinematics actor_kinematics(const ActorBuild& build, const ActorPose& pose)
   k.joints[Joint::head] = k.camera_from_head.translation();
   k.joints[Joint::head_top] = k.camera_from_head * Vector3d(0.0, build.head_up, 0.008);
 
-  constexpr std::array<std::array<Joint, 4>, 2> kArms = {
-      {{Joint::l_shoulder, Joint::l_elbow, Joint::l_wrist, Joint::l_hand},
-       {Joint::r_shoulder, Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
   for (std::size_t side = 0; side < 2; ++side) {
     const ActorArm& arm = pose.arms[side];
     Matrix3d chest_from_outward = Matrix3d::Identity();
@@ -93,11 +92,11 @@ ActorKinematics actor_kinematics(const ActorBuild& build, const ActorPose& pose)
     const Matrix3d turn = k.camera_from_chest.linear() * chest_from_outward;
     const Vector3d upper = arm.upper.normalized();
     const Matrix3d axes = hand_axes(arm);
-    const auto& [shoulder, elbow, wrist, hand] = kArms[side];
-    k.joints[shoulder] = k.joints[Joint::neck] + turn * shoulder_from_neck(build, upper);
-    k.joints[elbow] = k.joints[shoulder] + build.upper_arm * (turn * upper);
-    k.joints[wrist] = k.joints[elbow] + build.forearm * (turn * arm.fore.normalized());
-    k.joints[hand] = k.joints[wrist] + build.hand * (turn * axes.col(1));
+    const ArmParts& parts = kArmParts[side];
+    k.joints[parts.shoulder] = k.joints[Joint::neck] + turn * shoulder_from_neck(build, upper);
+    k.joints[parts.elbow] = k.joints[parts.shoulder] + build.upper_arm * (turn * upper);
+    k.joints[parts.wrist] = k.joints[parts.elbow] + build.forearm * (turn * arm.fore.normalized());
+    k.joints[parts.knuckle] = k.joints[parts.wrist] + build.hand * (turn * axes.col(1));
     k.camera_from_hand[side] = turn * axes;
     for (std::size_t finger = 0; finger < k.curl[side].size(); ++finger) {
       k.curl[side][finger] = std::clamp(arm.curl + arm.curl_by_finger[finger], 0.0, 1.0);

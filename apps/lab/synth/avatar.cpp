@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -94,14 +96,13 @@ struct ArmPoints {
   Vector3f shoulder, elbow, wrist;
 };
 
-ArmPoints arm_points(const JointPositions& joints, bool left) {
-  const auto at = [&](Joint l, Joint r) { return joints[left ? l : r].cast<float>().eval(); };
-  return {at(Joint::l_shoulder, Joint::r_shoulder), at(Joint::l_elbow, Joint::r_elbow),
-          at(Joint::l_wrist, Joint::r_wrist)};
+ArmPoints arm_points(const JointPositions& joints, const ArmParts& arm) {
+  return {joints[arm.shoulder].cast<float>(), joints[arm.elbow].cast<float>(),
+          joints[arm.wrist].cast<float>()};
 }
 
 void add_arm(Avatar& avatar, const ActorKinematics& k, std::size_t side, const Vector3f& front) {
-  const ArmPoints a = arm_points(k.joints, side == 0);
+  const ArmPoints a = arm_points(k.joints, kArmParts[side]);
   const float g = std::sqrt(avatar.girth);
   const Chains chain{static_cast<std::uint8_t>(1 + side), Surface::arm, 0.012f};
   const Vector3f belly = a.elbow + 0.36f * (a.wrist - a.elbow);
@@ -118,7 +119,7 @@ void add_arm(Avatar& avatar, const ActorKinematics& k, std::size_t side, const V
 }
 
 void add_sleeve(Avatar& avatar, const ActorKinematics& k, std::size_t side, const Vector3f& front) {
-  const ArmPoints a = arm_points(k.joints, side == 0);
+  const ArmPoints a = arm_points(k.joints, kArmParts[side]);
   const float g = std::sqrt(avatar.girth);
   const Chains chain{3, Surface::shirt, 0.035f};
   const auto upper_end = static_cast<float>(std::min(avatar.look.sleeve, 1.0));
@@ -150,9 +151,10 @@ void add_torso(Avatar& avatar, const ActorKinematics& k) {
   const float g = std::sqrt(avatar.girth);
   BodyPart torso = framed(BodyPart::Kind::torso, {3, Surface::shirt, 0.035f}, camera_from_chest, root, scale,
                           {0.0f, 0.19f, 0.03f}, 0.385f);
-  for (const bool left : {true, false}) {
-    const Vector3f shoulder = torso.rotation * (arm_points(k.joints, left).shoulder - root) / scale;
-    const float s = left ? 1.0f : -1.0f;
+  for (const Side side : {Side::left, Side::right}) {
+    const Vector3f shoulder =
+        torso.rotation * (arm_points(k.joints, arm_parts(side)).shoulder - root) / scale;
+    const float s = side == Side::left ? 1.0f : -1.0f;
     // Trapezius, pectoral and broad back muscles follow the shoulder.
     torso.cones.push_back(round_cone({s * 0.030f, 0.468f, 0.002f}, shoulder, 0.040f * g, 0.0430f * g));
     torso.cones.push_back(round_cone({s * 0.080f, 0.355f, 0.072f}, shoulder, 0.042f * g, 0.0360f * g));

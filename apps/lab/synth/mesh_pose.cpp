@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "lab/synth/mesh_person.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 
 namespace telemime {
@@ -124,10 +125,9 @@ class Poser {
   }
 
   ArmTurns turns_of_arm(std::size_t side) const {
-    const bool left = side == 0;
-    const Vector3d shoulder = actor_.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-    const Vector3d elbow = actor_.joints[left ? Joint::l_elbow : Joint::r_elbow];
-    const Vector3d wrist = actor_.joints[left ? Joint::l_wrist : Joint::r_wrist];
+    const Vector3d shoulder = actor_.joints[kArmParts[side].shoulder];
+    const Vector3d elbow = actor_.joints[kArmParts[side].elbow];
+    const Vector3d wrist = actor_.joints[kArmParts[side].wrist];
     const Vector3d upper = (elbow - shoulder).normalized();
     const Vector3d rest_upper = rest(sided("lowerarm01", side)) - rest(sided("upperarm01", side));
     const Vector3d rest_fore = rest(sided("wrist", side)) - rest(sided("lowerarm01", side));
@@ -213,9 +213,6 @@ class Poser {
     truth.bones.camera_from_chest.translation() = joints[Joint::root];
     truth.bones.camera_from_head.translation() = joints[Joint::head];
     truth.bones.camera_from_head.linear() = head_.toRotationMatrix() * person_.rest_from_face.cast<double>();
-    constexpr std::array<std::array<Joint, 4>, 2> kArms = {
-        {{Joint::l_shoulder, Joint::l_elbow, Joint::l_wrist, Joint::l_hand},
-         {Joint::r_shoulder, Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
     for (std::size_t side = 0; side < 2; ++side) {
       for (std::size_t j = 0; j < kHandJointCount; ++j) {
         truth.hands[side][j] = is_tip(j) ? tail_of(hand_bone(j, side)) : head_of(hand_bone(j, side));
@@ -224,11 +221,11 @@ class Poser {
       constexpr double kThumbToWrist = 0.35;
       Vector3d& thumb = truth.hands[side][hand_joint(0, 0)];
       thumb += kThumbToWrist * (truth.hands[side][0] - thumb);
-      const auto& [shoulder, elbow, wrist, hand] = kArms[side];
-      joints[shoulder] = head_of(sided("upperarm01", side));
-      joints[elbow] = head_of(sided("lowerarm01", side));
-      joints[wrist] = truth.hands[side][0];
-      joints[hand] = truth.hands[side][hand_joint(2, 0)];
+      const ArmParts& arm = kArmParts[side];
+      joints[arm.shoulder] = head_of(sided("upperarm01", side));
+      joints[arm.elbow] = head_of(sided("lowerarm01", side));
+      joints[arm.wrist] = truth.hands[side][0];
+      joints[arm.knuckle] = truth.hands[side][hand_joint(2, 0)];
     }
     return truth;
   }

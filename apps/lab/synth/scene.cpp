@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lab/synth/sequence.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/hand_model.h"
 #include "telemime/core/errors.h"
 
@@ -242,8 +243,8 @@ PersonTruth scene_truth(const Scene& scene, int frame) {
   for (std::size_t side = 0; side < 2; ++side) {
     const auto joints = hand_joints(hand_shape(k.curl[side]));
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      truth.hands[side][j] = k.joints[side == 0 ? Joint::l_wrist : Joint::r_wrist] +
-                             k.camera_from_hand[side] * joints[j].cast<double>() * scale;
+      truth.hands[side][j] =
+          k.joints[kArmParts[side].wrist] + k.camera_from_hand[side] * joints[j].cast<double>() * scale;
     }
   }
   return truth;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/interpenetration.h"
 
 namespace telemime {
@@ -53,12 +54,12 @@ std::optional<Eigen::Vector3d> elbow_on_ray(const Body& body, const Eigen::Isome
 }  // namespace
 
 std::vector<Pose> arm_flips(const Body& body, const Pose& pose, Side side, const JointLimits& limits) {
-  const bool left = side == Side::left;
+  const ArmParts& arm = arm_parts(side);
   const auto i = static_cast<std::size_t>(side);
   const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-  const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const Eigen::Vector3d& shoulder = k.joints[arm.shoulder];
+  const Eigen::Vector3d& elbow = k.joints[arm.elbow];
+  const Eigen::Vector3d& wrist = k.joints[arm.wrist];
   const Eigen::Vector3d elbow_ray = elbow.normalized();
   const Eigen::Vector3d wrist_ray = wrist.normalized();
   const bool elbow_far = elbow_ray.dot(elbow - shoulder) > 0.0;

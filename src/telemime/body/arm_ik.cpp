@@ -4,21 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 
 namespace telemime {
 namespace {
-
-struct ArmIndices {
-  Angle flexion, twisting, abduct, elbow;
-};
-
-ArmIndices indices(Side side) {
-  return side == Side::left ? ArmIndices{Angle::l_shoulder_flexion, Angle::l_shoulder_twisting,
-                                         Angle::l_shoulder_abduct, Angle::l_elbow_flexion}
-                            : ArmIndices{Angle::r_shoulder_flexion, Angle::r_shoulder_twisting,
-                                         Angle::r_shoulder_abduct, Angle::r_elbow_flexion};
-}
 
 Eigen::Isometry3d camera_from_chest(const Pose& pose) {
   Eigen::Isometry3d t = Eigen::Isometry3d::Identity();
@@ -63,7 +53,7 @@ ArmAngles angles_from_directions(const Eigen::Vector3d& upper, const Eigen::Vect
     }
   }
 
-  const ArmIndices at = indices(side);
+  const ArmParts& arm = arm_parts(side);
   const auto low = [&](Angle a) { return limits.min[static_cast<std::size_t>(a)]; };
   const auto high = [&](Angle a) { return limits.max[static_cast<std::size_t>(a)]; };
   ArmAngles best;
@@ -75,10 +65,10 @@ ArmAngles angles_from_directions(const Eigen::Vector3d& upper, const Eigen::Vect
     rotation.col(2) = -sign * bend.normalized();
     rotation.col(0) = rotation.col(1).cross(rotation.col(2));
     for (const AnglesZxy& candidate : decompose_zxy(rotation)) {
-      const double outside = excess(candidate.x, low(at.flexion), high(at.flexion)) +
-                             excess(candidate.y, low(at.twisting), high(at.twisting)) +
-                             excess(candidate.z, low(at.abduct), high(at.abduct)) +
-                             excess(sign * elbow, low(at.elbow), high(at.elbow));
+      const double outside = excess(candidate.x, low(arm.shoulder_flexion), high(arm.shoulder_flexion)) +
+                             excess(candidate.y, low(arm.shoulder_twisting), high(arm.shoulder_twisting)) +
+                             excess(candidate.z, low(arm.shoulder_abduct), high(arm.shoulder_abduct)) +
+                             excess(sign * elbow, low(arm.elbow_flexion), high(arm.elbow_flexion));
       const double away = std::abs(wrap_angle(candidate.x - before.flexion)) +
                           std::abs(wrap_angle(candidate.y - before.twisting)) +
                           std::abs(wrap_angle(candidate.z - before.abduct));
@@ -95,25 +85,26 @@ ArmAngles angles_from_directions(const Eigen::Vector3d& upper, const Eigen::Vect
 }  // namespace
 
 ArmAngles arm_angles(const Pose& pose, Side side) {
-  const ArmIndices at = indices(side);
-  return {pose[at.flexion], pose[at.twisting], pose[at.abduct], pose[at.elbow]};
+  const ArmParts& arm = arm_parts(side);
+  return {pose[arm.shoulder_flexion], pose[arm.shoulder_twisting], pose[arm.shoulder_abduct],
+          pose[arm.elbow_flexion]};
 }
 
 void set_arm_angles(Pose& pose, Side side, const ArmAngles& angles) {
-  const ArmIndices at = indices(side);
-  pose[at.flexion] = angles.flexion;
-  pose[at.twisting] = angles.twisting;
-  pose[at.abduct] = angles.abduct;
-  pose[at.elbow] = angles.elbow;
+  const ArmParts& arm = arm_parts(side);
+  pose[arm.shoulder_flexion] = angles.flexion;
+  pose[arm.shoulder_twisting] = angles.twisting;
+  pose[arm.shoulder_abduct] = angles.abduct;
+  pose[arm.elbow_flexion] = angles.elbow;
 }
 
 ArmTarget arm_target(const Body& body, const Pose& pose, Side side) {
   const Kinematics k = forward_kinematics(body, pose);
-  const bool left = side == Side::left;
+  const ArmParts& arm = arm_parts(side);
   const Eigen::Isometry3d chest_from_camera = camera_from_chest(pose).inverse();
-  const Eigen::Vector3d wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
-  const Eigen::Vector3d s = chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d e = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Vector3d wrist = k.joints[arm.wrist];
+  const Eigen::Vector3d s = chest_from_camera * k.joints[arm.shoulder];
+  const Eigen::Vector3d e = chest_from_camera * k.joints[arm.elbow];
   const Eigen::Vector3d w = chest_from_camera * wrist;
   const SwivelFrame frame = swivel_frame((w - s).normalized());
   return {wrist, std::atan2((e - s).dot(frame.side), (e - s).dot(frame.low))};

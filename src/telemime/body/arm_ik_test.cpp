@@ -6,16 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/testing_poses.h"
 
 namespace telemime {
 namespace {
 
-using testing_poses::elbow_of;
 using testing_poses::kDegree;
 using testing_poses::random_pose;
-using testing_poses::shoulder_of;
-using testing_poses::wrist_of;
 
 constexpr double kTenthOfMillimetre = 1e-4;
 
@@ -24,15 +22,15 @@ class ArmIk : public ::testing::TestWithParam<Side> {
   ArmIk() : side_(GetParam()), body_(make_body(testing_poses::other_shape())) {}
 
   Eigen::Vector3d elbow(const Pose& pose) const {
-    return forward_kinematics(body_, pose).joints[elbow_of(side_)];
+    return forward_kinematics(body_, pose).joints[arm_parts(side_).elbow];
   }
   Eigen::Vector3d wrist(const Pose& pose) const {
-    return forward_kinematics(body_, pose).joints[wrist_of(side_)];
+    return forward_kinematics(body_, pose).joints[arm_parts(side_).wrist];
   }
   // Sine of the angle between the line from shoulder to wrist and the chest's upright axis.
   double distance_from_pole(const Pose& pose) const {
     const Kinematics k = forward_kinematics(body_, pose);
-    const Eigen::Vector3d line = k.joints[wrist_of(side_)] - k.joints[shoulder_of(side_)];
+    const Eigen::Vector3d line = k.joints[arm_parts(side_).wrist] - k.joints[arm_parts(side_).shoulder];
     return line.normalized().cross(Eigen::Vector3d(k[Segment::chest].linear().col(1))).norm();
   }
   // The pose with another arm on this side.
@@ -166,7 +164,7 @@ TEST_P(ArmIk, SwivelIsZeroForTheLowestElbowAndTurnsIt) {
 
 TEST_P(ArmIk, NothingForAWristOutOfReach) {
   const Pose pose;
-  const Eigen::Vector3d shoulder = forward_kinematics(body_, pose).joints[shoulder_of(side_)];
+  const Eigen::Vector3d shoulder = forward_kinematics(body_, pose).joints[arm_parts(side_).shoulder];
   const double reach = body_.upper_arm_length[0] + body_.forearm_length[0];
   const double shortest = std::abs(body_.upper_arm_length[0] - body_.forearm_length[0]);
   const Eigen::Vector3d forward(0, 0, -1);

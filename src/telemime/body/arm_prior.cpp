@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <array>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -53,15 +55,15 @@ Whitening make_whitening() {
 }
 
 ArmDirections directions(const Kinematics& k, Side side) {
-  const bool left = side == Side::left;
-  const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-  const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const ArmParts& arm = arm_parts(side);
+  const Eigen::Vector3d& shoulder = k.joints[arm.shoulder];
+  const Eigen::Vector3d& elbow = k.joints[arm.elbow];
+  const Eigen::Vector3d& wrist = k.joints[arm.wrist];
   const auto chest = k[Segment::chest].linear();
   ArmDirections out;
   out << chest.transpose() * (elbow - shoulder).normalized(),
       chest.transpose() * (wrist - elbow).normalized();
-  if (!left) {
+  if (side == Side::right) {
     out[0] = -out[0];
     out[3] = -out[3];
   }

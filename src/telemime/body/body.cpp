@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/body.h"
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 
 namespace telemime {
@@ -21,10 +22,8 @@ constexpr double kForearm = 0.149;
 constexpr double kHand = 0.063;
 
 Eigen::Matrix3d shoulder_rotation(const Pose& pose, Side side) {
-  const bool left = side == Side::left;
-  return compose_zxy({pose[left ? Angle::l_shoulder_abduct : Angle::r_shoulder_abduct],
-                      pose[left ? Angle::l_shoulder_flexion : Angle::r_shoulder_flexion],
-                      pose[left ? Angle::l_shoulder_twisting : Angle::r_shoulder_twisting]});
+  const ArmParts& arm = arm_parts(side);
+  return compose_zxy({pose[arm.shoulder_abduct], pose[arm.shoulder_flexion], pose[arm.shoulder_twisting]});
 }
 
 Eigen::Isometry3d isometry(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
@@ -91,25 +90,23 @@ Kinematics forward_kinematics(const Body& body, const Pose& pose) {
 
   for (const Side side : {Side::left, Side::right}) {
     const auto i = static_cast<std::size_t>(side);
-    const bool left = side == Side::left;
+    const ArmParts& arm = arm_parts(side);
     const Eigen::Matrix3d shoulder = shoulder_rotation(pose, side);
     const Eigen::Isometry3d upper =
         chest * isometry(shoulder, shoulder_in_chest(body, side, -shoulder.col(1)));
     const Eigen::Isometry3d fore =
-        upper * isometry(rotation_x(pose[left ? Angle::l_elbow_flexion : Angle::r_elbow_flexion]),
-                         {0.0, -body.upper_arm_length[i], 0.0});
+        upper * isometry(rotation_x(pose[arm.elbow_flexion]), {0.0, -body.upper_arm_length[i], 0.0});
     const Eigen::Isometry3d hand =
-        fore * isometry(rotation_y(pose[left ? Angle::l_wrist_twisting : Angle::r_wrist_twisting]) *
-                            rotation_x(pose[left ? Angle::l_wrist_pivot : Angle::r_wrist_pivot]) *
-                            rotation_z(pose[left ? Angle::l_wrist_flexion : Angle::r_wrist_flexion]),
+        fore * isometry(rotation_y(pose[arm.wrist_twisting]) * rotation_x(pose[arm.wrist_pivot]) *
+                            rotation_z(pose[arm.wrist_flexion]),
                         {0.0, -body.forearm_length[i], 0.0});
-    segment(left ? Segment::l_upper_arm : Segment::r_upper_arm) = upper;
-    segment(left ? Segment::l_forearm : Segment::r_forearm) = fore;
-    segment(left ? Segment::l_hand : Segment::r_hand) = hand;
-    k.joints[left ? Joint::l_shoulder : Joint::r_shoulder] = upper.translation();
-    k.joints[left ? Joint::l_elbow : Joint::r_elbow] = fore.translation();
-    k.joints[left ? Joint::l_wrist : Joint::r_wrist] = hand.translation();
-    k.joints[left ? Joint::l_hand : Joint::r_hand] = hand * Eigen::Vector3d(0.0, -body.hand_length[i], 0.0);
+    segment(arm.upper_arm) = upper;
+    segment(arm.forearm) = fore;
+    segment(arm.hand) = hand;
+    k.joints[arm.shoulder] = upper.translation();
+    k.joints[arm.elbow] = fore.translation();
+    k.joints[arm.wrist] = hand.translation();
+    k.joints[arm.knuckle] = hand * Eigen::Vector3d(0.0, -body.hand_length[i], 0.0);
   }
   return k;
 }

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <ostream>
+#include <string>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/limits.h"
 #include "telemime/body/rotations.h"
 #include "telemime/body/testing_poses.h"
@@ -29,6 +31,31 @@ Eigen::Vector3d direction(const Body& body, const Pose& pose, Joint from, Joint 
 // Axis of a segment's frame (a unit vector of it) in the body frame at rest.
 Eigen::Vector3d axis(const Body& body, const Pose& pose, Segment segment, const Eigen::Vector3d& unit) {
   return camera_from_body_at_rest() * forward_kinematics(body, pose)[segment].linear() * unit;
+}
+
+TEST(ArmParts, HaveTheNamesOfTheirSide) {
+  const auto segment = [](Segment s) { return kSegmentNames[static_cast<std::size_t>(s)]; };
+  const auto joint = [](Joint j) { return kJointNames[static_cast<std::size_t>(j)]; };
+  const auto angle = [](Angle a) { return kAngleNames[static_cast<std::size_t>(a)]; };
+  for (const Side side : testing_poses::kSides) {
+    const ArmParts& arm = arm_parts(side);
+    const std::string own = side == Side::left ? "l_" : "r_";
+    EXPECT_EQ(segment(arm.upper_arm), own + "upper_arm");
+    EXPECT_EQ(segment(arm.forearm), own + "forearm");
+    EXPECT_EQ(segment(arm.hand), own + "hand");
+    EXPECT_EQ(joint(arm.shoulder), own + "shoulder");
+    EXPECT_EQ(joint(arm.elbow), own + "elbow");
+    EXPECT_EQ(joint(arm.wrist), own + "wrist");
+    EXPECT_EQ(joint(arm.knuckle), own + "hand");
+    EXPECT_EQ(angle(arm.shoulder_flexion), own + "shoulder_flexion");
+    EXPECT_EQ(angle(arm.shoulder_twisting), own + "shoulder_twisting");
+    EXPECT_EQ(angle(arm.shoulder_abduct), own + "shoulder_abduct");
+    EXPECT_EQ(angle(arm.elbow_flexion), own + "elbow_flexion");
+    EXPECT_EQ(angle(arm.wrist_flexion), own + "wrist_flexion");
+    EXPECT_EQ(angle(arm.wrist_twisting), own + "wrist_twisting");
+    EXPECT_EQ(angle(arm.wrist_pivot), own + "wrist_pivot");
+    EXPECT_EQ(arm.wrist_angles(), (std::array{arm.wrist_flexion, arm.wrist_pivot, arm.wrist_twisting}));
+  }
 }
 
 TEST(Body, RestPoseIsUprightFacingTheCameraWithHangingArms) {

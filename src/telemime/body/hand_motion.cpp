@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/body/hand_motion.h"
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
-namespace {
-
-struct Arm {
-  Segment forearm, hand;
-  Joint wrist;
-  Angle twisting, pivot, flexion;
-};
-constexpr std::array<Arm, 2> kArms = {
-    {{Segment::l_forearm, Segment::l_hand, Joint::l_wrist, Angle::l_wrist_twisting, Angle::l_wrist_pivot,
-      Angle::l_wrist_flexion},
-     {Segment::r_forearm, Segment::r_hand, Joint::r_wrist, Angle::r_wrist_twisting, Angle::r_wrist_pivot,
-      Angle::r_wrist_flexion}}};
-
-}  // namespace
 
 void place_hands(const Kinematics& kinematics, HandMotions& hands) {
   for (const Side side : {Side::left, Side::right}) {
-    const Arm& arm = kArms[static_cast<std::size_t>(side)];
+    const ArmParts& arm = arm_parts(side);
     HandMotion& hand = hands[static_cast<std::size_t>(side)];
     const Eigen::Matrix3d forearm = kinematics[arm.forearm].linear();
     const Eigen::Matrix3d turned = hand.seen ? hand.seen->toRotationMatrix() : kinematics[arm.hand].linear();
@@ -34,9 +22,9 @@ void place_hands(const Kinematics& kinematics, HandMotions& hands) {
 Pose with_wrists(const Pose& pose, const HandMotions& hands) {
   Pose result = pose;
   for (std::size_t side = 0; side < 2; ++side) {
-    result[kArms[side].twisting] = hands[side].wrist.twisting;
-    result[kArms[side].pivot] = hands[side].wrist.pivot;
-    result[kArms[side].flexion] = hands[side].wrist.flexion;
+    result[kArmParts[side].wrist_twisting] = hands[side].wrist.twisting;
+    result[kArmParts[side].wrist_pivot] = hands[side].wrist.pivot;
+    result[kArmParts[side].wrist_flexion] = hands[side].wrist.flexion;
   }
   return result;
 }

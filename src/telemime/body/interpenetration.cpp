@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -74,14 +76,15 @@ double interpenetration(const Body& body, const Kinematics& k) {
     Capsule upper, fore, hand;
   };
   std::array<Arm, 2> arms;
-  for (const bool left : {true, false}) {
-    const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-    const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-    const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
-    const Eigen::Vector3d& hand = k.joints[left ? Joint::l_hand : Joint::r_hand];
-    arms[left ? 0 : 1] = {{shoulder + kUpperFrom * (elbow - shoulder), elbow, kUpperRadius * size},
-                          {elbow, wrist, kForeRadius * size},
-                          {wrist, hand, kHandRadius * size}};
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const ArmParts& parts = kArmParts[i];
+    const Eigen::Vector3d& shoulder = k.joints[parts.shoulder];
+    const Eigen::Vector3d& elbow = k.joints[parts.elbow];
+    const Eigen::Vector3d& wrist = k.joints[parts.wrist];
+    const Eigen::Vector3d& hand = k.joints[parts.knuckle];
+    arms[i] = {{shoulder + kUpperFrom * (elbow - shoulder), elbow, kUpperRadius * size},
+               {elbow, wrist, kForeRadius * size},
+               {wrist, hand, kHandRadius * size}};
   }
   double total = 0.0;
   const auto add = [&](const Capsule& p, const Capsule& q) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -28,52 +30,42 @@ Eigen::Vector3d x_after_z(const Eigen::Matrix3d& frame, double angle) {
 }
 
 void add_arm(const Body& body, const Pose& pose, const Kinematics& k, Side side, Rates& rates) {
-  const bool left = side == Side::left;
-  const auto angle = [left](Angle l, Angle r) { return left ? l : r; };
-  const Segment upper = left ? Segment::l_upper_arm : Segment::r_upper_arm;
-  const Segment fore = left ? Segment::l_forearm : Segment::r_forearm;
-  const Segment hand = left ? Segment::l_hand : Segment::r_hand;
-  const Joint shoulder = left ? Joint::l_shoulder : Joint::r_shoulder;
-  const Joint elbow = left ? Joint::l_elbow : Joint::r_elbow;
-  const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
-  const Joint knuckle = left ? Joint::l_hand : Joint::r_hand;
+  const ArmParts& arm = arm_parts(side);
   const Eigen::Matrix3d chest = k[Segment::chest].linear();
   // Shoulder, R = Rz Rx Ry: the whole arm turns, and the clavicle follows the direction of the upper arm.
-  const Angle abduct = angle(Angle::l_shoulder_abduct, Angle::r_shoulder_abduct);
   const auto about_shoulder = [&](Angle a, const Eigen::Vector3d& axis) {
     KinematicRate& rate = rate_of(rates, a);
-    const Eigen::Vector3d direction = chest.transpose() * axis.cross(-k[upper].linear().col(1));
+    const Eigen::Vector3d direction = chest.transpose() * axis.cross(-k[arm.upper_arm].linear().col(1));
     const Eigen::Vector3d shift = chest * Eigen::Vector3d(0.0, 0.5 * body.clavicle_lift * direction.y(),
                                                           body.clavicle_reach * direction.z());
-    for (const Segment s : {upper, fore, hand}) {
+    for (const Segment s : {arm.upper_arm, arm.forearm, arm.hand}) {
       turn(rate, s, axis);
     }
-    for (const Joint j : {shoulder, elbow, wrist, knuckle}) {
-      carry(rate, k, j, axis, k.joints[shoulder]);
+    for (const Joint j : {arm.shoulder, arm.elbow, arm.wrist, arm.knuckle}) {
+      carry(rate, k, j, axis, k.joints[arm.shoulder]);
       rate.joints[j] += shift;
     }
   };
-  about_shoulder(abduct, chest.col(2));
-  about_shoulder(angle(Angle::l_shoulder_flexion, Angle::r_shoulder_flexion), x_after_z(chest, pose[abduct]));
-  about_shoulder(angle(Angle::l_shoulder_twisting, Angle::r_shoulder_twisting), k[upper].linear().col(1));
+  about_shoulder(arm.shoulder_abduct, chest.col(2));
+  about_shoulder(arm.shoulder_flexion, x_after_z(chest, pose[arm.shoulder_abduct]));
+  about_shoulder(arm.shoulder_twisting, k[arm.upper_arm].linear().col(1));
   // Elbow, R = Rx.
-  KinematicRate& bend = rate_of(rates, angle(Angle::l_elbow_flexion, Angle::r_elbow_flexion));
-  const Eigen::Vector3d hinge = k[upper].linear().col(0);
-  turn(bend, fore, hinge);
-  turn(bend, hand, hinge);
-  carry(bend, k, wrist, hinge, k.joints[elbow]);
-  carry(bend, k, knuckle, hinge, k.joints[elbow]);
+  KinematicRate& bend = rate_of(rates, arm.elbow_flexion);
+  const Eigen::Vector3d hinge = k[arm.upper_arm].linear().col(0);
+  turn(bend, arm.forearm, hinge);
+  turn(bend, arm.hand, hinge);
+  carry(bend, k, arm.wrist, hinge, k.joints[arm.elbow]);
+  carry(bend, k, arm.knuckle, hinge, k.joints[arm.elbow]);
   // Wrist, R = Ry Rx Rz.
   const auto about_wrist = [&](Angle a, const Eigen::Vector3d& axis) {
-    turn(rate_of(rates, a), hand, axis);
-    carry(rate_of(rates, a), k, knuckle, axis, k.joints[wrist]);
+    turn(rate_of(rates, a), arm.hand, axis);
+    carry(rate_of(rates, a), k, arm.knuckle, axis, k.joints[arm.wrist]);
   };
-  const Angle twisting = angle(Angle::l_wrist_twisting, Angle::r_wrist_twisting);
-  const Eigen::Matrix3d forearm = k[fore].linear();
-  about_wrist(twisting, forearm.col(1));
-  about_wrist(angle(Angle::l_wrist_pivot, Angle::r_wrist_pivot),
-              std::cos(pose[twisting]) * forearm.col(0) - std::sin(pose[twisting]) * forearm.col(2));
-  about_wrist(angle(Angle::l_wrist_flexion, Angle::r_wrist_flexion), k[hand].linear().col(2));
+  const double twist = pose[arm.wrist_twisting];
+  const Eigen::Matrix3d forearm = k[arm.forearm].linear();
+  about_wrist(arm.wrist_twisting, forearm.col(1));
+  about_wrist(arm.wrist_pivot, std::cos(twist) * forearm.col(0) - std::sin(twist) * forearm.col(2));
+  about_wrist(arm.wrist_flexion, k[arm.hand].linear().col(2));
 }
 
 }  // namespace

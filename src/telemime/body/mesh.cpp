@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "telemime/body/arm_parts.h"
+
 namespace telemime {
 namespace {
 
@@ -206,22 +208,19 @@ BodyMesh make_mesh(const Body& body) {
   trunk(Segment::head, kHead, SurfaceClass::head);
   for (const Side side : {Side::left, Side::right}) {
     const auto i = static_cast<std::size_t>(side);
-    const bool left = side == Side::left;
-    const Segment upper = left ? Segment::l_upper_arm : Segment::r_upper_arm;
-    const Segment fore = left ? Segment::l_forearm : Segment::r_forearm;
-    const Segment hand = left ? Segment::l_hand : Segment::r_hand;
-    Stack upper_stack = make_stack(kUpperArm, body.upper_arm_length[i], across, shape[upper], kLimbSides,
-                                   SurfaceClass::clothes);
+    const ArmParts& arm = arm_parts(side);
+    Stack upper_stack = make_stack(kUpperArm, body.upper_arm_length[i], across, shape[arm.upper_arm],
+                                   kLimbSides, SurfaceClass::clothes);
     // A sleeve of a whole segment covers its rounded end, too.
     const auto end = [](double covered, double length) { return covered >= 1.0 ? -1e9 : -covered * length; };
     dress(upper_stack, shape.sleeve <= 0.0 ? 1e9 : end(shape.sleeve, body.upper_arm_length[i]));
-    builder.add(upper, upper_stack);
-    Stack fore_stack =
-        make_stack(kForearm, body.forearm_length[i], across, shape[fore], kLimbSides, SurfaceClass::arms);
+    builder.add(arm.upper_arm, upper_stack);
+    Stack fore_stack = make_stack(kForearm, body.forearm_length[i], across, shape[arm.forearm], kLimbSides,
+                                  SurfaceClass::arms);
     dress(fore_stack, shape.sleeve <= 1.0 ? 1e9 : end(shape.sleeve - 1.0, body.forearm_length[i]));
-    builder.add(fore, fore_stack);
-    builder.add(hand,
-                make_stack(kHand, body.hand_length[i], across, shape[hand], kLimbSides, SurfaceClass::arms));
+    builder.add(arm.forearm, fore_stack);
+    builder.add(arm.hand, make_stack(kHand, body.hand_length[i], across, shape[arm.hand], kLimbSides,
+                                     SurfaceClass::arms));
   }
   return builder.take();
 }

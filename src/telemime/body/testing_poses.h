@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/body.h"
 #include "telemime/body/limits.h"
 #include "telemime/core/random.h"
@@ -61,38 +63,15 @@ inline Shape other_shape() {
   return shape;
 }
 
-inline Joint elbow_of(Side side) {
-  return side == Side::left ? Joint::l_elbow : Joint::r_elbow;
-}
-inline Joint wrist_of(Side side) {
-  return side == Side::left ? Joint::l_wrist : Joint::r_wrist;
-}
-inline Joint shoulder_of(Side side) {
-  return side == Side::left ? Joint::l_shoulder : Joint::r_shoulder;
-}
-
 /// The same joint on the other side.
 inline Joint twin(Joint joint) {
-  switch (joint) {
-    case Joint::l_shoulder:
-      return Joint::r_shoulder;
-    case Joint::r_shoulder:
-      return Joint::l_shoulder;
-    case Joint::l_elbow:
-      return Joint::r_elbow;
-    case Joint::r_elbow:
-      return Joint::l_elbow;
-    case Joint::l_wrist:
-      return Joint::r_wrist;
-    case Joint::r_wrist:
-      return Joint::l_wrist;
-    case Joint::l_hand:
-      return Joint::r_hand;
-    case Joint::r_hand:
-      return Joint::l_hand;
-    default:
-      return joint;
+  for (const auto part : {&ArmParts::shoulder, &ArmParts::elbow, &ArmParts::wrist, &ArmParts::knuckle}) {
+    const auto [left, right] = std::pair{kArmParts[0].*part, kArmParts[1].*part};
+    if (joint == left || joint == right) {
+      return joint == left ? right : left;
+    }
   }
+  return joint;
 }
 
 }  // namespace telemime::testing_poses

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/core/time_base.h"
 
 namespace telemime {
@@ -26,15 +27,14 @@ void loosen_before(double time, std::size_t side, TwoWaySmoothing& smoothing) {
 // What a frame says of the hands, `step` seconds after the one before it.
 void measure_hands_of(const MotionFrame& motion, double step, TwoWaySmoothing& smoothing,
                       MeasuredPose& pose) {
-  constexpr std::array<Segment, 2> kHands = {Segment::l_hand, Segment::r_hand};
   const Kinematics kinematics = forward_kinematics(smoothing.body, motion.pose);
-  for (std::size_t side = 0; side < kHands.size(); ++side) {
+  for (std::size_t side = 0; side < kArmParts.size(); ++side) {
     const HandMotion& hand = (*motion.hands)[side];
     HandNoise& noise = smoothing.hand_noise[side];
     noise.observe(hand, step);
     pose.hands[side] = {
         .angles = hand.angles,
-        .palm = hand.seen.value_or(Eigen::Quaterniond(kinematics[kHands[side]].linear())),
+        .palm = hand.seen.value_or(Eigen::Quaterniond(kinematics[kArmParts[side].hand].linear())),
         .noise = noise.ratio(),
         .seen = hand.visibility > 0.0,
     };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 #include "telemime/outputs/t_pose.h"
 
@@ -117,17 +118,12 @@ HumanoidMotion humanoid_motion(const Body& body, const Pose& pose, const Eigen::
   set(neck, k[Segment::chest].linear().transpose() * k[Segment::head].linear());
 
   for (const Side side : {Side::left, Side::right}) {
-    const bool left = side == Side::left;
+    const ArmParts& parts = arm_parts(side);
     const SideBones bones = bones_of(side);
-    const Eigen::Isometry3d arm =
-        k[Segment::chest].inverse() * k[left ? Segment::l_upper_arm : Segment::r_upper_arm];
-    const Eigen::Matrix3d fore_in_arm =
-        rotation_x(pose[left ? Angle::l_elbow_flexion : Angle::r_elbow_flexion]);
-    const Eigen::Matrix3d half_twist =
-        rotation_y(0.5 * pose[left ? Angle::l_wrist_twisting : Angle::r_wrist_twisting]);
-    const Eigen::Matrix3d hand_in_fore =
-        k[left ? Segment::l_forearm : Segment::r_forearm].linear().transpose() *
-        k[left ? Segment::l_hand : Segment::r_hand].linear();
+    const Eigen::Isometry3d arm = k[Segment::chest].inverse() * k[parts.upper_arm];
+    const Eigen::Matrix3d fore_in_arm = rotation_x(pose[parts.elbow_flexion]);
+    const Eigen::Matrix3d half_twist = rotation_y(0.5 * pose[parts.wrist_twisting]);
+    const Eigen::Matrix3d hand_in_fore = k[parts.forearm].linear().transpose() * k[parts.hand].linear();
     const Eigen::Vector3d collar = collar_in_chest(body, side);
     const Eigen::Vector3d at_rest = shoulder_in_chest(body, side, side_sign(side) * Eigen::Vector3d::UnitX());
     const Eigen::Matrix3d clavicle =

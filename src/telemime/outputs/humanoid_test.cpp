@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 #include "telemime/outputs/t_pose.h"
 #include "telemime/outputs/testing_motion.h"
@@ -183,9 +184,7 @@ TEST(Humanoid, FingersFollowTheHandModel) {
   for (std::size_t side = 0; side < 2; ++side) {
     const Eigen::Matrix3d t = t_pose_from_rest(static_cast<Side>(side));
     const Eigen::Isometry3d from_camera =
-        forward_kinematics(
-            body, with_wrists(frame.pose, *frame.hands))[side == 0 ? Segment::l_hand : Segment::r_hand]
-            .inverse();
+        forward_kinematics(body, with_wrists(frame.pose, *frame.hands))[kArmParts[side].hand].inverse();
     for (std::size_t f = 0; f < kFingerCount; ++f) {
       Eigen::Vector3d at = Eigen::Vector3d::Zero();
       Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/search/blocks.h"
 
 namespace telemime {
@@ -14,7 +15,7 @@ Pose with_arms_of(const Body& body, const Pose& pose, const Pose& left, const Po
   for (const Side side : {Side::left, Side::right}) {
     const Pose& from = side == Side::left ? left : right;
     to = with_wrist(body, to, side, arm_target(body, from, side), limits);
-    for (const Angle angle : hand_angles(side)) {
+    for (const Angle angle : arm_parts(side).wrist_angles()) {
       to[angle] = from[angle];
     }
   }
@@ -23,13 +24,13 @@ Pose with_arms_of(const Body& body, const Pose& pose, const Pose& left, const Po
 
 std::vector<Pose> distinct_arms(const Body& body, std::span<const Pose> poses, Side side, std::size_t most) {
   constexpr double kSame = 0.03;  // m
-  const bool left = side == Side::left;
+  const ArmParts& arm = arm_parts(side);
   std::vector<Pose> kept;
   std::vector<Eigen::Matrix<double, 3, 2>> places;
   for (std::size_t i = 0; i < poses.size() && kept.size() < most; ++i) {
     const JointPositions j = forward_kinematics(body, poses[i]).joints;
     Eigen::Matrix<double, 3, 2> here;
-    here << j[left ? Joint::l_elbow : Joint::r_elbow], j[left ? Joint::l_wrist : Joint::r_wrist];
+    here << j[arm.elbow], j[arm.wrist];
     if (std::none_of(places.begin(), places.end(),
                      [&](const auto& there) { return (here - there).colwise().norm().maxCoeff() < kSame; })) {
       kept.push_back(poses[i]);

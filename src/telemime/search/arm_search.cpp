@@ -2,10 +2,10 @@
 #include "telemime/search/arm_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/interpenetration.h"
 
 namespace telemime {
@@ -21,12 +21,11 @@ constexpr double kBehind = 0.25;    // directions of the fan that point backward
 
 Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits& limits, Random& random) {
   const auto i = static_cast<std::size_t>(side);
-  const bool left = side == Side::left;
-  const double outward = left ? 1.0 : -1.0;
+  const double outward = side == Side::left ? 1.0 : -1.0;
   Pose rest = pose;
   set_arm_angles(rest, side, {0.0, 0.0, 0.0, 0.0});
   const Kinematics k = forward_kinematics(body, rest);
-  const Eigen::Vector3d shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Vector3d shoulder = k.joints[arm_parts(side).shoulder];
   const Eigen::Matrix3d& chest = k[Segment::chest].linear();
   Pose arm = rest;
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
@@ -50,15 +49,13 @@ Pose random_arm(const Body& body, const Pose& pose, Side side, const JointLimits
 
 std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                               int count, Random& random) {
-  const bool left = side == Side::left;
+  const ArmParts& parts = arm_parts(side);
   const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
+  const Eigen::Vector3d& elbow = k.joints[parts.elbow];
   const Eigen::Matrix3d& chest = k[Segment::chest].linear();
   Pose straight = pose;
-  for (const Angle a : left ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot}
-                            : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot}) {
-    straight[a] = 0.0;
-  }
+  straight[parts.wrist_flexion] = 0.0;
+  straight[parts.wrist_pivot] = 0.0;
   constexpr double kGoldenAngle = 2.0 * std::numbers::pi * (2.0 - std::numbers::phi);
   const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
   const double shift = random.uniform();

@@ -7,17 +7,16 @@
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/testing_poses.h"
 
 namespace telemime {
 namespace {
 
-using testing_poses::elbow_of;
 using testing_poses::kDegree;
 using testing_poses::kSides;
 using testing_poses::random_pose;
-using testing_poses::wrist_of;
 
 TEST(RandomArm, KeepsTheLimitsAndTheRestOfThePose) {
   const Body body = make_body(Shape{});
@@ -84,9 +83,9 @@ TEST(ForearmFan, TurnsTheForearmAboutTheElbowAlone) {
           ASSERT_TRUE(limits.contains(arm));
           ASSERT_LT(interpenetration(body, forward_kinematics(body, arm)), kInvalidInterpenetration);
           // What is clamped to the limits moves the elbow by some millimetres on the clavicle.
-          ASSERT_LT((after[elbow_of(side)] - before[elbow_of(side)]).norm(), 0.06);
+          ASSERT_LT((after[arm_parts(side).elbow] - before[arm_parts(side).elbow]).norm(), 0.06);
           const Side other = side == Side::left ? Side::right : Side::left;
-          ASSERT_EQ(after[wrist_of(other)], before[wrist_of(other)]);
+          ASSERT_EQ(after[arm_parts(other).wrist], before[arm_parts(other).wrist]);
         }
       }
     }
@@ -138,9 +137,9 @@ TEST(DepthFlips, LookTheSameButLieElsewhere) {
         ASSERT_LT(interpenetration(body, forward_kinematics(body, flip)), kInvalidInterpenetration);
         ASSERT_EQ(flip.root, pose.root);
         // The clavicle moves the shoulder by some centimetres between the two.
-        const Joint wrist = wrist_of(side);
+        const Joint wrist = arm_parts(side).wrist;
         pixels += (camera.project(there[wrist]) - camera.project(here[wrist])).norm();
-        const Joint elbow = elbow_of(side);
+        const Joint elbow = arm_parts(side).elbow;
         const double away =
             std::max((there[wrist] - here[wrist]).norm(), (there[elbow] - here[elbow]).norm());
         ASSERT_GT(away, 0.0);
@@ -160,7 +159,7 @@ TEST(DepthFlips, OfAnElbowBeforeTheBodyLiesBehindIt) {
     set_arm_angles(pose, side, {-35 * kDegree, 0.0, outward * 25 * kDegree, -60 * kDegree});
     const auto elbow_ahead = [&](const Pose& p) {
       const JointPositions j = forward_kinematics(body, p).joints;
-      return j[testing_poses::shoulder_of(side)].z() - j[elbow_of(side)].z();
+      return j[arm_parts(side).shoulder].z() - j[arm_parts(side).elbow].z();
     };
     ASSERT_GT(elbow_ahead(pose), 0.1);
     const auto flips = arm_flips(body, pose, side, anatomical_limits());

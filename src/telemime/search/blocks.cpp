@@ -2,10 +2,12 @@
 #include "telemime/search/blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 
 namespace telemime {
@@ -72,7 +74,7 @@ Pose with_wrist(const Body& body, const Pose& pose, Side side, const ArmTarget& 
   }
   const auto i = static_cast<std::size_t>(side);
   const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d shoulder = k.joints[side == Side::left ? Joint::l_shoulder : Joint::r_shoulder];
+  const Eigen::Vector3d shoulder = k.joints[arm_parts(side).shoulder];
   const double longest = body.upper_arm_length[i] + body.forearm_length[i];
   const double shortest = std::abs(body.upper_arm_length[i] - body.forearm_length[i]);
   const Eigen::Vector3d line = target.wrist - shoulder;
@@ -100,12 +102,6 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
   return block;
 }
 
-std::array<Angle, 3> hand_angles(Side side) {
-  return side == Side::left
-             ? std::array{Angle::l_wrist_flexion, Angle::l_wrist_pivot, Angle::l_wrist_twisting}
-             : std::array{Angle::r_wrist_flexion, Angle::r_wrist_pivot, Angle::r_wrist_twisting};
-}
-
 namespace {
 
 // A block of 7 numbers whose last three are the hand's angles; the first four are the caller's.
@@ -114,9 +110,10 @@ SearchBlock with_hand(const Pose& pose, Side side, const JointLimits& limits, do
   block.start.resize(7);
   block.steps.resize(7);
   block.bounds = {Eigen::VectorXd(7), Eigen::VectorXd(7)};
-  for (std::size_t i = 0; i < 3; ++i) {
+  const std::array<Angle, 3> angles = arm_parts(side).wrist_angles();
+  for (std::size_t i = 0; i < angles.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(4 + i);
-    const Angle angle = hand_angles(side)[i];
+    const Angle angle = angles[i];
     const auto a = static_cast<std::size_t>(angle);
     block.start[at] = pose[angle];
     block.steps[at] = factor * kTypicalChange[3 + a];
@@ -127,8 +124,9 @@ SearchBlock with_hand(const Pose& pose, Side side, const JointLimits& limits, do
 }
 
 void set_hand(Pose& pose, Side side, const Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    pose[hand_angles(side)[i]] = x[static_cast<Eigen::Index>(4 + i)];
+  const std::array<Angle, 3> angles = arm_parts(side).wrist_angles();
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    pose[angles[i]] = x[static_cast<Eigen::Index>(4 + i)];
   }
 }
 
@@ -146,12 +144,12 @@ Eigen::Vector3d turned(const Eigen::Vector3d& direction, double in_plane, double
 
 SearchBlock bones_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                         double factor) {
-  const bool left = side == Side::left;
+  const ArmParts& arm = arm_parts(side);
   const auto i = static_cast<std::size_t>(side);
   const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-  const Eigen::Vector3d wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const Eigen::Vector3d shoulder = k.joints[arm.shoulder];
+  const Eigen::Vector3d elbow = k.joints[arm.elbow];
+  const Eigen::Vector3d wrist = k.joints[arm.wrist];
   const Eigen::Vector3d upper = elbow - shoulder;
   const Eigen::Vector3d fore = wrist - elbow;
   SearchBlock block = with_hand(pose, side, limits, factor);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <functional>
 
 #include "telemime/body/arm_ik.h"
@@ -34,9 +33,6 @@ SearchBlock trunk_block(const Body& body, const Pose& pose, const JointLimits& l
 /// flexion, pivot and twisting (7 numbers). A wrist out of reach is moved to the nearest point in reach.
 SearchBlock arm_block(const Body& body, const Pose& pose, Side side, const JointLimits& limits,
                       double factor);
-
-/// The hand's three numbers in arm_block and bones_block: flexion, pivot, twisting.
-std::array<Angle, 3> hand_angles(Side side);
 
 /// Pose that belongs to a point of arm_block().
 Pose with_arm(const Body& body, const Pose& pose, Side side, const Eigen::VectorXd& point,

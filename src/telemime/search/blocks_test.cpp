@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/testing_poses.h"
 
 namespace telemime {
@@ -12,8 +13,6 @@ using testing_poses::bent_pose;
 using testing_poses::kDegree;
 using testing_poses::kSides;
 using testing_poses::random_pose;
-using testing_poses::shoulder_of;
-using testing_poses::wrist_of;
 
 constexpr double kTenthOfMillimetre = 1e-4;
 
@@ -58,7 +57,8 @@ TEST(Blocks, AWristRightAtTheCameraStaysThere) {
     Pose pose;
     set_arm_angles(pose, side, {-80 * kDegree, 0.0, 0.0, -10 * kDegree});
     // The root moves until the wrist is 8 cm before the camera, nearer than a search would go.
-    pose.root += Eigen::Vector3d(0.02, -0.01, 0.08) - forward_kinematics(body, pose).joints[wrist_of(side)];
+    pose.root +=
+        Eigen::Vector3d(0.02, -0.01, 0.08) - forward_kinematics(body, pose).joints[arm_parts(side).wrist];
     const SearchBlock block = arm_block(body, pose, side, limits, 1.5);
     EXPECT_LT(farthest_joint(body, block.decode(block.start), pose), kTenthOfMillimetre);
     EXPECT_TRUE((block.start.array() >= block.bounds.low.array()).all());
@@ -126,7 +126,8 @@ TEST(Blocks, TrunkBlockKeepsTheWristsInPlace) {
     EXPECT_TRUE(moved.root.isApprox(x.head<3>()));
     EXPECT_EQ(moved[Angle::root_roll], x[3 + static_cast<int>(Angle::root_roll)]);
     for (const Side side : kSides) {
-      ASSERT_LT((after[wrist_of(side)] - before[wrist_of(side)]).norm(), kTenthOfMillimetre) << i;
+      ASSERT_LT((after[arm_parts(side).wrist] - before[arm_parts(side).wrist]).norm(), kTenthOfMillimetre)
+          << i;
     }
   }
 }
@@ -167,13 +168,13 @@ TEST(Blocks, WristOutOfReachComesAsNearAsTheArmAllows) {
   const JointLimits limits = anatomical_limits();
   Pose pose;
   for (const Side side : kSides) {
-    const Eigen::Vector3d shoulder = forward_kinematics(body, pose).joints[shoulder_of(side)];
+    const Eigen::Vector3d shoulder = forward_kinematics(body, pose).joints[arm_parts(side).shoulder];
     const Eigen::Vector3d way = Eigen::Vector3d(0.1, 0.2, -1.0).normalized();
     const Pose moved = with_wrist(body, pose, side, {shoulder + 3.0 * way, 0.2}, limits);
     const JointPositions j = forward_kinematics(body, moved).joints;
     const double reach = body.upper_arm_length[0] + body.forearm_length[0];
-    EXPECT_GT((j[wrist_of(side)] - j[shoulder_of(side)]).norm(), 0.85 * reach);
-    EXPECT_GT((j[wrist_of(side)] - j[shoulder_of(side)]).normalized().dot(way), 0.99);
+    EXPECT_GT((j[arm_parts(side).wrist] - j[arm_parts(side).shoulder]).norm(), 0.85 * reach);
+    EXPECT_GT((j[arm_parts(side).wrist] - j[arm_parts(side).shoulder]).normalized().dot(way), 0.99);
   }
 }
 
@@ -182,7 +183,7 @@ TEST(Blocks, WristInsideTheShoulderStillGivesAPose) {
   const JointLimits limits = anatomical_limits();
   const Pose pose;
   for (const Side side : kSides) {
-    const Eigen::Vector3d shoulder = forward_kinematics(body, pose).joints[shoulder_of(side)];
+    const Eigen::Vector3d shoulder = forward_kinematics(body, pose).joints[arm_parts(side).shoulder];
     for (const Eigen::Vector3d& place : {shoulder, Eigen::Vector3d(shoulder.x(), shoulder.y(), 0.3)}) {
       EXPECT_TRUE(with_wrist(body, pose, side, {place, 0.0}, limits).vector().allFinite());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/search/landmark_fit.h"
 
 namespace telemime {
@@ -83,11 +84,11 @@ std::optional<Pose> best_landmark_pose(Objective& objective, const ObjectiveWeig
 // Why the arm cannot be fitted: a part of it is outside the image or in front of the chest. Empty: it can.
 std::string arm_problem(const Model& model, const Pose& pose, const Camera& camera, Side side) {
   const Kinematics k = forward_kinematics(model.body, pose);
-  const bool left = side == Side::left;
-  const std::string name = left ? "left" : "right";
+  const ArmParts& arm = arm_parts(side);
+  const std::string name = side == Side::left ? "left" : "right";
   const Eigen::Vector2d l = camera.project(k.joints[Joint::l_shoulder]);
   const Eigen::Vector2d r = camera.project(k.joints[Joint::r_shoulder]);
-  for (const Joint j : {left ? Joint::l_elbow : Joint::r_elbow, left ? Joint::l_wrist : Joint::r_wrist}) {
+  for (const Joint j : {arm.elbow, arm.wrist}) {
     if (k.joints[j].z() < kTooNear) {
       return "the " + name + " arm is too near the camera";
     }
@@ -98,7 +99,7 @@ std::string arm_problem(const Model& model, const Pose& pose, const Camera& came
     const double low = std::min(l.x(), r.x());
     const double high = std::max(l.x(), r.x());
     const double margin = kBesideBody * (high - low);
-    if (j != Joint::l_elbow && j != Joint::r_elbow && p.x() > low + margin && p.x() < high - margin) {
+    if (j == arm.wrist && p.x() > low + margin && p.x() < high - margin) {
       return "the " + name + " hand is in front of the body";
     }
   }

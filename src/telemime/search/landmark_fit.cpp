@@ -7,6 +7,7 @@
 
 #include "telemime/body/arm_flips.h"
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/kinematic_rates.h"
 #include "telemime/body/rotations.h"
 
@@ -281,8 +282,7 @@ std::optional<Pose> pose_from_landmarks(const Body& body, const Camera& camera,
         bone_along(left ? Landmark::l_elbow : Landmark::r_elbow, left ? Landmark::l_wrist : Landmark::r_wrist,
                    left ? LandmarkBone::l_forearm : LandmarkBone::r_forearm);
     if (upper && fore) {
-      const Eigen::Vector3d shoulder =
-          forward_kinematics(body, pose).joints[left ? Joint::l_shoulder : Joint::r_shoulder];
+      const Eigen::Vector3d shoulder = forward_kinematics(body, pose).joints[arm_parts(side).shoulder];
       const auto i = static_cast<std::size_t>(side);
       const Eigen::Vector3d elbow = shoulder + body.upper_arm_length[i] * *upper;
       set_arm_angles(pose, side,

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/arm_prior.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/rotations.h"
@@ -58,10 +59,10 @@ double trunk_change(const Pose& pose, const Pose& predicted) {
 
 double depth_of_arms(const Kinematics& k) {
   double sum = 0.0;
-  for (const bool left : {true, false}) {
-    const double shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder].z();
-    sum += square((k.joints[left ? Joint::l_elbow : Joint::r_elbow].z() - shoulder) / kFrontoParallel);
-    sum += square((k.joints[left ? Joint::l_wrist : Joint::r_wrist].z() - shoulder) / kFrontoParallel);
+  for (const ArmParts& arm : kArmParts) {
+    const double shoulder = k.joints[arm.shoulder].z();
+    sum += square((k.joints[arm.elbow].z() - shoulder) / kFrontoParallel);
+    sum += square((k.joints[arm.wrist].z() - shoulder) / kFrontoParallel);
   }
   return sum / 4.0;
 }
@@ -71,15 +72,14 @@ double reach_cost(const Body& body, const Kinematics& k) {
   const Eigen::Isometry3d chest_from_camera = k[Segment::chest].inverse();
   const double arm = body.upper_arm_length[0] + body.forearm_length[0];
   double sum = 0.0;
-  for (const bool left : {true, false}) {
-    const Eigen::Vector3d shoulder =
-        chest_from_camera * k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-    const Eigen::Vector3d elbow = chest_from_camera * k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-    const Eigen::Vector3d wrist = chest_from_camera * k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  for (std::size_t side = 0; side < kArmParts.size(); ++side) {
+    const Eigen::Vector3d shoulder = chest_from_camera * k.joints[kArmParts[side].shoulder];
+    const Eigen::Vector3d elbow = chest_from_camera * k.joints[kArmParts[side].elbow];
+    const Eigen::Vector3d wrist = chest_from_camera * k.joints[kArmParts[side].wrist];
     sum += square(std::min(0.0, (wrist.z() - shoulder.z()) / arm) / kWristBehind);
     sum += square(std::min(0.0, (elbow.z() - shoulder.z()) / arm) / kElbowBehind);
     // A forearm that points away from the camera is rare: people gesture towards their listener.
-    const double forward = (wrist.z() - elbow.z()) / body.forearm_length[left ? 0 : 1];
+    const double forward = (wrist.z() - elbow.z()) / body.forearm_length[side];
     sum += 2.0 * square(std::min(0.0, forward - kForearmForward) / kForearmBehind);
     sum += 0.2 * square((wrist - shoulder).dot(Eigen::Vector3d::UnitZ()) / arm - kUsualReach);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "telemime/body/arm_flips.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/search/arm_search.h"
 #include "telemime/search/blocks.h"
 
@@ -27,7 +28,7 @@ ScoredPose improved(Objective& objective, const ScoredPose& from, const SearchBl
 }
 
 Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {
-  return forward_kinematics(body, pose).joints[side == Side::left ? Joint::l_wrist : Joint::r_wrist];
+  return forward_kinematics(body, pose).joints[arm_parts(side).wrist];
 }
 
 // The cheapest candidates whose wrists are kAway from that of `here` and kApart from each other.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "telemime/body/arm_ik.h"
+#include "telemime/body/arm_parts.h"
 #include "telemime/search/simplex.h"
 
 namespace telemime {
@@ -69,11 +70,11 @@ constexpr double kRelaxedSlope = 15.0 * std::numbers::pi / 180.0;
 void flatten_arm(const Body& body, const JointLimits& limits, Side side, double turn_upper, double turn_fore,
                  Pose& pose) {
   const auto i = static_cast<std::size_t>(side);
-  const bool left = side == Side::left;
+  const ArmParts& arm = arm_parts(side);
   const Kinematics k = forward_kinematics(body, pose);
-  const Eigen::Vector3d& shoulder = k.joints[left ? Joint::l_shoulder : Joint::r_shoulder];
-  const Eigen::Vector3d& elbow = k.joints[left ? Joint::l_elbow : Joint::r_elbow];
-  const Eigen::Vector3d& wrist = k.joints[left ? Joint::l_wrist : Joint::r_wrist];
+  const Eigen::Vector3d& shoulder = k.joints[arm.shoulder];
+  const Eigen::Vector3d& elbow = k.joints[arm.elbow];
+  const Eigen::Vector3d& wrist = k.joints[arm.wrist];
   const auto in_plane = [](const Eigen::Vector3d& along, double turn) {
     const double a = std::atan2(along.y(), along.x()) + turn;
     return Eigen::Vector3d(std::cos(a), std::sin(a), 0.0);
@@ -93,11 +94,10 @@ Group arm_girths_group() {
   return {
       {0.10, 0.10, 0.10, 0.15}, {0.6, 0.6, 0.5, 2.0}, [](const Candidate& from, const Eigen::VectorXd& x) {
         Candidate to = from;
-        for (const Side side : kSides) {
-          const bool left = side == Side::left;
-          scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], 0.0, x[0], x[0]);
-          scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], 0.0, x[1], x[1]);
-          scale(to.shape[left ? Segment::l_hand : Segment::r_hand], 0.0, x[2], x[2]);
+        for (const ArmParts& arm : kArmParts) {
+          scale(to.shape[arm.upper_arm], 0.0, x[0], x[0]);
+          scale(to.shape[arm.forearm], 0.0, x[1], x[1]);
+          scale(to.shape[arm.hand], 0.0, x[2], x[2]);
         }
         to.shape.sleeve = std::clamp(from.shape.sleeve + x[3], 0.0, 2.0);
         return to;
@@ -115,11 +115,10 @@ Group arms_group(const JointLimits& limits) {
   }
   group.apply = [&limits](const Candidate& from, const Eigen::VectorXd& x) {
     Candidate to = from;
-    for (const Side side : kSides) {
-      const bool left = side == Side::left;
-      scale(to.shape[left ? Segment::l_upper_arm : Segment::r_upper_arm], x[0], x[1], x[1]);
-      scale(to.shape[left ? Segment::l_forearm : Segment::r_forearm], x[2], x[3], x[3]);
-      scale(to.shape[left ? Segment::l_hand : Segment::r_hand], x[4], x[5], x[5]);
+    for (const ArmParts& arm : kArmParts) {
+      scale(to.shape[arm.upper_arm], x[0], x[1], x[1]);
+      scale(to.shape[arm.forearm], x[2], x[3], x[3]);
+      scale(to.shape[arm.hand], x[4], x[5], x[5]);
     }
     to.shape.sleeve = std::clamp(from.shape.sleeve + x[6], 0.0, 2.0);
     const Body body = make_body(to.shape);
@@ -146,10 +145,9 @@ double shape_prior(const Shape& shape, const ShapeFitConfig& config) {
   }
   sum /= static_cast<double>(3 * kSegmentCount);
   // A nearly straight arm shows its whole length but not where the elbow is: average proportions decide.
-  sum += square(std::log(shape[Segment::l_upper_arm].length / shape[Segment::l_forearm].length) /
-                config.ratio_spread);
-  sum += square(std::log(shape[Segment::r_upper_arm].length / shape[Segment::r_forearm].length) /
-                config.ratio_spread);
+  for (const ArmParts& arm : kArmParts) {
+    sum += square(std::log(shape[arm.upper_arm].length / shape[arm.forearm].length) / config.ratio_spread);
+  }
   return sum;
 }
 

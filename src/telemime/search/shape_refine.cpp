@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/search/arm_search.h"
 
 namespace telemime {
@@ -41,11 +42,13 @@ Eigen::Vector3d on_ray(const Eigen::Vector3d& seen, const Eigen::Vector3d& old_p
   return ray * (along + side * half);
 }
 
-void both(Shape& shape, Segment left, Segment right, double length, double girth) {
-  for (const Segment s : {left, right}) {
-    shape[s].length *= std::exp(length);
-    shape[s].height *= std::exp(girth);
-    shape[s].width *= std::exp(girth);
+// Changes the logarithms of a segment's length and girth on both sides.
+void both(Shape& shape, Segment ArmParts::*segment, double length, double girth) {
+  for (const ArmParts& arm : kArmParts) {
+    SegmentScale& s = shape[arm.*segment];
+    s.length *= std::exp(length);
+    s.height *= std::exp(girth);
+    s.width *= std::exp(girth);
   }
 }
 
@@ -54,16 +57,16 @@ void both(Shape& shape, Segment left, Segment right, double length, double girth
 using LengthChange = void (*)(Shape&, double);
 constexpr std::array<std::pair<LengthChange, double>, 4> kLengths = {{
     {[](Shape& s, double x) {
-       both(s, Segment::l_upper_arm, Segment::r_upper_arm, x, 0.0);
-       both(s, Segment::l_forearm, Segment::r_forearm, x, 0.0);
+       both(s, &ArmParts::upper_arm, x, 0.0);
+       both(s, &ArmParts::forearm, x, 0.0);
      },
      0.06},
     {[](Shape& s, double x) {
-       both(s, Segment::l_upper_arm, Segment::r_upper_arm, 0.5 * x, 0.0);
-       both(s, Segment::l_forearm, Segment::r_forearm, -0.5 * x, 0.0);
+       both(s, &ArmParts::upper_arm, 0.5 * x, 0.0);
+       both(s, &ArmParts::forearm, -0.5 * x, 0.0);
      },
      0.08},
-    {[](Shape& s, double x) { both(s, Segment::l_hand, Segment::r_hand, x, 0.0); }, 0.10},
+    {[](Shape& s, double x) { both(s, &ArmParts::hand, x, 0.0); }, 0.10},
     {[](Shape& s, double x) { s[Segment::chest].width *= std::exp(x); }, 0.04},
 }};
 // With landmarks the shoulder joints move and the chest stays.
@@ -73,9 +76,9 @@ constexpr std::pair<LengthChange, double> kShoulders = {
 // Changes the logarithms of the girths of upper arm, forearm and hand, and the end of the sleeve.
 Shape with_girths(const Shape& from, const Eigen::Vector4d& x) {
   Shape to = from;
-  both(to, Segment::l_upper_arm, Segment::r_upper_arm, 0.0, x[0]);
-  both(to, Segment::l_forearm, Segment::r_forearm, 0.0, x[1]);
-  both(to, Segment::l_hand, Segment::r_hand, 0.0, x[2]);
+  both(to, &ArmParts::upper_arm, 0.0, x[0]);
+  both(to, &ArmParts::forearm, 0.0, x[1]);
+  both(to, &ArmParts::hand, 0.0, x[2]);
   to.sleeve = std::clamp(from.sleeve + x[3], 0.0, 2.0);
   return to;
 }
@@ -284,13 +287,10 @@ Pose carry_arms(const Body& from, const Pose& pose, const Body& to, const Pose& 
   Pose carried = trunk;
   for (const Side side : {Side::left, Side::right}) {
     const auto i = static_cast<std::size_t>(side);
-    const bool left = side == Side::left;
-    const Joint shoulder = left ? Joint::l_shoulder : Joint::r_shoulder;
-    const Joint elbow = left ? Joint::l_elbow : Joint::r_elbow;
-    const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
-    const Eigen::Vector3d origin = forward_kinematics(to, carried).joints[shoulder];
-    const Eigen::Vector3d e = on_ray(seen[elbow], seen[shoulder], origin, to.upper_arm_length[i]);
-    const Eigen::Vector3d w = on_ray(seen[wrist], seen[elbow], e, to.forearm_length[i]);
+    const ArmParts& arm = arm_parts(side);
+    const Eigen::Vector3d origin = forward_kinematics(to, carried).joints[arm.shoulder];
+    const Eigen::Vector3d e = on_ray(seen[arm.elbow], seen[arm.shoulder], origin, to.upper_arm_length[i]);
+    const Eigen::Vector3d w = on_ray(seen[arm.wrist], seen[arm.elbow], e, to.forearm_length[i]);
     set_arm_angles(carried, side, arm_through(to, carried, side, e, w, limits));
   }
   return limits.clamp(carried);

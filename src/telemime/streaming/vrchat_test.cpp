@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/core/errors.h"
 #include "telemime/outputs/testing_motion.h"
 #include "telemime/streaming/all.h"
@@ -121,8 +122,8 @@ TEST_F(Vrchat, RotationsComposeToThePose) {
     const Kinematics k = forward_kinematics(header_.body, pose);
     for (const Side side : {Side::left, Side::right}) {
       const bool left = side == Side::left;
-      const Eigen::Vector3d shoulder = k[left ? Segment::l_upper_arm : Segment::r_upper_arm].translation();
-      const Eigen::Vector3d elbow = k[left ? Segment::l_forearm : Segment::r_forearm].translation();
+      const Eigen::Vector3d shoulder = k[arm_parts(side).upper_arm].translation();
+      const Eigen::Vector3d elbow = k[arm_parts(side).forearm].translation();
       const Eigen::Vector3d rest = (left ? -1.0 : 1.0) * Eigen::Vector3d::UnitX();
       const Eigen::Vector3d points = seen.at(left ? "3" : "4").turn() * rest;
       EXPECT_LT((points + (elbow - shoulder).normalized()).norm(), 0.06);

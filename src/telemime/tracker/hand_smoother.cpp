@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "telemime/tracker/hand_smoother.h"
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/tracker/joint_rotations.h"
 
 namespace telemime {
@@ -40,9 +41,8 @@ void HandSmoother::follow(const HandMotion& measured, const Eigen::Quaterniond& 
 
 HandMotions HandSmoother::operator()(const HandMotions& measured, const Kinematics& body, double step) {
   for (std::size_t side = 0; side < 2; ++side) {
-    const Segment segment = side == 0 ? Segment::l_hand : Segment::r_hand;
     const Eigen::Quaterniond target =
-        measured[side].seen.value_or(Eigen::Quaterniond(body[segment].linear()));
+        measured[side].seen.value_or(Eigen::Quaterniond(body[kArmParts[side].hand].linear()));
     if (started_) {
       follow(measured[side], target, step, state_[side], smooth_[side]);
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/hand_fit.h"
 #include "telemime/body/rotations.h"
 #include "telemime/core/time_base.h"
@@ -11,7 +12,6 @@
 namespace telemime {
 namespace {
 
-constexpr std::array<Joint, 2> kWrists = {Joint::l_wrist, Joint::r_wrist};
 constexpr double kFarthest = 0.2;  // m, of a hand's wrist from that of its arm
 constexpr double kNearest = 0.05;  // m, of a wrist from the camera
 constexpr double kHeld = 0.1;      // s, that a hand keeps its form when it is not seen
@@ -21,7 +21,7 @@ constexpr double kWorst = 0.03;    // m, of the points from the model: what fits
 // m between a finding and an arm's wrist, across the line of sight; more if it looks like the other hand.
 double distance_to_arm(const HandLandmarks& hand, Side side, const HandScene& scene) {
   constexpr double kOtherHand = 0.05;
-  Eigen::Vector3d wrist = scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]];
+  Eigen::Vector3d wrist = scene.kinematics.joints[arm_parts(side).wrist];
   wrist.z() = std::max(wrist.z(), kNearest);
   const double pixels = (scene.camera.project(wrist) - hand.points[0].pixel).norm();
   return pixels * wrist.z() / scene.camera.fx +
@@ -105,8 +105,7 @@ std::optional<HandMotion> fitted(const HandLandmarks& hand, Side side, const Han
                                  HandState& state) {
   constexpr double kGood = 0.8;     // presence from which on the palm is learned
   constexpr double kNoise = 0.008;  // m
-  const double depth =
-      std::max(kNearest, scene.kinematics.joints[kWrists[static_cast<std::size_t>(side)]].z());
+  const double depth = std::max(kNearest, scene.kinematics.joints[arm_parts(side).wrist].z());
   const auto likely = likelier_hand(hand, side, depth, scene, state);
   const double error = likely ? likely->error : kWorst;
   if (!likely || !(error < kWorst)) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 #include "telemime/core/random.h"
 #include "telemime/tracker/hand_smoother.h"
@@ -37,7 +38,7 @@ class Hands : public ::testing::Test {
   // At its arm, or `offset` away from it.
   SeenHand seen(Side side, const HandAngles& angles,
                 const Eigen::Vector3d& offset = Eigen::Vector3d::Zero()) const {
-    Eigen::Isometry3d place = kinematics_[side == Side::left ? Segment::l_hand : Segment::r_hand];
+    Eigen::Isometry3d place = kinematics_[arm_parts(side).hand];
     place.pretranslate(offset);
     const HandPoints points = hand_points(average_hand(body_.shape.stature), angles, side, place);
     HandLandmarks hand;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/core/visible_line.h"
 
 namespace telemime {
@@ -22,21 +23,19 @@ bool is_in_image(const Eigen::Vector2d& pixel, const Camera& camera) {
 }  // namespace
 
 NoiseRatios noise_of(const MotionFrame& frame, const Camera& camera) {
-  constexpr std::array<std::array<Joint, 3>, 2> kArms = {
-      {{Joint::l_elbow, Joint::l_wrist, Joint::l_hand}, {Joint::r_elbow, Joint::r_wrist, Joint::r_hand}}};
   NoiseRatios noise;
-  for (std::size_t side = 0; side < kArms.size(); ++side) {
-    const bool visible = std::any_of(kArms[side].begin(), kArms[side].end(), [&](Joint joint) {
-      return is_in_image(frame.pixels[static_cast<std::size_t>(joint)], camera);
-    });
+  for (std::size_t side = 0; side < kArmParts.size(); ++side) {
+    const ArmParts& arm = kArmParts[side];
+    const std::array<Joint, 3> joints = {arm.elbow, arm.wrist, arm.knuckle};
+    const auto pixel = [&](Joint joint) { return frame.pixels[static_cast<std::size_t>(joint)]; };
+    const bool visible = std::any_of(joints.begin(), joints.end(),
+                                     [&](Joint joint) { return is_in_image(pixel(joint), camera); });
     if (!frame.spread || visible) {
       continue;
     }
-    const auto pixel = [&](Joint joint) { return frame.pixels[static_cast<std::size_t>(joint)]; };
-    const double seen = share_in_image(camera, pixel(side == 0 ? Joint::l_shoulder : Joint::r_shoulder),
-                                       pixel(kArms[side][0]));
+    const double seen = share_in_image(camera, pixel(arm.shoulder), pixel(arm.elbow));
     const auto ratio = [&](std::size_t i) {
-      const double variance = frame.spread->covariance[static_cast<std::size_t>(kArms[side][i])].trace();
+      const double variance = frame.spread->covariance[static_cast<std::size_t>(joints[i])].trace();
       return std::max(1.0, variance / (kVisible[i] * kVisible[i]));
     };
     noise.rotation[2 + side] = seen < kEnough ? ratio(0) : 1.0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/core/visible_line.h"
 
 namespace telemime {
@@ -137,12 +138,10 @@ std::array<Eigen::Matrix3d, kJointCount> model_covariance(const SpreadContext& c
   }
   // Wrists whose hand is outside the image.
   for (const Side side : {Side::left, Side::right}) {
-    const bool left = side == Side::left;
-    const Joint wrist = left ? Joint::l_wrist : Joint::r_wrist;
-    if (is_in_image(context.camera, joints[wrist]) &&
-        !is_in_image(context.camera, joints[left ? Joint::l_hand : Joint::r_hand])) {
-      at(wrist) += Eigen::Matrix3d::Identity() *
-                   square(kCut * context.body.forearm_length[static_cast<std::size_t>(side)]);
+    const ArmParts& arm = arm_parts(side);
+    if (is_in_image(context.camera, joints[arm.wrist]) && !is_in_image(context.camera, joints[arm.knuckle])) {
+      at(arm.wrist) += Eigen::Matrix3d::Identity() *
+                       square(kCut * context.body.forearm_length[static_cast<std::size_t>(side)]);
     }
   }
   // Larger for a pose that fits badly, and along the line from the shoulders for an unknown size.

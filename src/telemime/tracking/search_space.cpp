@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 
 namespace telemime {
@@ -66,9 +67,9 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
     const double z = arm.start[2];
     space.steps.segment<4>(at) << context.numbers.wrist_across / z, context.numbers.wrist_across / z,
         context.numbers.wrist_along, context.numbers.swivel;
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const auto hand = static_cast<std::size_t>(hand_angles(layout.arms[a])[static_cast<std::size_t>(i)]);
-      space.steps[at + 4 + i] = context.numbers.change[static_cast<Eigen::Index>(3 + hand)];
+    Eigen::Index hand = at + 4;
+    for (const Angle angle : arm_parts(layout.arms[a]).wrist_angles()) {
+      space.steps[hand++] = context.numbers.change[3 + static_cast<Eigen::Index>(angle)];
     }
   }
   space.steps *= context.config.diffusion;
@@ -102,7 +103,7 @@ SearchSpace search_space(const FilterContext& context, const Pose& pose, const P
         return std::nullopt;
       }
       set_arm_angles(to, layout.arms[a], *angles);
-      const auto hand = hand_angles(layout.arms[a]);
+      const auto hand = arm_parts(layout.arms[a]).wrist_angles();
       for (std::size_t i = 0; i < hand.size(); ++i) {
         to[hand[i]] = arm[static_cast<Eigen::Index>(4 + i)];
       }

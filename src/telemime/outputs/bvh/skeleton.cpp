@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "telemime/body/arm_parts.h"
 #include "telemime/body/rotations.h"
 #include "telemime/outputs/humanoid.h"
 #include "telemime/outputs/t_pose.h"
@@ -161,9 +162,10 @@ BvhMotion bvh_motion(const Body& body, const Pose& pose) {
 
   for (const Side side : {Side::left, Side::right}) {
     const bool left = side == Side::left;
-    const Eigen::Isometry3d& upper = k[left ? Segment::l_upper_arm : Segment::r_upper_arm];
-    const Eigen::Isometry3d& fore = k[left ? Segment::l_forearm : Segment::r_forearm];
-    const Eigen::Isometry3d& hand = k[left ? Segment::l_hand : Segment::r_hand];
+    const ArmParts& arm = arm_parts(side);
+    const Eigen::Isometry3d& upper = k[arm.upper_arm];
+    const Eigen::Isometry3d& fore = k[arm.forearm];
+    const Eigen::Isometry3d& hand = k[arm.hand];
     const Eigen::Isometry3d arm_in_chest = k[Segment::chest].inverse() * upper;
     const Girdle rest = girdle_in_t_pose(body, side);
     const Girdle girdle = girdle_reaching(rest, arm_in_chest.translation());
