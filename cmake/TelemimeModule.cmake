@@ -81,11 +81,11 @@ function(telemime_pch target kind)
   endif()
 endfunction()
 
-# The tests that read files of the project know where it is. The others are compiled alike wherever it is.
+# Test programs that read files of the project know where it is. The others are compiled alike wherever it is.
 function(telemime_source_dir target)
   foreach(source IN LISTS ARGN)
     get_filename_component(path "${source}" ABSOLUTE)
-    file(STRINGS "${path}" uses REGEX "TELEMIME_SOURCE_DIR" LIMIT_COUNT 1)
+    file(STRINGS "${path}" uses REGEX "TELEMIME_SOURCE_DIR|\"support/needs\\.h\"" LIMIT_COUNT 1)
     if(uses)
       target_compile_definitions(${target} PRIVATE TELEMIME_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
       return()

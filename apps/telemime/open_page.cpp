@@ -31,24 +31,28 @@ bool has_display() {
 // Returns 0 or the error number. The new process keeps nothing of this program: neither the terminal's Ctrl-C
 // nor the camera nor the server's port.
 int start_opener(std::string url) {
+  int failure = 0;
+  const auto check = [&failure](int error_number) { failure = failure != 0 ? failure : error_number; };
   posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF);
+  check(::posix_spawnattr_init(&attributes));
+  check(::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGDEF));
   sigset_t ignored_here;
   ::sigemptyset(&ignored_here);
   ::sigaddset(&ignored_here, SIGPIPE);
-  ::posix_spawnattr_setsigdefault(&attributes, &ignored_here);
+  check(::posix_spawnattr_setsigdefault(&attributes, &ignored_here));
   posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
+  check(::posix_spawn_file_actions_init(&actions));
   for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    ::posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0);
+    check(::posix_spawn_file_actions_addopen(&actions, standard, "/dev/null", O_RDWR, 0));
   }
-  ::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  check(::posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1));
   // No shell parses the address: it is one argument, whatever it contains.
   std::string name = kOpener;
   const std::array<char*, 3> arguments = {name.data(), url.data(), nullptr};
   pid_t opener = 0;
-  const int failure = ::posix_spawnp(&opener, kOpener, &actions, &attributes, arguments.data(), environ);
+  if (failure == 0) {
+    failure = ::posix_spawnp(&opener, kOpener, &actions, &attributes, arguments.data(), environ);
+  }
   ::posix_spawn_file_actions_destroy(&actions);
   ::posix_spawnattr_destroy(&attributes);
   if (failure != 0) {

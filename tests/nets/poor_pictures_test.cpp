@@ -115,7 +115,7 @@ TEST_F(PoorPictures, ARefusedFrameLeavesTheHead) {
   EXPECT_LT((radii(true) - usual).norm(), 0.1);
 }
 
-TEST_F(PoorPictures, OverexposureIsNamed) {
+TEST(Overexposure, IsNamed) {
   const auto warns = [](double gain) {
     ImageConfig config;
     config.landmarks = false;

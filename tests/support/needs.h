@@ -41,8 +41,10 @@ class WithClips : public WithNetworks {
  protected:
   void SetUp() override {
     WithNetworks::SetUp();
-    if (!IsSkipped() && !std::filesystem::exists(test_data() / "real")) {
-      GTEST_SKIP() << kNoClips;
+    for (const char* const folder : {"real", "dev", "dev_practical"}) {
+      if (!IsSkipped() && !std::filesystem::exists(test_data() / folder)) {
+        GTEST_SKIP() << kNoClips;
+      }
     }
   }
 };

@@ -216,6 +216,14 @@ TEST(Tracker, LosesAndFindsThePerson) {
   }
 }
 
+TEST(Tracker, EmptySceneIsNotTracked) {
+  const std::vector<Frame> empty(clip().background.begin(), clip().background.begin() + 4);
+  for (const MotionFrame& m : track(quick_config(), empty)) {
+    EXPECT_EQ(m.state, TrackState::lost);
+    EXPECT_TRUE(m.pose.vector().allFinite());
+  }
+}
+
 TEST(Tracker, BlackFramesAreNotTracked) {
   TrackingRun run = quick_run(quick_config());  // also without a background
   for (int i = 0; i < 4; ++i) {

@@ -54,10 +54,6 @@ double bone_error(const BoneObservation& observed, const Eigen::Vector3d& ray, c
 double bone_error_rate(const BoneObservation& observed, const Eigen::Vector3d& ray,
                        const Eigen::Vector3d& bone, const Eigen::Vector3d& change);
 
-inline double square(double x) {
-  return x * x;
-}
-
 /// Saturating square of an error in standard deviations (Geman & McClure): an outlier costs `most` at most.
 inline double robust_square(double squared, double most) {
   return squared / (1.0 + squared / most);

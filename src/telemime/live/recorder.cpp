@@ -13,6 +13,7 @@
 
 #include "telemime/core/errors.h"
 #include "telemime/core/heap.h"
+#include "telemime/offline/motion_files.h"
 #include "telemime/offline/resampler.h"
 
 namespace telemime {

@@ -34,7 +34,7 @@ NetworkTensor read_tensor(const FlatTable& from, const std::vector<FlatTable>& b
 /// inputs.
 void check_shapes(const NetworkGraph& graph, const NetworkNode& node);
 
-/// Throws Error(config) with what is wrong with the file unless it fits.
-void require(bool fits, const char* what);
+/// Throws Error(config) with `what` is wrong with the file unless it fits.
+void require_intact(bool fits, const char* what);
 
 }  // namespace telemime

@@ -44,19 +44,19 @@ class GraphBuilder {
       same_as_[i] = static_cast<int>(i);
     }
     for (const int input : graph.inputs) {
-      require(!known_[input], "an input is a constant");
+      require_intact(!known_[input], "an input is a constant");
       known_[input] = true;
     }
   }
 
   void add(const FlatTable& from) {
     FileOperator op = resolve(from);
-    require(!known_[op.output], "an array is computed twice");
+    require_intact(!known_[op.output], "an array is computed twice");
     known_[op.output] = true;
     if (copies_constant(op)) {
-      require(op.inputs.size() == 1 && graph_.tensors[op.inputs[0]].is_constant() &&
-                  graph_.tensors[op.inputs[0]].shape == graph_.tensors[op.output].shape,
-              "a constant is converted to another shape");
+      require_intact(op.inputs.size() == 1 && graph_.tensors[op.inputs[0]].is_constant() &&
+                         graph_.tensors[op.inputs[0]].shape == graph_.tensors[op.output].shape,
+                     "a constant is converted to another shape");
       same_as_[op.output] = op.inputs[0];
       return;
     }
@@ -69,8 +69,9 @@ class GraphBuilder {
 
   void check_outputs() const {
     for (const int output : graph_.outputs) {
-      require(known_[output] && !graph_.tensors[same_as_[output]].is_constant() && !is_input(graph_, output),
-              "an output is not computed");
+      require_intact(
+          known_[output] && !graph_.tensors[same_as_[output]].is_constant() && !is_input(graph_, output),
+          "an output is not computed");
     }
   }
 
@@ -78,9 +79,9 @@ class GraphBuilder {
   FileOperator resolve(const FlatTable& from) const {
     const auto code = from.number<std::uint32_t>(0);
     const std::vector<std::int32_t> outputs = from.numbers<std::int32_t>(2);
-    require(code < codes_.size() && outputs.size() == 1 && outputs[0] >= 0 &&
-                static_cast<std::size_t>(outputs[0]) < known_.size(),
-            "an operator has no code or output");
+    require_intact(code < codes_.size() && outputs.size() == 1 && outputs[0] >= 0 &&
+                       static_cast<std::size_t>(outputs[0]) < known_.size(),
+                   "an operator has no code or output");
     FileOperator op{.code = codes_[code].code,
                     .custom = codes_[code].custom,
                     .inputs = {},
@@ -90,12 +91,12 @@ class GraphBuilder {
       if (input == -1) {
         break;  // an operator's optional inputs are its last ones
       }
-      require(input >= 0 && static_cast<std::size_t>(input) < known_.size() && known_[input] &&
-                  !graph_.tensors[same_as_[input]].shape.empty(),
-              "an operator reads an array before it is computed");
+      require_intact(input >= 0 && static_cast<std::size_t>(input) < known_.size() && known_[input] &&
+                         !graph_.tensors[same_as_[input]].shape.empty(),
+                     "an operator reads an array before it is computed");
       op.inputs.push_back(same_as_[input]);
     }
-    require(!op.inputs.empty(), "an operator has no input");
+    require_intact(!op.inputs.empty(), "an operator has no input");
     return op;
   }
 
@@ -108,7 +109,7 @@ class GraphBuilder {
 std::vector<int> tensor_list(const FlatTable& from, int field, std::size_t count) {
   std::vector<int> list = from.numbers<std::int32_t>(field);
   for (const int index : list) {
-    require(index >= 0 && static_cast<std::size_t>(index) < count, "an array does not exist");
+    require_intact(index >= 0 && static_cast<std::size_t>(index) < count, "an array does not exist");
   }
   return list;
 }
@@ -211,7 +212,7 @@ void remove_unused(NetworkGraph& graph) {
 NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPart& part) {
   const FlatTable model = FlatTable::root(file, "TFL3");
   const std::vector<FlatTable> subgraphs = model.tables(2);
-  require(subgraphs.size() == 1, "it has not exactly one graph");
+  require_intact(subgraphs.size() == 1, "it has not exactly one graph");
   const std::vector<FlatTable> buffers = model.tables(4);
 
   NetworkGraph graph;
@@ -219,10 +220,11 @@ NetworkGraph read_network_graph(std::span<const std::byte> file, const NetworkPa
   for (const FlatTable& tensor : subgraphs[0].tables(0)) {
     graph.tensors.push_back(read_tensor(tensor, buffers));
     total += element_count(graph.tensors.back().shape);
-    require(total <= kMostElements, "its arrays are too large");
+    require_intact(total <= kMostElements, "its arrays are too large");
   }
   const std::vector<int> inputs = tensor_list(subgraphs[0], 1, graph.tensors.size());
-  require(inputs.size() == 1 && !graph.tensors[inputs[0]].shape.empty(), "it has not exactly one input");
+  require_intact(inputs.size() == 1 && !graph.tensors[inputs[0]].shape.empty(),
+                 "it has not exactly one input");
   const auto named = [&graph](const std::vector<std::string>& names, const char* role) {
     std::vector<int> tensors;
     std::transform(names.begin(), names.end(), std::back_inserter(tensors),

@@ -2,17 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
-#include <vector>
 
 #include "telemime/body/body.h"
 #include "telemime/body/motion_frame.h"
 #include "telemime/core/camera.h"
-#include "telemime/outputs/all.h"
-#include "telemime/outputs/file_output.h"
 
 namespace telemime {
 
@@ -50,31 +45,6 @@ class Resampler {
   std::optional<MotionFrame> last_;
   double start_ = 0.0;
   std::int64_t count_ = 0;  ///< number of frames returned
-};
-
-/// Files of several formats that get the same motion.
-struct MotionFiles {
-  struct File {
-    std::unique_ptr<FileOutput> output;
-    bool own_times = false;  ///< as in OutputFormat
-  };
-  std::vector<File> all;
-
-  /// Throws Error(output).
-  void open(const std::filesystem::path& folder, const OutputFormat& format, const OutputOptions& options,
-            const StreamHeader& header) {
-    all.push_back({std::make_unique<FileOutput>(folder / format.file_name, format.make(options), header),
-                   format.own_times});
-  }
-  /// Frames with their own times go to the formats that have them, resampled ones to the others. Throws
-  /// Error(output).
-  void write(const MotionFrame& frame, bool own_times) const {
-    for (const File& file : all) {
-      if (file.own_times == own_times) {
-        file.output->write(frame);
-      }
-    }
-  }
 };
 
 }  // namespace telemime

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "telemime/offline/motion_files.h"
 #include "telemime/offline/overlay_video.h"
 #include "telemime/offline/resampler.h"
 #include "telemime/tracker/track_request.h"

@@ -78,8 +78,8 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
   return fan;
 }
 
-ScoredPose searched(Objective& objective, const ScoredPose& from, const SearchBlock& block,
-                    const ObjectiveWeights& weights, int evaluations) {
+ScoredPose search_block(Objective& objective, const ScoredPose& from, const SearchBlock& block,
+                        const ObjectiveWeights& weights, int evaluations) {
   SimplexOptions options;
   options.max_evaluations = evaluations;
   const SimplexResult found =
@@ -103,7 +103,7 @@ Pose search_arm(Objective& objective, const Pose& pose, Side side, const Objecti
   ScoredPose best = candidates.front();
   for (std::size_t i = 0; i < kept; ++i) {
     const SearchBlock block = arm_block(body, candidates[i].pose, side, objective.limits(), 3.0);
-    best = searched(objective, best, block, weights, config.refine);
+    best = search_block(objective, best, block, weights, config.refine);
   }
   return best.pose;
 }

@@ -29,8 +29,8 @@ std::vector<Pose> forearm_fan(const Body& body, const Pose& pose, Side side, con
 
 /// The best pose that a simplex finds in a block if it costs less than `from`, otherwise `from`. Spends at
 /// most `evaluations`, but at least one.
-ScoredPose searched(Objective& objective, const ScoredPose& from, const SearchBlock& block,
-                    const ObjectiveWeights& weights, int evaluations);
+ScoredPose search_block(Objective& objective, const ScoredPose& from, const SearchBlock& block,
+                        const ObjectiveWeights& weights, int evaluations);
 
 /// Searches one arm globally, for the first frame and for recovery: random arms, of which the best are
 /// refined by a simplex. Never costs more than the arm of `pose`.

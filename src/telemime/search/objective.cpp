@@ -9,6 +9,7 @@
 #include "telemime/body/arm_prior.h"
 #include "telemime/body/interpenetration.h"
 #include "telemime/body/rotations.h"
+#include "telemime/core/square.h"
 
 namespace telemime {
 namespace {

@@ -21,10 +21,10 @@ constexpr int kFlips = 3;
 constexpr double kAway = 0.15;
 constexpr double kApart = 0.10;
 
-// The same as searched(); one evaluation would only repeat the start.
+// The same as search_block(); one evaluation would only repeat the start.
 ScoredPose improved(Objective& objective, const ScoredPose& from, const SearchBlock& block,
                     const ObjectiveWeights& weights, int evaluations) {
-  return evaluations < 2 ? from : searched(objective, from, block, weights, evaluations);
+  return evaluations < 2 ? from : search_block(objective, from, block, weights, evaluations);
 }
 
 Eigen::Vector3d wrist_of(const Body& body, const Pose& pose, Side side) {

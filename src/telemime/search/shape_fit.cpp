@@ -10,6 +10,7 @@
 
 #include "telemime/body/arm_ik.h"
 #include "telemime/body/arm_parts.h"
+#include "telemime/core/square.h"
 #include "telemime/search/simplex.h"
 
 namespace telemime {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "telemime/body/arm_parts.h"
+#include "telemime/core/square.h"
 #include "telemime/search/arm_search.h"
 
 namespace telemime {
@@ -159,7 +160,7 @@ class Refiner {
     }
     for (const Side side : {Side::left, Side::right}) {
       const SearchBlock block = bones_block(objective.model().body, best.pose, side, limits_, 1.0);
-      best = searched(objective, best, block, weights, iterations);
+      best = search_block(objective, best, block, weights, iterations);
     }
     return best;
   }

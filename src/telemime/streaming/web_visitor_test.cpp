@@ -84,8 +84,8 @@ TEST(WebVisitor, HandlersMayUseTheServerUntilItHasStopped) {
   const SocketClient two(server->port());
   ASSERT_TRUE(comes_true([&] { return server->clients() == 2; }));
   one.say("1");
-  two.say("2");
-  ASSERT_TRUE(comes_true([&] { return told == 2; }));
+  ASSERT_TRUE(comes_true([&] { return told == 1; }));
+  two.say("2");  // perhaps heard while the server ends
   server->stop();
   EXPECT_EQ(server->clients(), 0U);
   server->send_text(0, shared("to nobody"));

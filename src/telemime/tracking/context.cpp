@@ -12,6 +12,7 @@
 #include "telemime/body/interpenetration.h"
 #include "telemime/core/in_parallel.h"
 #include "telemime/core/loop_order.h"
+#include "telemime/core/square.h"
 #include "telemime/likelihood/all.h"
 
 namespace telemime {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "telemime/body/arm_parts.h"
+#include "telemime/core/square.h"
 #include "telemime/core/visible_line.h"
 
 namespace telemime {
