@@ -68,6 +68,21 @@ TEST(MeetingFaults, DeadBrokerIsRestartedWithItsAccounts) {
   EXPECT_FALSE(contains(meeting.reports(), ana.at("password")));
 }
 
+// Another program may take a port between the choice and the broker's start.
+TEST(MeetingFaults, PortTakenMeanwhileIsChosenAgain) {
+  for (const std::string words :
+       {"Address already in use", "Unable to create websockets listener on port 1."}) {
+    const ScratchFolder folder;
+    const std::filesystem::path program = folder.path() / "mosquitto";
+    std::ofstream(program) << "#!/bin/sh\nif mkdir '" << folder.file("tried")
+                           << "' 2> /dev/null; then echo 'Error: " << words
+                           << "' >&2; exit 1; fi\nexec " TELEMIME_MOSQUITTO " \"$@\"\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    OpenMeeting meeting([&](HostOptions& options) { options.broker.program = program.string(); });
+    EXPECT_TRUE(publish(meeting.host().mqtt_port(), meeting.join(), kChat, "here")) << words;
+  }
+}
+
 TEST(MeetingFaults, ListensAtTheRequestedAddressOnly) {
   OpenMeeting meeting;
   EXPECT_EQ(listeners(meeting.host().mqtt_port()), std::vector<std::string>{"0100007F"});

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -70,6 +71,12 @@ std::uint16_t choose_port(const std::string& address, std::optional<std::uint16_
          (is_own ? " is in use by this meeting: " : " is taken by another program: ") + what + " uses " +
          std::to_string(*other));
   return *other;
+}
+
+/// Mosquitto's words; those of libwebsockets for its port name no reason.
+bool says_that_a_port_is_taken(std::string_view words) {
+  return words.find("in use") != std::string_view::npos ||
+         words.find("Unable to create websockets listener") != std::string_view::npos;
 }
 
 /// A copy that only its user can read. Mosquitto reads these files again with each set of accounts, but must
@@ -142,8 +149,7 @@ HostedBroker::HostedBroker(BrokerOptions options, const MeetingAddress& meeting,
       process_->keep_running();
       return;
     }
-    const bool taken = process_->last_output().find("in use") != std::string::npos;
-    if (!taken || left == 1) {
+    if (left == 1 || !says_that_a_port_is_taken(process_->last_output())) {
       throw Error(ErrorKind::output, "the broker does not start: " + failure());
     }
   }
