@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 
@@ -134,6 +135,19 @@ TEST(ManyFiles, CannotBeShown) {
   const Ended ended = run(command({person_clip(), wall_clip()}, folder / "out", {"--show"}));
   EXPECT_EQ(ended.code, kExitUsage);
   EXPECT_TRUE(says(ended, "--show is for one file"));
+}
+
+// A shell starts a process and then becomes the program, whose child that is from then on.
+TEST(ManyFiles, InheritedProcessThatEndsIsNoneOfThem) {
+  const Folder folder;
+  fs::create_directory_symlink(person_clip(), folder / "one");
+  fs::create_directory_symlink(person_clip(), folder / "two");
+  const std::vector<std::string> inputs = {folder / "one", folder / "two"};
+  const std::string track = shell_command(command(inputs, folder / "out", {"--quiet"}));
+  EXPECT_EQ(std::system(("sleep 0.1 & exec " + track).c_str()), 0);
+  for (const std::string& input : inputs) {
+    EXPECT_EQ(frames_in(folder / "out/" + fs::path(input).filename().string()), std::size_t{kPersonFrames});
+  }
 }
 
 }  // namespace

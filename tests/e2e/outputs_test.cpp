@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -163,6 +164,15 @@ TEST(Results, CalibrationThatCouldNotBeWrittenIsRefusedBeforeTheInputIsRead) {
     EXPECT_EQ(refused.code, kExitOutput) << refused.words;
     EXPECT_NE(refused.words.find(file), std::string::npos) << refused.words;
   }
+}
+
+// Ctrl-C in a terminal also ends what reads the output. `env` undoes what the runner of the tests may ignore.
+TEST(Results, AreWholeWhenNobodyReadsTheOutput) {
+  const Folder folder;
+  const std::string track = shell_command(command(person_clip(), folder / "out"));
+  write_bytes(folder / "script", "env --default-signal=PIPE " + track + " | true\nexit ${PIPESTATUS[0]}\n");
+  EXPECT_EQ(std::system(("bash '" + folder / "script" + "'").c_str()), 0);
+  EXPECT_EQ(read_pose_jsonl(folder / "out/pose.jsonl").frames.size(), std::size_t{kPersonFrames});
 }
 
 TEST(Results, FullDiskIsNamedAndWhatWasWrittenIsWhole) {

@@ -102,6 +102,14 @@ Ended run(const std::vector<std::string>& arguments) {
   return Program(arguments).wait();
 }
 
+std::string shell_command(const std::vector<std::string>& arguments) {
+  std::string command = "'" TELEMIME_PROGRAM "'";
+  for (const std::string& argument : arguments) {
+    command += " '" + argument + "'";
+  }
+  return command;
+}
+
 std::vector<std::string> quickly() {
   std::vector<std::string> options;
   for (const char* setting :

@@ -43,6 +43,9 @@ class Program {
 
 Ended run(const std::vector<std::string>& arguments);
 
+/// The same as a command for a shell, which may do something before or after it.
+std::string shell_command(const std::vector<std::string>& arguments);
+
 /// Options for small images and few evaluations, for what does not depend on how exact the poses are.
 std::vector<std::string> quickly();
 

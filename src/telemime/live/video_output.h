@@ -36,7 +36,7 @@ class VideoOutput {
   ~VideoOutput();  ///< close()
 
   /// Throws Error(output), with the reason and a remedy, unless the path is a device that takes pictures, a
-  /// FIFO or a file that this user may write.
+  /// FIFO or a file that this user may write. Empties a file.
   void check();
   /// Opens it on the first call and writes the picture (CV_8UC3, BGR), with black bars if the device has
   /// another size, and without a last odd row or column. Throws Error(output) if it fails; the next call

@@ -141,6 +141,17 @@ TEST(VideoOutput, CheckLeavesTheReaderOfAFifoAlone) {
   ::close(reader.fd);
 }
 
+TEST(VideoOutput, CheckLeavesNothingOfAnEarlierRun) {
+  const ScratchFolder folder;
+  const std::string file = folder.file("pictures");
+  std::ofstream(file) << "longer than one small picture";
+  VideoOutput output(file);
+  output.check();
+  output.write(cv::Mat(2, 2, CV_8UC3, kGrey), kGoOn);
+  output.close();
+  EXPECT_EQ(std::filesystem::file_size(file), 8U);
+}
+
 TEST(VideoOutput, DeviceGetsItsFormatOnceForEachSize) {
   FakeDevice device;
   VideoOutput output("/dev/video9", device.calls());
