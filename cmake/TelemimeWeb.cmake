@@ -132,6 +132,6 @@ function(telemime_page_test name file)
                   "TELEMIME_CLIPS=${CMAKE_SOURCE_DIR}/../shared/data/dev")
   # Two processors: one for the program, one for a browser without a graphics card. They begin first, while there are
   # other tests to run beside each of them.
-  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77 PROCESSORS 2 COST 100
+  set_tests_properties(${name} PROPERTIES LABELS "${TEST_LABELS}" TIMEOUT 900 SKIP_RETURN_CODE 77 PROCESSORS 2 COST 1000
                                           ENVIRONMENT "${environment}")
 endfunction()
