@@ -3,7 +3,7 @@
 
 namespace telemime {
 
-/// The number times itself, for numbers that are long to write.
+/// x squared, for expressions that would have to be written twice.
 constexpr double square(double x) {
   return x * x;
 }
