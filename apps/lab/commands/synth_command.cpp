@@ -89,6 +89,13 @@ void add_synth_command(CLI::App& app) {
   command
       ->add_option("--distance", scene.distance, "of the person, m; 0: as the gesture is staged, about 1.4")
       ->capture_default_str();
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  command->add_option_function<double>(
+      "--camera-pitch", [&scene](double degrees) { scene.camera_pitch = degrees * kDegree; },
+      "degrees by which the camera looks up, as that of a laptop does; negative: down");
+  command->add_option_function<double>(
+      "--turn", [&scene](double degrees) { scene.turn = degrees * kDegree; },
+      "degrees by which the person sits turned to the own left, the face to the camera; negative: right");
   command->add_flag_callback(
       "--look-around", [&scene] { scene.look_around = std::numbers::pi / 3.0; },
       "the head turns by 60 degrees to either side and nods; truth.json has its rotation, as that of every "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "lab/synth/sequence.h"
 #include "telemime/body/arm_parts.h"
@@ -133,6 +134,13 @@ Scene make_scene(const SceneOptions& options) {
     throw Error(ErrorKind::usage, "the person cannot be that near or far",
                 "choose a distance of 0.6 to 1.8 m");
   }
+  constexpr double kMostPitch = std::numbers::pi / 6.0;
+  constexpr double kMostTurn = std::numbers::pi / 2.0;
+  // With an allowance for rounding, since degrees are usual.
+  if (!(std::abs(options.camera_pitch) < kMostPitch + 1e-6) || !(std::abs(options.turn) < kMostTurn + 1e-6)) {
+    throw Error(ErrorKind::usage, "the camera cannot be pitched, or the person turned, that far",
+                "choose a pitch of at most 30 and a turn of at most 90 degrees, either way");
+  }
   if (options.striped_shirt && !options.people.empty()) {
     throw Error(ErrorKind::usage, "people of meshes wear their own clothes", "leave --striped out");
   }
@@ -218,6 +226,10 @@ ActorKinematics scene_kinematics(const Scene& scene, int frame) {
     pose.root.y() += 0.16 * (kStaged - options.distance);
     pose.root.z() += options.distance - kStaged;
   }
+  // The person leans back in the frame of the camera; as in any lean, the neck takes most of it back.
+  pose.lean -= options.camera_pitch;
+  pose.turn += options.turn;
+  pose.look -= options.turn;
   if (options.look_around > 0.0) {
     const double t = moment / kGestureFps;
     // At most 84 degrees per second.

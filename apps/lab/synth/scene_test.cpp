@@ -219,6 +219,39 @@ TEST(Scene, DistanceMovesThePersonAndKeepsTheHead) {
   }
 }
 
+// Signed angle (rad) about the y axis of the camera from the axis of the camera to the shoulders.
+double turn_of_shoulders(const Scene& scene, int frame) {
+  const JointPositions joints = scene_truth(scene, frame).bones.joints;
+  const Eigen::Vector3d line = joints[Joint::l_shoulder] - joints[Joint::r_shoulder];
+  return std::atan2(line.z(), line.x());
+}
+
+TEST(Scene, PersonSitsTurnedAndFacesTheCamera) {
+  const Scene straight = make_scene(small_scene(Gesture::talking));
+  for (const double turn : {-0.9, 0.6}) {
+    SceneOptions options = small_scene(Gesture::talking);
+    options.turn = turn;
+    const Scene scene = make_scene(options);
+    EXPECT_NEAR(turn_of_shoulders(scene, 0) - turn_of_shoulders(straight, 0), turn, 0.02);
+    const Eigen::Quaterniond face(scene_kinematics(scene, 0).camera_from_head.linear());
+    EXPECT_LT(
+        face.angularDistance(Eigen::Quaterniond(scene_kinematics(straight, 0).camera_from_head.linear())),
+        0.03);
+  }
+}
+
+TEST(Scene, PersonLeansBackForACameraThatLooksUp) {
+  SceneOptions options = small_scene(Gesture::talking);
+  const auto lean = [](const Scene& scene) {
+    const JointPositions joints = scene_kinematics(scene, 0).joints;
+    const Eigen::Vector3d up = joints[Joint::neck] - joints[Joint::root];
+    return std::atan2(up.z(), -up.y());
+  };
+  const double upright = lean(make_scene(options));
+  options.camera_pitch = 0.35;
+  EXPECT_NEAR(lean(make_scene(options)) - upright, 0.35, 1e-4);
+}
+
 TEST(Scene, HeadTurnsToEitherSideAndTheTruthHasIt) {
   SceneOptions options = small_scene(Gesture::talking);
   options.look_around = std::numbers::pi / 3.0;
@@ -251,6 +284,8 @@ TEST(Scene, ImpossibleOptionsAreRefused) {
   refused([](auto& options) { options.frames = 0; });
   refused([](auto& options) { options.sensor.noise = -1.0; });
   refused([](auto& options) { options.distance = 0.3; });
+  refused([](auto& options) { options.camera_pitch = -0.6; });
+  refused([](auto& options) { options.turn = 1.7; });
   refused([](auto& options) {
     options.walk_in = true;
     options.frames = 100;

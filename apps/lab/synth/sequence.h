@@ -31,7 +31,9 @@ struct SceneOptions {
   bool light_change = false;  ///< a warm lamp comes on within three frames at the middle of the clip
   bool long_sleeves = false;
   bool striped_shirt = false;
-  double distance = 0.0;  ///< of the person from the camera, m; 0: as the gesture is staged, about 1.4
+  double distance = 0.0;      ///< of the person from the camera, m; 0: as the gesture is staged, about 1.4
+  double camera_pitch = 0.0;  ///< rad; + the camera looks up: in its frame, the person leans back
+  double turn = 0.0;          ///< rad; + the person sits turned to the own left, the face to the camera
   /// Folder of the meshes of people (read_mesh_person); empty: the person is drawn from smooth solids.
   std::filesystem::path people;
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
@@ -52,8 +54,8 @@ struct Scene {
 };
 
 /// Throws Error(usage) for an image under 16 x 12 or over 4096 x 4096 pixels, fewer than 1 frame (fewer than
-/// 120 with walk_in), negative noise, a distance outside 0.6 to 1.8 m, or stripes on people of meshes. Throws
-/// Error(input) for people that cannot be read.
+/// 120 with walk_in), negative noise, a distance outside 0.6 to 1.8 m, a pitch beyond 30 or a turn beyond 90
+/// degrees, or stripes on people of meshes. Throws Error(input) for people that cannot be read.
 Scene make_scene(const SceneOptions& options);
 
 /// Whether the neck of the person is inside the image at a frame (0-based).
