@@ -95,7 +95,8 @@ void add_synth_command(CLI::App& app) {
       "degrees by which the camera looks up, as that of a laptop does; negative: down");
   command->add_option_function<double>(
       "--turn", [&scene](double degrees) { scene.turn = degrees * kDegree; },
-      "degrees by which the person sits turned to the own left, the face to the camera; negative: right");
+      "degrees by which the person sits turned to their left, the face to the camera; negative: to their "
+      "right");
   command->add_flag_callback(
       "--look-around", [&scene] { scene.look_around = std::numbers::pi / 3.0; },
       "the head turns by 60 degrees to either side and nods; truth.json has its rotation, as that of every "

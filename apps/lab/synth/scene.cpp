@@ -134,10 +134,10 @@ Scene make_scene(const SceneOptions& options) {
     throw Error(ErrorKind::usage, "the person cannot be that near or far",
                 "choose a distance of 0.6 to 1.8 m");
   }
-  constexpr double kMostPitch = std::numbers::pi / 6.0;
-  constexpr double kMostTurn = std::numbers::pi / 2.0;
-  // With an allowance for rounding, since degrees are usual.
-  if (!(std::abs(options.camera_pitch) < kMostPitch + 1e-6) || !(std::abs(options.turn) < kMostTurn + 1e-6)) {
+  // A little more than 30 and 90 degrees: those are rounded on their way here.
+  constexpr double kMostPitch = std::numbers::pi / 6.0 + 1e-6;
+  constexpr double kMostTurn = std::numbers::pi / 2.0 + 1e-6;
+  if (!(std::abs(options.camera_pitch) <= kMostPitch) || !(std::abs(options.turn) <= kMostTurn)) {
     throw Error(ErrorKind::usage, "the camera cannot be pitched, or the person turned, that far",
                 "choose a pitch of at most 30 and a turn of at most 90 degrees, either way");
   }

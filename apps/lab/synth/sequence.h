@@ -33,7 +33,7 @@ struct SceneOptions {
   bool striped_shirt = false;
   double distance = 0.0;      ///< of the person from the camera, m; 0: as the gesture is staged, about 1.4
   double camera_pitch = 0.0;  ///< rad; + the camera looks up: in its frame, the person leans back
-  double turn = 0.0;          ///< rad; + the person sits turned to the own left, the face to the camera
+  double turn = 0.0;          ///< rad; + the person sits turned to their left, the face to the camera
   /// Folder of the meshes of people (read_mesh_person); empty: the person is drawn from smooth solids.
   std::filesystem::path people;
   /// The scene is empty at first; the person enters from the side, gestures, leaves, and the scene is empty
